@@ -1,0 +1,37 @@
+# Options that every target of ours is built with.
+add_library(merge2d_options INTERFACE)
+target_include_directories(merge2d_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_features(merge2d_options INTERFACE cxx_std_20)
+# The same input gives the same bytes: no contraction, no fast-math.
+target_compile_options(merge2d_options INTERFACE -ffp-contract=off)
+
+# Our own warnings; dependencies are included as system headers.
+add_library(merge2d_warnings INTERFACE)
+target_compile_options(merge2d_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+if(MERGE2D_WERROR)
+  target_compile_options(merge2d_warnings INTERFACE -Werror)
+endif()
+
+option(MERGE2D_SANITIZE "Build with the address and undefined behaviour sanitizers" OFF)
+if(MERGE2D_SANITIZE)
+  target_compile_options(merge2d_options INTERFACE -fsanitize=address,undefined
+                         -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(merge2d_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE AND PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+find_program(MOLD mold)
+if(MOLD AND PROJECT_IS_TOP_LEVEL)
+  add_link_options(-fuse-ld=mold)
+endif()
+
+# An object library from all sources of one folder.
+function(merge2d_objects name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  add_library(merge2d_${name} OBJECT ${sources})
+  target_link_libraries(merge2d_${name} PRIVATE merge2d_options merge2d_warnings ${ARGN})
+  set_target_properties(merge2d_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endfunction()

@@ -1,0 +1,37 @@
+#pragma once
+/// From names and files to scenes.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "src2d/scene/scene.h"
+
+namespace merge2d {
+
+/// `--set key=value`, in the order given; the value as TOML, or a bare word as a string.
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+/// A built-in name, a `.toml` scene or a drawn `.png` scene. Throws InputError with the place, what
+/// was expected and a suggestion; IoError when a file cannot be read.
+Scene loadScene(const std::string& name_or_path, const Overrides& overrides = {});
+
+/// A text scene; `source` stands for the file's name in messages.
+Scene parseScene(std::string_view toml, const std::string& source, const Overrides& overrides = {});
+
+/// A drawn scene (pixel art).
+Scene loadDrawing(const std::filesystem::path& png, const Overrides& overrides = {});
+
+/// The scene as a text scene that loads to the same scene again.
+std::string toToml(const Scene& scene);
+
+struct BuiltinScene {
+  std::string name;
+  std::string title;
+};
+/// The scenes of the folder `scenes/`, by name.
+std::vector<BuiltinScene> builtinScenes();
+
+}  // namespace merge2d
