@@ -10,27 +10,49 @@
 
 namespace merge2d {
 
-/// A shape prepared for collision: Box2D's float copy beside the exact vertices.
+/// A shape prepared for collision: Box2D's float copy, seen from the shape's own centre so that a
+/// shape far from its body's origin loses no precision, beside the exact vertices.
 class Collider {
  public:
   explicit Collider(const ConvexShape& shape);
 
   const ConvexShape& shape() const { return shape_; }
-  bool isCircle() const { return std::holds_alternative<Circle>(shape_); }
+  bool isCircle() const { return count_ == 0; }
+
+  /// Box2D's copies, relative to `origin()`. Polygons carry half of `kUsualMargin` as their radius.
   const b2CircleShape& circle() const { return circle_; }
   const b2PolygonShape& polygon() const { return polygon_; }
 
+  static constexpr float kUsualMargin = 0.005F;  ///< [m]; other margins cost a copy per collision
+
+  const Vec2& origin() const { return origin_; }  ///< centre of disc or vertices, body frame [m]
+  double radius() const { return radius_; }       ///< of a disc, 0 for polygons [m]
+  int count() const { return count_; }            ///< of vertices, 0 for discs
+
+  /// Vertex i in the body's frame [m], and the outward normal of the face from it to the next one.
+  const Vec2& vertex(int i) const { return vertices_[static_cast<std::size_t>(i)]; }
+  const Vec2& normal(int i) const { return normals_[static_cast<std::size_t>(i)]; }
+  int next(int i) const { return i + 1 < count_ ? i + 1 : 0; }
+
  private:
-  ConvexShape shape_;
+  void fill(const Circle& circle);
+  void fill(const Polygon& polygon);
+
+  int count_ = 0;
+  double radius_ = 0.0;
+  Vec2 origin_ = Vec2::Zero();
+  std::array<Vec2, Polygon::kMaxVertices> vertices_;
+  std::array<Vec2, Polygon::kMaxVertices> normals_;
   b2CircleShape circle_;
   b2PolygonShape polygon_;
+  ConvexShape shape_;
 };
 
 /// One contact point, seen from A's frame.
 struct ManifoldPoint {
   Vec2 position = Vec2::Zero();  ///< midway between the two surfaces [m]
-  double gap = 0.0;              ///< signed distance along the normal, negative when overlapping [m]
-  std::uint32_t feature = 0;     ///< Box2D's contact id: the same pair of features in every step
+  double gap = 0.0;           ///< signed distance along the normal, negative when overlapping [m]
+  std::uint32_t feature = 0;  ///< the pair of faces and the end of their overlap; 0 with a disc
 };
 
 /// At most two points that share a normal.
