@@ -1,8 +1,10 @@
 #pragma once
 /// A scene as plain data: what a file says, with `repeat` written out, angles in radians, and all
-/// defaults filled in. Loading makes one, `World` takes one; tests and benchmarks write them by hand.
+/// defaults filled in. Loading makes one, `World` takes one; tests and benchmarks write them by
+/// hand.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,6 +14,9 @@
 #include "src2d/scene/settings.h"
 
 namespace merge2d {
+
+/// The time of what never ends [s].
+inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
 enum class Motion { Dynamic, Pinned, Scripted };
 
@@ -50,8 +55,8 @@ struct BodyDesc {
   Vec2 velocity = Vec2::Zero();  ///< of the centre of mass [m/s]
   double spin = 0.0;             ///< [rad/s]
   std::vector<ConvexShape> shapes;
-  std::optional<double> mass;    ///< [kg]; overrides density
-  double density = 1.0;          ///< [kg/m²]
+  std::optional<double> mass;  ///< [kg]; overrides density
+  double density = 1.0;        ///< [kg/m²]
   double friction = 0.6;
   double restitution = 0.0;
   double pinned_until = 0.0;     ///< pinned before this time, then dynamic [s]
@@ -63,12 +68,12 @@ using BodyIndex = std::size_t;  ///< into Scene::bodies
 /// From a point of a body to a world point or to a point of another body.
 struct SpringDesc {
   BodyIndex body = 0;
-  Vec2 anchor = Vec2::Zero();        ///< in the body frame [m]
-  Vec2 to = Vec2::Zero();            ///< in the world, or in the frame of `to_body` [m]
+  Vec2 anchor = Vec2::Zero();  ///< in the body frame [m]
+  Vec2 to = Vec2::Zero();      ///< in the world, or in the frame of `to_body` [m]
   std::optional<BodyIndex> to_body;
-  double stiffness = 0.0;            ///< [N/m]
-  double damping = 0.0;              ///< [N s/m]
-  double rest_length = 0.0;          ///< [m]
+  double stiffness = 0.0;    ///< [N/m]
+  double damping = 0.0;      ///< [N s/m]
+  double rest_length = 0.0;  ///< [m]
 };
 
 struct ImpulseDesc {
@@ -83,7 +88,7 @@ struct ForceDesc {
   Vec2 at = Vec2::Zero();     ///< in the body frame [m]
   Vec2 force = Vec2::Zero();  ///< in the world's directions [N]
   double from = 0.0;          ///< [s]
-  double until = 0.0;         ///< [s]
+  double until = kForever;    ///< [s]
 };
 
 /// While on, a magnet's contacts are bilateral and do not slide.
@@ -91,19 +96,19 @@ struct MagnetDesc {
   BodyIndex body = 0;
   struct Interval {
     double from = 0.0;
-    double until = 0.0;
+    double until = kForever;
   };
-  std::vector<Interval> on;  ///< [s]
+  std::vector<Interval> on;  ///< in order, without overlap [s]
 };
 
 /// Adds copies of a body while the scene runs. All of them are numbered from the start, after the
 /// bodies of the scene, and named "name[k]".
 struct EmitterDesc {
-  BodyDesc body;                 ///< the template; `at` is where it appears
-  double every = 1.0;            ///< [s] between two bodies
-  double start = 0.0;            ///< time of the first [s]
-  int count = 0;                 ///< how many in all
-  Vec2 spread = Vec2::Zero();    ///< half extents of the uniform random offset [m]
+  BodyDesc body;               ///< the template; `at` is where it appears
+  double every = 1.0;          ///< [s] between two bodies
+  double start = 0.0;          ///< time of the first [s]
+  int count = 0;               ///< how many in all
+  Vec2 spread = Vec2::Zero();  ///< half extents of the uniform random offset [m]
   std::uint64_t seed = 1;
 };
 
@@ -119,11 +124,14 @@ struct SceneLimits {
   static constexpr std::size_t kFileBytes = 64u << 20;
   static constexpr std::size_t kDrawingPixels = 4u << 20;
   static constexpr int kNesting = 16;
-  static constexpr double kCoordinate = 1e6;  ///< [m]
+  static constexpr std::size_t kVertices = 1'000;  ///< of one polygon
+  static constexpr double kCoordinate = 1e6;       ///< [m]
+  static constexpr double kSmallest = 1e-4;        ///< least width, height and radius [m]
+  static constexpr double kNumber = 1e12;          ///< of any kind
 };
 
 struct Scene {
-  std::string name;   ///< file stem or built-in name
+  std::string name;  ///< file stem or built-in name
   std::string title;
   Vec2 gravity{0.0, -9.81};  ///< [m/s²]
   double step = 0.01;        ///< h [s]

@@ -18,20 +18,20 @@ constexpr bool sleeps(Mode m) { return m == Mode::Sleep || m == Mode::MergeSleep
 enum class Rule { Default, Paper };
 
 enum class SolverMethod {
-  Nncg,  ///< "nncg": block sweeps inside a nonsmooth nonlinear conjugate gradient
-  Block, ///< "block": sweeps with the exact 2×2 block of a manifold's normals
-  Pgs,   ///< "pgs": the paper's plain projected Gauss-Seidel, one row at a time
+  Nncg,   ///< "nncg": block sweeps inside a nonsmooth nonlinear conjugate gradient
+  Block,  ///< "block": sweeps with the exact 2×2 block of a manifold's normals
+  Pgs,    ///< "pgs": the paper's plain projected Gauss-Seidel, one row at a time
 };
 
 /// [solver]
 struct SolverSettings {
   SolverMethod method = SolverMethod::Nncg;
-  int iterations = 10;               ///< sweeps of the full solve, Section 8.1
-  double erp = 0.05;                 ///< Baumgarte: part of the overlap that is removed per step [1]
-  double compliance = 0.01;          ///< softness C = compliance · (1/mA + 1/mB), so it is [1]
-  double max_correction = 0.5;       ///< fastest velocity with which overlap is removed [m/s]
-  double margin = 0.005;             ///< contacts are kept up to this gap [m]
-  double restitution_velocity = 0.5; ///< slower approaches do not bounce [m/s]
+  int iterations = 10;          ///< sweeps of the full solve, Section 8.1
+  double erp = 0.05;            ///< Baumgarte: part of the overlap that is removed per step [1]
+  double compliance = 0.01;     ///< softness C = compliance · (1/mA + 1/mB), so it is [1]
+  double max_correction = 0.5;  ///< fastest velocity with which overlap is removed [m/s]
+  double margin = 0.005;        ///< contacts are kept up to this gap [m]
+  double restitution_velocity = 0.5;  ///< slower approaches do not bounce [m/s]
 };
 
 /// Which welds of pairs with a single contact are allowed (Section 8.2).
@@ -50,12 +50,12 @@ struct MergingSettings {
 /// [unmerging], Table 1
 struct UnmergingSettings {
   Rule rule = Rule::Default;
-  double velocity = 2e-2;    ///< relative motion threshold [m/s]
-  double sliding = 1e-2;     ///< slip threshold, Eq. (19) [m/s]
-  int steps = 3;             ///< consecutive steps above the threshold
-  int sweeps = 1;            ///< PGS sweeps per step over the contacts inside collections
-  int disturbed_sweeps = 10; ///< the same in a step with a new contact or an impulse
-  bool ordering = true;      ///< breadth first from what is new (Section 6.2)
+  double velocity = 2e-2;     ///< relative motion threshold [m/s]
+  double sliding = 1e-2;      ///< slip threshold, Eq. (19) [m/s]
+  int steps = 3;              ///< consecutive steps above the threshold
+  int sweeps = 1;             ///< PGS sweeps per step over the contacts inside collections
+  int disturbed_sweeps = 10;  ///< the same in a step with a new contact or an impulse
+  bool ordering = true;       ///< breadth first from what is new (Section 6.2)
 };
 
 /// [sleeping], Table 1
@@ -73,10 +73,10 @@ struct Material {
 
 /// [drawing]: what a pixel of a drawn scene means.
 struct DrawingSettings {
-  double pixel = 0.1;          ///< side of a pixel [m]
-  double stiffness = 0.0;      ///< of a spring pixel [N/m]; 0: chosen from the body's mass
-  double damping = 0.0;        ///< of a spring pixel [N s/m]; 0: chosen from the body's mass
-  double pinned_until = 2.0;   ///< when a green body is let go [s]
+  double pixel = 0.1;         ///< side of a pixel [m]
+  double stiffness = 0.0;     ///< of a spring pixel [N/m]; 0: chosen from the body's mass
+  double damping = 0.0;       ///< of a spring pixel [N s/m]; 0: chosen from the body's mass
+  double pinned_until = 2.0;  ///< when a green body is let go [s]
 };
 
 struct Settings {

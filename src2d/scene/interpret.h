@@ -1,0 +1,44 @@
+#pragma once
+/// The parts of reading a scene file, one function for each noun.
+
+#include <string>
+#include <unordered_map>
+
+#include "src2d/scene/toml_reader.h"
+
+namespace merge2d {
+
+/// Finds bodies by name.
+using BodyNames = std::unordered_map<std::string, BodyIndex>;
+
+/// title, gravity, step, duration, seed and [camera].
+void readWorld(TableReader& root, Scene& scene);
+
+/// [solver], [merging], [unmerging], [sleeping], [material] and [drawing].
+void readSettings(TableReader& root, Settings& settings);
+
+/// [[body]], with `repeat` written out.
+BodyNames readBodies(TableReader& root, Scene& scene);
+
+/// A body's keys, also of an emitter's template. Material and name come from `defaults`.
+BodyDesc readBody(TableReader& table, const BodyDesc& defaults);
+/// What only a whole table can tell: a scripted body needs a script. Call after `done`.
+void checkBody(const TableReader& table, const BodyDesc& body);
+
+/// box, circle, polygon or shapes.
+std::vector<ConvexShape> readShapes(TableReader& table);
+
+/// script = { … }
+std::optional<Script> readScript(TableReader& table);
+
+/// [[spring]], [[impulse]], [[force]] and [[magnet]]; [[emitter]].
+void readActions(TableReader& root, Scene& scene, const BodyNames& names);
+void readEmitters(TableReader& root, Scene& scene);
+
+/// A body without settings of its own.
+BodyDesc defaultBody(const Material& material);
+
+/// A name that can be written in messages and files: not empty, no control characters.
+void checkName(const Value& value, const std::string& name);
+
+}  // namespace merge2d

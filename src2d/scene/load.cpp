@@ -1,0 +1,82 @@
+#include "src2d/scene/load.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "src2d/core/error.h"
+#include "src2d/scene/builtin.h"
+#include "src2d/scene/interpret.h"
+#include "src2d/scene/override.h"
+#include "src2d/scene/toml_parse.h"
+
+namespace merge2d {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The path of what the user called `name_or_path`: a file as it is, or a built-in scene.
+fs::path resolve(const std::string& name_or_path) {
+  const fs::path path(name_or_path);
+  std::error_code ignored;
+  if (fs::is_regular_file(path, ignored)) return path;
+  if (const auto builtin = builtinScene(name_or_path)) return *builtin;
+  if (fs::is_directory(path, ignored)) {
+    throw InputError(fmt::format("{} is a folder, not a scene", name_or_path));
+  }
+  const bool file = path.has_parent_path() || path.has_extension();
+  if (file) throw InputError(fmt::format("there is no file {}", name_or_path));
+  std::vector<std::string> names;
+  for (const BuiltinScene& scene : builtinScenes()) names.push_back(scene.name);
+  throw InputError(fmt::format("no built-in scene is called '{}'{}; `merge2d list` names them all",
+                               name_or_path, didYouMean(name_or_path, names)));
+}
+
+std::string readText(const fs::path& path) {
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  if (error) throw IoError(fmt::format("{}: {}", path.string(), error.message()));
+  if (size > SceneLimits::kFileBytes) {
+    throw InputError(fmt::format("{}: a scene file has at most {} MB, this one {} MB",
+                                 path.string(), SceneLimits::kFileBytes >> 20u, size >> 20u));
+  }
+  std::ifstream in(path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (!in) throw IoError(fmt::format("{}: cannot be read", path.string()));
+  return text;
+}
+
+void warnOfEmptiness(Scene& scene, const std::string& source) {
+  if (scene.bodies.empty() && scene.emitters.empty()) {
+    scene.warnings.push_back(fmt::format("{}: the scene has no bodies", source));
+  }
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view toml, const std::string& source, const Overrides& overrides) {
+  const SourceText text(source, toml);
+  toml::table table = parseToml(text);
+  for (const auto& [key, value] : overrides) applyOverride(table, key, value);
+
+  TableReader root(text, table, "the scene");
+  Scene scene;
+  scene.name = scene.title = fs::path(source).stem().string();
+  readWorld(root, scene);
+  readSettings(root, scene.settings);
+  const BodyNames names = readBodies(root, scene);
+  readActions(root, scene, names);
+  readEmitters(root, scene);
+  root.done();
+  warnOfEmptiness(scene, source);
+  return scene;
+}
+
+Scene loadScene(const std::string& name_or_path, const Overrides& overrides) {
+  const fs::path path = resolve(name_or_path);
+  if (path.extension() == ".png") return loadDrawing(path, overrides);
+  return parseScene(readText(path), path.string(), overrides);
+}
+
+}  // namespace merge2d

@@ -1,0 +1,173 @@
+/// [[body]] of a scene file.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src2d/scene/interpret.h"
+
+namespace merge2d {
+namespace {
+
+/// repeat = { count = [columns, rows], spacing = [x, y], stagger = 0.5 }
+struct Repeat {
+  std::int64_t columns = 1;
+  std::int64_t rows = 1;
+  Vec2 spacing = Vec2::Zero();  ///< [m]
+  double stagger = 0.0;         ///< shift of every other row, in columns
+
+  Vec2 offset(std::int64_t column, std::int64_t row) const {
+    const double shift = row % 2 == 1 ? stagger : 0.0;
+    return {(static_cast<double>(column) + shift) * spacing.x(),
+            static_cast<double>(row) * spacing.y()};
+  }
+};
+
+std::optional<Repeat> readRepeat(TableReader& body) {
+  const auto value = body.get("repeat");
+  if (!value) return std::nullopt;
+  TableReader table = value->table();
+  Repeat repeat;
+  if (const auto count = table.require("count")) {
+    const std::vector<Value> both = count->elements("[columns, rows]");
+    if (both.size() != 2) count->failMustBe("[columns, rows]");
+    constexpr Range kCopies{1, static_cast<double>(SceneLimits::kBodies), "between 1 and 100000"};
+    repeat.columns = both[0].integer(kCopies);
+    repeat.rows = both[1].integer(kCopies);
+  }
+  if (table.require("spacing")) table.read("spacing", repeat.spacing, kPosition);
+  table.read("stagger", repeat.stagger);
+  table.done();
+  return repeat;
+}
+
+/// Adds bodies to the scene, each under a name of its own.
+class BodyList {
+ public:
+  explicit BodyList(Scene& scene) : scene_(scene) {}
+
+  void add(const TableReader& table, const BodyDesc& body) {
+    if (!names_.emplace(body.name, scene_.bodies.size()).second) {
+      table.fail(fmt::format("two bodies are called '{}'", body.name));
+    }
+    if (body.at.cwiseAbs().maxCoeff() > SceneLimits::kCoordinate) {
+      table.fail(fmt::format("'{}' stands further than 1e6 m from the origin", body.name));
+    }
+    scene_.bodies.push_back(body);
+  }
+
+  void addCopies(const TableReader& table, const BodyDesc& body, const Repeat& repeat) {
+    for (std::int64_t row = 0; row < repeat.rows; ++row) {
+      for (std::int64_t column = 0; column < repeat.columns; ++column) {
+        BodyDesc copy = body;
+        copy.name = fmt::format("{}[{},{}]", body.name, column, row);
+        copy.at += repeat.offset(column, row);
+        add(table, copy);
+      }
+    }
+  }
+
+  void checkRoom(const TableReader& table, std::int64_t more) const {
+    if (scene_.bodies.size() + static_cast<std::size_t>(more) > SceneLimits::kBodies) {
+      table.fail(fmt::format("a scene has at most {} bodies", SceneLimits::kBodies));
+    }
+  }
+
+  BodyNames names() && { return std::move(names_); }
+
+ private:
+  Scene& scene_;
+  BodyNames names_;
+};
+
+void addBody(TableReader& table, BodyList& list, const BodyDesc& defaults) {
+  const BodyDesc body = readBody(table, defaults);
+  const std::optional<Repeat> repeat = readRepeat(table);
+  table.done();
+  checkBody(table, body);
+  list.checkRoom(table, repeat ? repeat->columns * repeat->rows : 1);
+  if (!repeat) return list.add(table, body);
+  if (body.script && std::holds_alternative<Keyframes>(*body.script)) {
+    table.failAt("repeat", "key frames are places in the world, so all copies would be in one");
+  }
+  list.addCopies(table, body, *repeat);
+}
+
+}  // namespace
+
+BodyDesc defaultBody(const Material& material) {
+  BodyDesc body;
+  body.density = material.density;
+  body.friction = material.friction;
+  body.restitution = material.restitution;
+  return body;
+}
+
+void checkName(const Value& value, const std::string& name) {
+  constexpr std::size_t kLongest = 100;
+  const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20u || c == 0x7F; };
+  if (name.empty()) value.fail("a name must not be empty");
+  if (name.size() > kLongest) value.fail("a name has at most 100 characters");
+  if (std::any_of(name.begin(), name.end(), control)) {
+    value.fail("a name is one line without control characters");
+  }
+}
+
+BodyDesc readBody(TableReader& table, const BodyDesc& defaults) {
+  BodyDesc body = defaults;
+  if (const auto name = table.get("name")) checkName(*name, body.name = name->text());
+  table.read("motion", body.motion);
+  table.read("at", body.at, kPosition);
+  table.readDegrees("angle", body.angle);
+  table.read("velocity", body.velocity);
+  table.readDegrees("spin", body.spin);
+  body.shapes = readShapes(table);
+  if (const auto mass = table.get("mass")) body.mass = mass->number(kPositive);
+  table.read("density", body.density, kPositive);
+  table.read("friction", body.friction, kNotNegative);
+  table.read("restitution", body.restitution, kFraction);
+  table.read("pinned_until", body.pinned_until, kNotNegative);
+  body.script = readScript(table);
+  if (!body.script) return body;
+  if (const auto* path = std::get_if<Keyframes>(&*body.script)) {
+    if (table.has("at")) table.failAt("at", "the key frames say where the body is, not 'at'");
+    if (table.has("angle")) table.failAt("angle", "the key frames say the angle, not 'angle'");
+    body.at = path->keys.front().position;
+    body.angle = path->keys.front().angle;
+  }
+  return body;
+}
+
+void checkBody(const TableReader& table, const BodyDesc& body) {
+  const bool dynamic = body.motion == Motion::Dynamic;
+  const bool scripted = body.motion == Motion::Scripted;
+  if (body.shapes.empty()) {
+    table.fail(fmt::format("{} needs a shape: box, circle, polygon or shapes", table.title()));
+  }
+  if (scripted && !body.script) {
+    table.failAt("motion", "a scripted body needs a script: script = { … }");
+  }
+  if (body.script && !scripted) {
+    table.failAt("script", "a script needs motion = \"scripted\"");
+  }
+  const std::string_view instead =
+      scripted ? "a scripted body moves by its script only" : "a pinned body does not move";
+  if (!dynamic && body.velocity != Vec2::Zero()) table.failAt("velocity", instead);
+  if (!dynamic && body.spin != 0.0) table.failAt("spin", instead);
+  if (!dynamic && body.pinned_until > 0.0) {
+    table.failAt("pinned_until", "only a dynamic body can be pinned for a while");
+  }
+}
+
+BodyNames readBodies(TableReader& root, Scene& scene) {
+  BodyList list(scene);
+  BodyDesc defaults = defaultBody(scene.settings.material);
+  int number = 0;
+  for (TableReader& table : root.tables("body")) {
+    defaults.name = fmt::format("body{}", ++number);
+    addBody(table, list, defaults);
+  }
+  return std::move(list).names();
+}
+
+}  // namespace merge2d

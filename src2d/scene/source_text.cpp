@@ -1,0 +1,74 @@
+#include "src2d/scene/source_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "src2d/core/error.h"
+
+namespace merge2d {
+namespace {
+
+bool continuesCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
+
+/// What a terminal shows as one column per character, and never obeys.
+std::string printable(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < 0x20u || c == 0x7F) c = ' ';
+  }
+  return result;
+}
+
+/// The part of a line around `column` (from 1, in characters) that fits a terminal, and the column
+/// in that part.
+std::pair<std::string, std::size_t> excerpt(std::string_view line, std::size_t column) {
+  constexpr std::size_t kWidth = 96;
+  constexpr std::size_t kBefore = 60;
+  const std::size_t skip = column > kWidth ? column - kBefore : 0;
+  std::string part;
+  std::size_t character = 0;
+  for (const char c : line) {
+    if (!continuesCharacter(c)) ++character;
+    if (character > skip + kWidth) break;
+    if (character > skip) part += c;
+  }
+  return {printable(part), column - std::min(column, skip)};
+}
+
+}  // namespace
+
+SourceText::SourceText(std::string name, std::string_view text)
+    : name_(std::move(name)), text_(text) {}
+
+std::string_view SourceText::line(std::size_t number) const {
+  std::string_view rest = text_;
+  for (std::size_t i = 1; i < number; ++i) {
+    const std::size_t end = rest.find('\n');
+    if (end == std::string_view::npos) return {};
+    rest.remove_prefix(end + 1);
+  }
+  std::string_view found = rest.substr(0, rest.find('\n'));
+  if (found.ends_with('\r')) found.remove_suffix(1);
+  return found;
+}
+
+std::string SourceText::message(const toml::source_position& where,
+                                std::string_view sentence) const {
+  const auto [shown, column] = excerpt(line(where.line), where.column);
+  const std::string head = fmt::format("{}:{}:{}: {}", name_, where.line, where.column, sentence);
+  if (shown.empty()) return head;
+  const std::string caret(column > 0 ? column - 1 : 0, ' ');
+  return fmt::format("{}\n{:>5} | {}\n{:>5} | {}^", head, where.line, shown, "", caret);
+}
+
+void SourceText::fail(const toml::source_region& where, std::string_view sentence) const {
+  if (where.path && *where.path != name_) {
+    throw InputError(fmt::format("{}: {}", *where.path, sentence));
+  }
+  if (!where.begin) throw InputError(fmt::format("{}: {}", name_, sentence));
+  throw InputError(message(where.begin, sentence));
+}
+
+}  // namespace merge2d

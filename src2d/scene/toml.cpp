@@ -1,0 +1,2 @@
+#define TOML_IMPLEMENTATION
+#include "src2d/scene/toml.h"

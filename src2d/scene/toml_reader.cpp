@@ -1,0 +1,176 @@
+#include "src2d/scene/toml_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace merge2d {
+namespace {
+
+/// How a value of a wrong type or size is shown: "the text \"3\"", "-1", "a table".
+std::string shown(const toml::node& node) {
+  if (const auto text = node.value_exact<std::string>()) {
+    return fmt::format("the text \"{}\"", text->substr(0, 40));
+  }
+  if (const auto number = node.value_exact<double>()) return fmt::format("{:#}", *number);
+  if (const auto integer = node.value_exact<std::int64_t>()) return fmt::format("{}", *integer);
+  if (const auto truth = node.value_exact<bool>()) return *truth ? "true" : "false";
+  if (const auto* array = node.as_array()) return fmt::format("a list of {}", array->size());
+  return node.is_table() ? "a table" : "a date or time";
+}
+
+}  // namespace
+
+double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
+
+// Values
+
+void Value::fail(std::string_view sentence) const { source_->fail(node_->source(), sentence); }
+
+void Value::failMustBe(std::string_view what) const {
+  fail(fmt::format("'{}' in {} must be {}, but is {}", key_, home_, what, shown(*node_)));
+}
+
+double Value::number(const Range& range) const {
+  if (!node_->is_number()) failMustBe("a number");
+  const double number = node_->value<double>().value();
+  if (!std::isfinite(number) || std::abs(number) > kAnyNumber.upper) failMustBe(kAnyNumber.words);
+  if (number < range.lower || number > range.upper) failMustBe(range.words);
+  return number;
+}
+
+std::int64_t Value::integer(const Range& range) const {
+  const auto integer = node_->value_exact<std::int64_t>();
+  if (!integer) failMustBe("a whole number");
+  const double number = static_cast<double>(*integer);
+  if (number < range.lower || number > range.upper) failMustBe(range.words);
+  return *integer;
+}
+
+bool Value::boolean() const {
+  const auto truth = node_->value_exact<bool>();
+  if (!truth) failMustBe("true or false");
+  return *truth;
+}
+
+std::string Value::text() const {
+  const auto text = node_->value_exact<std::string>();
+  if (!text) failMustBe("a text in quotes");
+  return *text;
+}
+
+Vec2 Value::vector(const Range& range) const {
+  const std::vector<Value> both = elements("[x, y]");
+  if (both.size() != 2) failMustBe("[x, y]");
+  return {both[0].number(range), both[1].number(range)};
+}
+
+std::vector<double> Value::numbers(std::size_t count, std::string_view form) const {
+  const std::vector<Value> values = elements(form);
+  if (values.size() != count) failMustBe(form);
+  std::vector<double> result;
+  for (const Value& value : values) result.push_back(value.number());
+  return result;
+}
+
+std::vector<Value> Value::elements(std::string_view form) const {
+  const toml::array* array = node_->as_array();
+  if (array == nullptr) failMustBe(form);
+  std::vector<Value> result;
+  result.reserve(array->size());
+  for (const toml::node& element : *array) {
+    result.emplace_back(*source_, element, fmt::format("{}[{}]", key_, result.size()), home_);
+  }
+  return result;
+}
+
+TableReader Value::table() const {
+  const toml::table* table = node_->as_table();
+  if (table == nullptr) failMustBe("a table { … }");
+  return {*source_, *table, fmt::format("'{}' of {}", key_, home_)};
+}
+
+// Tables
+
+std::optional<Value> TableReader::get(std::string_view key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  const toml::node* node = table_->get(key);
+  if (node == nullptr) return std::nullopt;
+  return Value(*source_, *node, std::string(key), title_);
+}
+
+std::optional<Value> TableReader::require(std::string_view key) {
+  auto value = get(key);
+  if (!value) missing_.push_back(key);
+  return value;
+}
+
+void TableReader::read(std::string_view key, double& value, const Range& range) {
+  if (const auto found = get(key)) value = found->number(range);
+}
+
+void TableReader::read(std::string_view key, Vec2& value, const Range& range) {
+  if (const auto found = get(key)) value = found->vector(range);
+}
+
+void TableReader::read(std::string_view key, bool& value, const Range&) {
+  if (const auto found = get(key)) value = found->boolean();
+}
+
+void TableReader::read(std::string_view key, std::string& value) {
+  if (const auto found = get(key)) value = found->text();
+}
+
+void TableReader::readDegrees(std::string_view key, double& value) {
+  if (const auto found = get(key)) value = radians(found->number());
+}
+
+std::optional<TableReader> TableReader::table(std::string_view key) {
+  const auto found = get(key);
+  if (!found) return std::nullopt;
+  const toml::table* table = table_->get(key)->as_table();
+  if (table == nullptr) failAt(key, fmt::format("[{0}] must be one table, written [{0}]", key));
+  return TableReader(*source_, *table, fmt::format("[{}]", key));
+}
+
+std::vector<TableReader> TableReader::tables(std::string_view key) {
+  std::vector<TableReader> result;
+  const auto found = get(key);
+  if (!found) return result;
+  const toml::array* array = table_->get(key)->as_array();
+  const auto complain = [&] {
+    failAt(key, fmt::format("each {0} must be a table of its own, written [[{0}]]", key));
+  };
+  if (array == nullptr) complain();
+  for (const toml::node& element : *array) {
+    if (!element.is_table()) complain();
+    result.emplace_back(*source_, *element.as_table(), fmt::format("[[{}]]", key));
+  }
+  return result;
+}
+
+void TableReader::done() const {
+  const toml::key* unknown = nullptr;
+  const auto position = [](const toml::key& key) { return key.source().begin; };
+  for (const auto& [key, node] : *table_) {
+    if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
+    if (unknown == nullptr || position(key) < position(*unknown)) unknown = &key;
+  }
+  if (unknown != nullptr) {
+    source_->fail(unknown->source(), fmt::format("unknown key '{}' in {}{}", unknown->str(), title_,
+                                                 didYouMean(unknown->str(), known_)));
+  }
+  if (!missing_.empty()) fail(fmt::format("{} needs the key '{}'", title_, missing_.front()));
+}
+
+void TableReader::fail(std::string_view sentence) const {
+  source_->fail(table_->source(), sentence);
+}
+
+void TableReader::failAt(std::string_view key, std::string_view sentence) const {
+  source_->fail(table_->get(key)->source(), sentence);
+}
+
+}  // namespace merge2d
