@@ -5,4 +5,3 @@ Scene loadDrawing(const std::filesystem::path& png, const Overrides&) {
   throw InputError(png.string() + ": drawings are not read yet");
 }
 }  // namespace merge2d
-namespace merge2d { std::string toToml(const Scene&) { return {}; } }

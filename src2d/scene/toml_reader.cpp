@@ -25,6 +25,17 @@ std::string shown(const toml::node& node) {
 
 double radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
 
+double degrees(double angle) {
+  const double exact = angle * (180.0 / std::numbers::pi);
+  const double neat = std::stod(fmt::format("{:.14g}", exact));
+  if (radians(neat) == angle) return neat;
+  for (const double towards : {-kForever, kForever}) {
+    const double neighbour = std::nextafter(exact, towards);
+    if (radians(exact) != angle && radians(neighbour) == angle) return neighbour;
+  }
+  return exact;
+}
+
 // Values
 
 void Value::fail(std::string_view sentence) const { source_->fail(node_->source(), sentence); }
@@ -35,7 +46,9 @@ void Value::failMustBe(std::string_view what) const {
 
 double Value::number(const Range& range) const {
   if (!node_->is_number()) failMustBe("a number");
-  const double number = node_->value<double>().value();
+  const auto* whole = node_->as_integer();
+  const double number =
+      whole != nullptr ? static_cast<double>(whole->get()) : node_->as_floating_point()->get();
   if (!std::isfinite(number) || std::abs(number) > kAnyNumber.upper) failMustBe(kAnyNumber.words);
   if (number < range.lower || number > range.upper) failMustBe(range.words);
   return number;

@@ -99,6 +99,9 @@ class TableReader {
 };
 
 double radians(double degrees);
+/// The degrees, as short as may be, that `radians` turns into `angle` again (at worst within one
+/// unit in the last place: some angles are not hit by any number of degrees).
+double degrees(double angle);
 
 template <HasNames E>
 E Value::named() const {
