@@ -1,0 +1,130 @@
+#include "bench/bench_scenes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+namespace merge2d::bench {
+namespace {
+
+constexpr double kFriction = 0.6;
+constexpr double kSpacing = 1.05;  // of boxes of 1 m side by side [m]
+constexpr double kSwing = 0.4;     // peak acceleration of the platform [m/s²]
+
+Scene emptyScene(const std::string& name) {
+  Scene scene;
+  scene.name = name;
+  scene.title = name;
+  scene.step = 0.01;
+  scene.settings.solver.iterations = 10;
+  return scene;
+}
+
+BodyDesc box(const std::string& name, Vec2 at, double width, double height) {
+  BodyDesc body;
+  body.name = name;
+  body.at = at;
+  body.shapes = {makeBox(width, height)};
+  body.friction = kFriction;
+  return body;
+}
+
+BodyDesc pinnedBox(const std::string& name, Vec2 at, double width, double height,
+                   double angle = 0.0) {
+  BodyDesc body = box(name, at, width, height);
+  body.motion = Motion::Pinned;
+  body.angle = angle;
+  return body;
+}
+
+void addBox(Scene& scene, Vec2 at, double width, double height) {
+  scene.bodies.push_back(box(fmt::format("box[{}]", scene.bodies.size()), at, width, height));
+}
+
+}  // namespace
+
+BenchScene tower(int count) {
+  Scene scene = emptyScene(fmt::format("tower-{}", count));
+  const int columns = static_cast<int>(std::lround(std::sqrt(count / 2.0)));
+
+  BodyDesc platform = box("platform", {0.0, -0.5}, columns + 4.0, 1.0);
+  platform.motion = Motion::Scripted;
+  const double period = kSwingSteps * scene.step;
+  const double angular = 2.0 * std::numbers::pi / period;
+  platform.script = Sinusoid{Vec2::UnitX(), kSwing / (angular * angular), period};
+  scene.bodies.push_back(platform);
+
+  // Rows of `columns` boxes alternate with rows shifted by half the spacing; a prefix of a row is
+  // as well supported as a whole one.
+  const double left = -0.5 * (kSpacing * (columns - 1) + 1.0);
+  for (int row = 0; std::ssize(scene.bodies) <= count; ++row) {
+    const double y = row + 0.5;
+    const bool shifted = row % 2 == 1;
+    if (shifted) addBox(scene, {left + 0.25, y}, 0.5, 1.0);
+    for (int i = 0; i < columns - shifted; ++i) {
+      addBox(scene, {left + 0.5 + kSpacing * (i + 0.5 * shifted), y}, 1.0, 1.0);
+    }
+    if (shifted) addBox(scene, {-left - 0.25, y}, 0.5, 1.0);
+  }
+  scene.bodies.resize(static_cast<std::size_t>(count) + 1);
+  return {scene, Expectation::Stands};
+}
+
+BenchScene pyramid(int base) {
+  Scene scene = emptyScene(fmt::format("pyramid-{}", base));
+  scene.bodies.push_back(pinnedBox("ground", {0.0, -0.5}, 2.0 * base, 1.0));
+  for (int row = 0; row < base; ++row) {
+    const int boxes = base - row;
+    for (int i = 0; i < boxes; ++i) {
+      addBox(scene, {kSpacing * (i - 0.5 * (boxes - 1)), row + 0.5}, 1.0, 1.0);
+    }
+  }
+  return {scene, Expectation::Stands};
+}
+
+BenchScene funnel(int count) {
+  constexpr double kSize = 0.5;
+  constexpr double kGrid = 0.6;
+  constexpr int kColumns = 50;
+  constexpr double kOpening = 4.0;  // between the walls' lower ends [m]
+  constexpr double kLength = 30.0;  // of a wall [m]
+  constexpr double kSlope = std::numbers::pi / 4.0;
+
+  Scene scene = emptyScene(fmt::format("funnel-{}", count));
+  scene.bodies.push_back(pinnedBox("floor", {0.0, -12.0}, 200.0, 1.0));
+  const double x = 0.5 * (kOpening + kLength * std::cos(kSlope));
+  const double y = 0.5 * kLength * std::sin(kSlope);
+  scene.bodies.push_back(pinnedBox("left wall", {-x, y}, kLength, 1.0, -kSlope));
+  scene.bodies.push_back(pinnedBox("right wall", {x, y}, kLength, 1.0, kSlope));
+
+  const double bottom = 0.5 * kColumns * kGrid * std::tan(kSlope) + 1.0;
+  for (int i = 0; i < count; ++i) {
+    const Vec2 at(kGrid * (i % kColumns - 0.5 * (kColumns - 1)), bottom + kGrid * (i / kColumns));
+    addBox(scene, at, kSize, kSize);
+  }
+  return {scene, Expectation::Moves};
+}
+
+BenchScene freeFall(int count) {
+  constexpr double kApart = 3.0;
+  Scene scene = emptyScene(fmt::format("free-fall-{}", count));
+  const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
+  for (int i = 0; i < count; ++i) {
+    addBox(scene, {kApart * (i % columns), kApart * (i / columns)}, 1.0, 1.0);
+    scene.bodies.back().spin = 0.1 * (i % 7 - 3);
+  }
+  return {scene, Expectation::Moves};
+}
+
+std::vector<BenchScene> benchScenes(bool quick) {
+  std::vector<BenchScene> scenes = {tower(100), tower(326), tower(1000)};
+  if (!quick) scenes.push_back(tower(5000));
+  scenes.push_back(pyramid(50));
+  scenes.push_back(funnel(1500));
+  scenes.push_back(freeFall(10'000));
+  return scenes;
+}
+
+}  // namespace merge2d::bench

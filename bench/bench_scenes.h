@@ -1,0 +1,42 @@
+#pragma once
+/// The scenes that all engines are measured on, as plain data.
+
+#include <string>
+#include <vector>
+
+#include "src2d/scene/scene.h"
+
+namespace merge2d::bench {
+
+/// Of the towers' platform. The time that is measured is a whole period, so that what a tower bends
+/// is not mistaken for what it creeps.
+inline constexpr int kSwingSteps = 400;
+
+/// What a scene's bodies ought to do, and so what is worth reporting beside the time.
+enum class Expectation {
+  Stands,  ///< nothing should move against body 0, the platform or ground
+  Moves,
+};
+
+struct BenchScene {
+  Scene scene;
+  Expectation expectation = Expectation::Stands;
+};
+
+/// A running-bond wall of `count` boxes of 1 m, twice as high as wide, on a platform that swings
+/// for ever. Its rows end in half boxes, so that no box stands on an edge.
+BenchScene tower(int count);
+
+/// A pyramid with `base` boxes of 1 m in its lowest row.
+BenchScene pyramid(int base);
+
+/// `count` boxes of 0.5 m dropped at once into a funnel above a floor.
+BenchScene funnel(int count);
+
+/// `count` boxes of 1 m that fall and never touch.
+BenchScene freeFall(int count);
+
+/// All scenes of the comparison; the quick ones only leave out the largest.
+std::vector<BenchScene> benchScenes(bool quick);
+
+}  // namespace merge2d::bench

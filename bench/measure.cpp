@@ -1,0 +1,88 @@
+#include "bench/measure.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace merge2d::bench {
+namespace {
+
+constexpr double kLost = 0.5;  // [m]
+
+using Positions = std::vector<Vec2>;
+
+std::size_t heapBytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+double millisecondsPerStep(Peer& peer, int steps) {
+  peer.step();  // brings its data back into the caches
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < steps; ++i) peer.step();
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  return took.count() / steps;
+}
+
+/// How far body i went against body 0.
+double displacement(const Positions& from, const Positions& to, std::size_t i) {
+  return ((to[i] - to[0]) - (from[i] - from[0])).norm();
+}
+
+void judge(Measurement& m, const Positions& start, const Positions& warm, const Positions& end) {
+  for (std::size_t i = 1; i < start.size(); ++i) {
+    if (displacement(start, end, i) > kLost) {
+      ++m.lost;
+    } else {
+      m.drift = std::max(m.drift, displacement(warm, end, i));
+    }
+  }
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Comparison compare(const BenchScene& bench, const Peers& peers, const Plan& plan) {
+  Comparison result{bench.scene.name, bench.scene.bodies.size(), bench.expectation, {}};
+  result.measurements.resize(peers.size());
+
+  // Load and warm up, one engine after the other, so that each one's memory can be told.
+  std::vector<Positions> start, warm;
+  for (std::size_t p = 0; p < peers.size(); ++p) {
+    Measurement& m = result.measurements[p];
+    m.peer = peers[p]->name();
+    const std::size_t before = heapBytes();
+    peers[p]->load(bench.scene);
+    start.push_back(peers[p]->positions());
+    for (int i = 0; i < plan.warmup; ++i) peers[p]->step();
+    m.heap_bytes = heapBytes() - before;
+    m.own_bytes = peers[p]->ownBytes();
+    warm.push_back(peers[p]->positions());
+  }
+
+  // Take turns; each round begins with another engine.
+  std::vector<std::vector<double>> ms(peers.size()), ratios(peers.size());
+  for (int round = 0; round < plan.rounds; ++round) {
+    for (std::size_t turn = 0; turn < peers.size(); ++turn) {
+      const std::size_t p = (turn + static_cast<std::size_t>(round)) % peers.size();
+      ms[p].push_back(millisecondsPerStep(*peers[p], plan.steps));
+    }
+    for (std::size_t p = 0; p < peers.size(); ++p) ratios[p].push_back(ms[p].back() / ms[0].back());
+  }
+
+  for (std::size_t p = 0; p < peers.size(); ++p) {
+    Measurement& m = result.measurements[p];
+    m.ms_per_step = median(ms[p]);
+    m.ratio = median(ratios[p]);
+    judge(m, start[p], warm[p], peers[p]->positions());
+  }
+  return result;
+}
+
+}  // namespace merge2d::bench

@@ -1,0 +1,34 @@
+#pragma once
+/// One engine among those that are measured side by side.
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "src2d/scene/scene.h"
+
+namespace merge2d::bench {
+
+class Peer {
+ public:
+  virtual ~Peer() = default;
+  virtual std::string name() const = 0;
+  /// Bodies, shapes and materials of the scene; a peer's own scene holds at most one.
+  virtual void load(const Scene& scene) = 0;
+  virtual void step() = 0;
+  /// Centres of mass, in the scene's order [m].
+  virtual std::vector<Vec2> positions() const = 0;
+  /// What the engine itself says that it holds; 0 when it does not say.
+  virtual std::size_t ownBytes() const { return 0; }
+};
+
+/// The velocity that takes a scripted body from where it is at `t` to where it should be at `t +
+/// h`.
+inline Vec2 scriptedVelocity(const Sinusoid& script, double t, double h) {
+  const double angular = 2.0 * std::numbers::pi / script.period;
+  return script.axis * script.amplitude * (std::cos(angular * t) - std::cos(angular * (t + h))) / h;
+}
+
+}  // namespace merge2d::bench
