@@ -2,15 +2,9 @@
 /// longer agree with ours, and weld those nearer than 2.5 mm.
 
 #include "src2d/core/assert.h"
-#include "src2d/geometry/collide.h"
+#include "src2d/geometry/collide_pairs.h"
 
 namespace merge2d {
-
-namespace {
-
-b2Vec2 toFloat(const Vec2& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y())}; }
-
-}  // namespace
 
 Collider::Collider(const ConvexShape& shape) : shape_(shape) {
   vertices_.fill(Vec2::Zero());

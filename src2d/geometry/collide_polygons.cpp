@@ -1,0 +1,164 @@
+/// Box2D 2.4.1 finds the reference face by separating axes, in float and relative to A's centre.
+/// The incident edge is then cut to the width of that face in double, from the exact vertices:
+///
+///              incident edge                 n
+///        \________________________          ^
+///         x      gaps            x          |
+///   begin ------------------------ end   reference face
+///
+/// Deviations from b2CollidePolygons: the edge is cut at the face's very ends rather than a margin
+/// beyond them, so that nothing rests on air; corner against corner gets the normal between the
+/// corners, as in Box2D v3; features name the two faces and the end, so that a point keeps its
+/// name when the reference face changes sides or a corner slides over an end.
+
+#include <algorithm>
+#include <utility>
+
+#include "src2d/geometry/collide_pairs.h"
+
+namespace merge2d {
+
+namespace {
+
+// Faces that overlap by less than this meet at corners only. [m]
+constexpr double kCornerWidth = 1e-5;
+// Below this distance the direction between two corners says nothing; above it a corner that is
+// nearer than the faces matters. [m]
+constexpr double kCornerDistance = 5e-4;
+
+struct Edge {
+  Vec2 begin, end;
+};
+
+/// The reference face and the face of the other polygon that looks at it, in A's frame.
+struct FacePair {
+  Edge reference, incident;
+  Vec2 normal;          // of the reference face
+  std::uint32_t faces;  // A's and B's, as the lower half of the features' names
+  bool swapped;         // the reference face is B's
+
+  Vec2 normalFromA() const { return swapped ? Vec2(-normal) : normal; }
+  /// Ends are counted along the reference face, in names along A's.
+  std::uint32_t feature(int end) const {
+    return faces | static_cast<std::uint32_t>(swapped ? 1 - end : end) << 16U;
+  }
+  double height(const Vec2& p) const { return normal.dot(p - reference.begin); }
+};
+
+/// The face whose normal is most opposed to `direction`, which is in the collider's body frame.
+int faceAgainst(const Collider& collider, const Vec2& direction) {
+  int best = 0;
+  double least = collider.normal(0).dot(direction);
+  for (int i = 1; i < collider.count(); ++i) {
+    const double along = collider.normal(i).dot(direction);
+    if (along < least) {
+      least = along;
+      best = i;
+    }
+  }
+  return best;
+}
+
+/// Box2D's manifold, for points up to `margin` apart. Only the sum of the two radii matters to it.
+void findFaces(b2Manifold& found, const Collider& a, const Collider& b, const Pose& b_in_a,
+               double margin) {
+  b2Transform xf;
+  xf.p = toFloat(b_in_a * b.origin() - a.origin());
+  xf.q.s = static_cast<float>(b_in_a.rotation.s);
+  xf.q.c = static_cast<float>(b_in_a.rotation.c);
+  if (static_cast<float>(margin) == Collider::kUsualMargin) {
+    b2CollidePolygons(&found, &a.polygon(), identity(), &b.polygon(), xf);
+    return;
+  }
+  b2PolygonShape padded = a.polygon();
+  padded.m_radius = static_cast<float>(margin) - b.polygon().m_radius;
+  b2CollidePolygons(&found, &padded, identity(), &b.polygon(), xf);
+}
+
+FacePair facePair(const b2Manifold& found, const Collider& a, const Collider& b,
+                  const Pose& b_in_a) {
+  FacePair pair;
+  pair.swapped = found.type == b2Manifold::e_faceB;
+  int face_a = 0;
+  int face_b = 0;
+  if (pair.swapped) {
+    face_b = faceWithMiddle(b.polygon(), found.localPoint);
+    pair.normal = b_in_a.rotation * b.normal(face_b);
+    face_a = faceAgainst(a, pair.normal);
+  } else {
+    face_a = faceWithMiddle(a.polygon(), found.localPoint);
+    pair.normal = a.normal(face_a);
+    face_b = faceAgainst(b, b_in_a.rotation.inverse() * pair.normal);
+  }
+  pair.reference = {a.vertex(face_a), a.vertex(a.next(face_a))};
+  pair.incident = {b_in_a * b.vertex(face_b), b_in_a * b.vertex(b.next(face_b))};
+  if (pair.swapped) std::swap(pair.reference, pair.incident);
+  pair.faces = static_cast<std::uint32_t>(face_a | face_b << 8);
+  return pair;
+}
+
+/// The contact of a corner at one end of the reference face with the incident edge beside it.
+Manifold cornerContact(const FacePair& pair, int end, double margin) {
+  Manifold m;
+  const Vec2& corner = end == 1 ? pair.reference.end : pair.reference.begin;
+  const Vec2 along = pair.incident.end - pair.incident.begin;
+  const double t = along.dot(corner - pair.incident.begin) / along.squaredNorm();
+  const Vec2 nearest = pair.incident.begin + std::clamp(t, 0.0, 1.0) * along;
+  const Vec2 d = nearest - corner;
+  const double distance = d.norm();
+  if (distance <= kCornerDistance) return m;
+  const double height = pair.height(nearest);
+  if (height <= 0.0) {  // overlapping elsewhere: only the face's own direction parts them
+    m.normal = pair.normalFromA();
+    addPoint(m, nearest - 0.5 * height * pair.normal, height, pair.feature(end));
+  } else if (distance <= margin) {
+    m.normal = (pair.swapped ? -1.0 : 1.0) / distance * d;
+    addPoint(m, corner + 0.5 * d, distance, pair.feature(end));
+  }
+  return m;
+}
+
+/// Cuts the incident edge to the width of the reference face.
+Manifold clippedContact(const FacePair& pair, double margin) {
+  // Positions along the face, from its beginning; the incident edge runs the other way.
+  const Vec2 tangent = perpendicular(pair.normal);
+  const double length = tangent.dot(pair.reference.end - pair.reference.begin);
+  const std::array<Vec2, 2> vertices = {pair.incident.end, pair.incident.begin};
+  const double low = tangent.dot(vertices[0] - pair.reference.begin);
+  const double high = tangent.dot(vertices[1] - pair.reference.begin);
+  if (std::min(high, length) - std::max(low, 0.0) < kCornerWidth) {
+    return cornerContact(pair, low + high > length ? 1 : 0, margin);
+  }
+  std::array<Vec2, 2> ends = vertices;
+  const Vec2 along = (vertices[1] - vertices[0]) / (high - low);
+  if (low < 0.0) ends[0] -= low * along;
+  if (high > length) ends[1] -= (high - length) * along;
+  const std::array<double, 2> gaps = {pair.height(ends[0]), pair.height(ends[1])};
+
+  // A steep edge that starts beside the face may be nearest to the face's corner.
+  const std::size_t lower = gaps[0] < gaps[1] ? 0 : 1;
+  const Vec2& corner = lower == 0 ? pair.reference.begin : pair.reference.end;
+  if (pair.height(vertices[lower]) > 0.0 &&
+      gaps[lower] > (vertices[lower] - corner).norm() + kCornerDistance) {
+    return cornerContact(pair, static_cast<int>(lower), margin);
+  }
+
+  Manifold m;
+  m.normal = pair.normalFromA();
+  for (const std::size_t i : {pair.swapped ? 1U : 0U, pair.swapped ? 0U : 1U}) {
+    if (gaps[i] > margin) continue;
+    addPoint(m, ends[i] - 0.5 * gaps[i] * pair.normal, gaps[i], pair.feature(static_cast<int>(i)));
+  }
+  return m;
+}
+
+}  // namespace
+
+Manifold collidePolygons(const Collider& a, const Collider& b, const Pose& b_in_a, double margin) {
+  b2Manifold found;
+  findFaces(found, a, b, b_in_a, margin);
+  if (found.pointCount == 0) return {};
+  return clippedContact(facePair(found, a, b, b_in_a), margin);
+}
+
+}  // namespace merge2d
