@@ -1,0 +1,80 @@
+#include "render/camera.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace merge2d {
+namespace {
+
+constexpr double kMargin = 0.06;  // of the extent, on each side
+constexpr double kHuge = 2.5;     // a fixed body this much larger than the rest is not shown whole
+constexpr double kNear = 0.25;    // of the extent: how far around it fixed bodies are shown
+constexpr double kSmallest = 1e-3;  // [m]
+
+Aabb intersection(const Aabb& a, const Aabb& b) {
+  return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
+}
+
+}  // namespace
+
+Aabb bodyBounds(const BodyInfo& info, const Pose& pose) {
+  Aabb box;
+  for (const ConvexShape& shape : info.shapes) box.include(bounds(shape, pose));
+  return box;
+}
+
+Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, double aspect) {
+  const auto boxOf = [&](const BodyState& b) { return bodyBounds(bodies[index(b.id)], b.pose()); };
+  const auto dynamic = [&](const BodyState& b) {
+    return bodies[index(b.id)].motion == Motion::Dynamic;
+  };
+  Aabb moving, all;
+  for (const BodyState& body : snapshot.bodies) {
+    const Aabb box = boxOf(body);
+    all.include(box);
+    if (dynamic(body)) moving.include(box);
+  }
+  Aabb shown = moving.empty() ? all : moving;
+  if (shown.empty()) return {};
+
+  // Fixed bodies of the same size as the rest belong to the scene; of larger ones the near part.
+  const double size = std::max(shown.extent().maxCoeff(), kSmallest);
+  const Aabb near = shown.grown(kNear * size);
+  for (const BodyState& body : snapshot.bodies) {
+    if (moving.empty() || dynamic(body)) continue;
+    const Aabb box = boxOf(body);
+    const bool huge = box.extent().maxCoeff() > kHuge * size;
+    const Aabb part = huge ? intersection(box, near) : box;
+    if (!part.empty() && part.lower.y() <= part.upper.y()) shown.include(part);
+  }
+  const Vec2 extent = shown.extent();
+  const double height = std::max({extent.y(), extent.x() / aspect, kSmallest});
+  return {shown.center(), (1.0 + 2.0 * kMargin) * height};
+}
+
+View::View(const Camera& camera, const PixelBox& where)
+    : panel(where), center(camera.center), scale(where.height / camera.height) {}
+
+Aabb View::visible(double margin) const {
+  const Vec2 half(0.5 * panel.width + margin, 0.5 * panel.height + margin);
+  return {center - half / scale, center + half / scale};
+}
+
+double roundLength(double longest) {
+  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= longest) return digit * power;
+  }
+  return power;
+}
+
+std::string lengthLabel(double metres) {
+  if (metres >= 1000.0) return fmt::format("{:g} km", metres / 1000.0);
+  if (metres >= 1.0) return fmt::format("{:g} m", metres);
+  if (metres >= 0.01) return fmt::format("{:g} cm", metres * 100.0);
+  return fmt::format("{:g} mm", metres * 1000.0);
+}
+
+}  // namespace merge2d

@@ -1,0 +1,48 @@
+#include "render/frame.h"
+
+#include <utility>
+
+#include "render/frame_parts.h"
+
+namespace merge2d {
+
+Drawing composeFrame(Text& text, const Snapshot& snapshot, const std::vector<BodyInfo>& bodies,
+                     const BodyLooks& looks, const FrameStyle& style,
+                     const CollectionSlots& slots) {
+  const Layout layout = layoutOf(style.width, style.height, style.overlays);
+  const FrameScene scene{
+      snapshot, bodies, looks, style, slots, layout, View(style.camera, layout.panel)};
+  Drawing drawing;
+  if (!style.transparent) drawing.background = style.theme.background;
+  Painter painter(drawing, text);
+
+  painter.beginLayer(layout.panel);
+  drawBodies(painter, scene);
+  drawMarks(painter, scene);
+  painter.beginLayer(layout.panel);
+  drawLabels(painter, scene);
+  painter.beginLayer();
+  drawCaption(painter, scene);
+  drawFooter(painter, scene);
+  return drawing;
+}
+
+FrameDrawer::FrameDrawer(const std::vector<BodyInfo>& bodies, FrameStyle style)
+    : bodies_(bodies),
+      style_(std::move(style)),
+      looks_(bodies),
+      canvas_(style_.width, style_.height) {}
+
+Image FrameDrawer::draw(const Snapshot& snapshot) {
+  const CollectionSlots slots = colors_.update(snapshot);
+  return canvas_.draw(composeFrame(canvas_.text(), snapshot, bodies_, looks_, style_, slots));
+}
+
+Image drawFrame(Canvas& canvas, const Snapshot& snapshot, const std::vector<BodyInfo>& bodies,
+                const FrameStyle& style) {
+  const CollectionSlots slots = CollectionColors().update(snapshot);
+  return canvas.draw(
+      composeFrame(canvas.text(), snapshot, bodies, BodyLooks(bodies), style, slots));
+}
+
+}  // namespace merge2d

@@ -1,0 +1,38 @@
+#pragma once
+/// A snapshot as a picture.
+
+#include <vector>
+
+#include "render/canvas.h"
+#include "render/palette.h"
+#include "render/silhouette.h"
+#include "render/style.h"
+
+namespace merge2d {
+
+/// What is to be drawn; `text` sets the letters and must belong to the canvas that draws them.
+Drawing composeFrame(Text& text, const Snapshot& snapshot, const std::vector<BodyInfo>& bodies,
+                     const BodyLooks& looks, const FrameStyle& style, const CollectionSlots& slots);
+
+/// Draws the pictures of one run, one after the other, with colours that stay.
+class FrameDrawer {
+ public:
+  /// `bodies` must outlive the drawer.
+  FrameDrawer(const std::vector<BodyInfo>& bodies, FrameStyle style);
+
+  const FrameStyle& style() const { return style_; }
+  Image draw(const Snapshot& snapshot);
+
+ private:
+  const std::vector<BodyInfo>& bodies_;
+  FrameStyle style_;
+  BodyLooks looks_;
+  CollectionColors colors_;
+  Canvas canvas_;
+};
+
+/// A single picture.
+Image drawFrame(Canvas& canvas, const Snapshot& snapshot, const std::vector<BodyInfo>& bodies,
+                const FrameStyle& style);
+
+}  // namespace merge2d

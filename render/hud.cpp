@@ -1,0 +1,199 @@
+/// What stands around the world: title and numbers above it, legend and scale bar below.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/frame_parts.h"
+
+namespace merge2d {
+namespace {
+
+constexpr float kMargin = 20.0F;  // between text and the picture's edge [design px]
+
+/// A number of constant width, so that what follows it does not jump: padded with figure spaces.
+std::string padded(long long number, long long largest) {
+  std::string digits = std::to_string(number);
+  const std::size_t width = std::to_string(largest).size();
+  std::string out;
+  for (std::size_t i = digits.size(); i < width; ++i) out += "\u2007";
+  return out + digits;
+}
+
+std::string countsLine(const FrameScene& scene) {
+  const Stats& s = scene.snapshot.stats;
+  const long long n = s.bodies;
+  std::string line = fmt::format("{} bodies  ·  |B| {}  ·  {} collections", n,
+                                 padded(s.active_bodies, n), padded(s.collections, n / 2));
+  if (sleeps(scene.style.mode)) line += fmt::format("  ·  {} asleep", padded(s.asleep, n));
+  return line + fmt::format("  ·  contacts {} active, {} merged", padded(s.contacts, 4 * n),
+                            padded(s.internal_contacts, 4 * n));
+}
+
+/// One sample and what it means.
+struct LegendEntry {
+  std::string meaning;
+  float width;  ///< of the sample [design px]
+  std::function<void(Painter&, Pixel left)> draw;
+};
+
+/// Collects what the picture may show. It depends on the run and not on the frame, so that entries
+/// keep their places.
+class LegendEntries {
+ public:
+  explicit LegendEntries(const FrameScene& scene) : scene_(scene) {
+    addBodies();
+    addMarks();
+  }
+
+  std::vector<LegendEntry> entries;
+
+ private:
+  Paint swatch(const Finish& finish) const {
+    return {.fill = finish.fill, .outline = finish.outline, .line = scene_.px(1.3F)};
+  }
+  PixelBox square(Pixel left) const {
+    const float side = scene_.px(13.0F);
+    return {std::round(left.x), std::round(left.y - 0.5F * side), std::round(side),
+            std::round(side)};
+  }
+  void addSwatch(std::string meaning, const Paint& paint) {
+    entries.push_back({std::move(meaning), 13.0F, [this, paint](Painter& p, Pixel left) {
+                         p.box(square(left), scene_.px(2.0F), paint);
+                       }});
+  }
+
+  void addBodies() {
+    const Theme& theme = scene_.theme();
+    if (merges(scene_.style.mode)) {
+      entries.push_back(
+          {"collections", 29.0F, [this](Painter& p, Pixel left) {
+             for (const int i : {2, 1, 0}) {
+               const auto slot = static_cast<std::size_t>(i);
+               const Pixel at = left + Pixel{scene_.px(8.0F) * static_cast<float>(i), 0.0F};
+               p.box(square(at), scene_.px(2.0F), swatch(scene_.theme().collections[slot]));
+             }
+           }});
+    }
+    addSwatch("free", swatch(theme.free));
+    if (sleeps(scene_.style.mode)) addSwatch("asleep", swatch(theme.asleep));
+    addFixed("pinned", Motion::Pinned);
+    addFixed("scripted", Motion::Scripted);
+  }
+
+  void addFixed(const char* meaning, Motion motion) {
+    const bool any = std::ranges::any_of(
+        scene_.bodies, [&](const BodyInfo& body) { return body.motion == motion; });
+    if (!any) return;
+    Paint paint = swatch(scene_.theme().fixed);
+    paint.hatch = hatchOf(scene_, {}, {}, motion == Motion::Scripted);
+    paint.hatch.stripes = paint.hatch.stripes * 2.0F;
+    addSwatch(meaning, paint);
+  }
+
+  void addMarks() {
+    const Theme& theme = scene_.theme();
+    if (scene_.shows(Overlay::Contacts)) {
+      addMark("merged", drawMergedMark);
+      addMark("active", drawActiveMark);
+      addMark("broken", drawBrokenMark);
+    }
+    if (scene_.shows(Overlay::Forces)) {
+      addArrow("normal", theme.normal_force);
+      addArrow("friction", theme.friction_force);
+      if (merges(scene_.style.mode)) addArrow("internal", theme.internal_force);
+    }
+    if (scene_.shows(Overlay::Velocities)) addArrow("velocity", theme.velocity);
+  }
+
+  void addMark(const char* meaning, void (*mark)(Painter&, const FrameScene&, Pixel, float)) {
+    entries.push_back({meaning, 10.0F, [this, mark](Painter& p, Pixel left) {
+                         mark(p, scene_, left + Pixel{scene_.px(5.0F), 0.0F}, scene_.px(4.2F));
+                       }});
+  }
+  void addArrow(const char* meaning, Color color) {
+    entries.push_back({meaning, 22.0F, [this, color](Painter& p, Pixel left) {
+                         p.arrow(left, left + Pixel{scene_.px(22.0F), 0.0F},
+                                 {.color = color, .width = scene_.px(2.2F)});
+                       }});
+  }
+
+  const FrameScene& scene_;
+};
+
+/// From left to right, as many as fit before `right`.
+void drawLegend(Painter& painter, const FrameScene& scene, float right) {
+  const LegendEntries legend(scene);
+  const Font font = scene.font(13.0F);
+  const float y = scene.layout.footer.y + 0.5F * scene.layout.footer.height;
+  const float baseline = std::round(y + 0.5F * painter.text().capHeight(font));
+  float x = scene.px(kMargin);
+  for (const LegendEntry& entry : legend.entries) {
+    const float sample = scene.px(entry.width) + scene.px(6.0F);
+    const float width = sample + painter.text().width(entry.meaning, font);
+    if (x + width > right) break;
+    entry.draw(painter, {std::round(x), y});
+    painter.write(entry.meaning, font, {x + sample, baseline}, scene.theme().ink_soft);
+    x += width + scene.px(20.0F);
+  }
+}
+
+/// A round length with its label to the left; returns where it starts.
+float drawScale(Painter& painter, const FrameScene& scene) {
+  const Layout& layout = scene.layout;
+  const double length = roundLength(0.16 * double{layout.panel.width} / scene.view.scale);
+  const std::string label = lengthLabel(length);
+  const Font font = scene.font(13.0F);
+  const float right = layout.footer.right() - scene.px(kMargin);
+  const float left = right - scene.view(length);
+  const float y = std::round(layout.footer.y + 0.5F * layout.footer.height);
+  const float line = std::max(1.0F, std::round(scene.px(1.6F))), tick = scene.px(4.0F);
+  const Paint ink{.fill = scene.theme().ink};
+  painter.box({left, y - 0.5F * line, right - left, line}, 0.0F, ink);
+  for (const float x : {left, right - line}) {
+    painter.box({x, y - tick, line, 2.0F * tick}, 0.0F, ink);
+  }
+  const float text = left - scene.px(8.0F) - painter.text().width(label, font);
+  painter.write(label, font, {text, y + 0.5F * painter.text().capHeight(font)}, scene.theme().ink);
+  return text;
+}
+
+}  // namespace
+
+void drawCaption(Painter& painter, const FrameScene& scene) {
+  if (!scene.shows(Overlay::Hud)) return;
+  const Theme& theme = scene.theme();
+  const bool two_lines = scene.layout.caption.height > scene.px(50.0F);
+  const Font title = scene.font(19.0F, Weight::Bold), time = scene.font(19.0F);
+  const Font small = scene.font(13.0F);
+  const float left = scene.px(kMargin);
+  const float right = scene.layout.caption.right() - scene.px(kMargin);
+  const float first = std::round(scene.px(two_lines ? 30.0F : 25.0F));
+  const float second = std::round(scene.px(51.0F)), gap = scene.px(24.0F);
+
+  const std::string clock = fmt::format("t = {:.2f} s", scene.snapshot.time);
+  const std::string step =
+      fmt::format("step {}  ·  {}", scene.snapshot.step, name(scene.style.mode));
+  const float time_left = right - painter.text().width(clock, time);
+  const float step_left = right - painter.text().width(step, small);
+  const auto fit = [&](const std::string& text, Font font, float end) {
+    return painter.text().elided(text, font, end - gap - left);
+  };
+  painter.write(fit(scene.style.title, title, time_left), title, {left, first}, theme.ink);
+  painter.write(clock, time, {time_left, first}, theme.ink);
+  if (!two_lines) return;
+  painter.write(fit(countsLine(scene), small, step_left), small, {left, second}, theme.ink_soft);
+  painter.write(step, small, {step_left, second}, theme.ink_soft);
+}
+
+void drawFooter(Painter& painter, const FrameScene& scene) {
+  float right = scene.layout.footer.right() - scene.px(kMargin);
+  if (scene.shows(Overlay::Scale)) right = drawScale(painter, scene) - scene.px(24.0F);
+  if (scene.shows(Overlay::Legend)) drawLegend(painter, scene, right);
+}
+
+}  // namespace merge2d

@@ -1,0 +1,88 @@
+/// Names of bodies and labels of collections, placed so that none covers another.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "render/frame_parts.h"
+
+namespace merge2d {
+namespace {
+
+/// A text on a plate; put down only where nothing has been written yet.
+class LabelPainter {
+ public:
+  LabelPainter(Painter& painter, const FrameScene& scene) : painter_(painter), scene_(scene) {}
+
+  bool put(const std::string& text, Font font, Pixel at, Color outline) {
+    const float pad_x = scene_.px(5.0F), pad_y = scene_.px(4.0F);
+    const float width = painter_.text().width(text, font) + 2.0F * pad_x;
+    const float cap = painter_.text().capHeight(font);
+    const float height = cap + 2.0F * pad_y;
+    const PixelBox plate{std::round(at.x - 0.5F * width), std::round(at.y - 0.5F * height),
+                         std::round(width), std::round(height)};
+    if (!scene_.view.panel.contains(plate)) return false;
+    for (const PixelBox& other : taken_) {
+      if (other.overlaps(plate)) return false;
+    }
+    taken_.push_back(plate);
+    painter_.box(plate, scene_.px(4.0F),
+                 {.fill = scene_.theme().background, .outline = outline, .line = scene_.px(1.6F)});
+    painter_.write(text, font, {plate.x + 0.5F * plate.width, plate.y + pad_y + cap},
+                   scene_.theme().ink, Align::Center);
+    return true;
+  }
+
+ private:
+  Painter& painter_;
+  const FrameScene& scene_;
+  std::vector<PixelBox> taken_;
+};
+
+/// The member nearest to the centre of mass: a place that surely lies on the collection.
+Vec2 labelPlace(const FrameScene& scene, const CollectionView& collection) {
+  Vec2 best = collection.x;
+  double least = 1e300;
+  for (const BodyId id : collection.bodies) {
+    const BodyState* body = scene.body(id);
+    if (body == nullptr) continue;
+    const double distance = (body->x - collection.x).squaredNorm();
+    if (distance < least) least = distance, best = body->x;
+  }
+  return best;
+}
+
+void labelCollections(LabelPainter& labels, const FrameScene& scene) {
+  std::vector<const CollectionView*> bySize;
+  for (const CollectionView& c : scene.snapshot.collections) bySize.push_back(&c);
+  std::ranges::stable_sort(bySize, std::ranges::greater{},
+                           [](const CollectionView* c) { return c->bodies.size(); });
+  const Font font = scene.font(13.0F, Weight::Bold);
+  for (const CollectionView* c : bySize) {
+    const bool small =
+        scene.view(2.0 * c->box.half.minCoeff()) < 0.8F * static_cast<float>(font.size);
+    if (small) continue;
+    labels.put(fmt::format("C{}", value(c->id)), font, scene.view(labelPlace(scene, *c)),
+               scene.collection(c->id).outline);
+  }
+}
+
+void nameBodies(LabelPainter& labels, const FrameScene& scene) {
+  const Font font = scene.font(12.0F);
+  for (const BodyState& body : scene.snapshot.bodies) {
+    const std::string& name = scene.info(body.id).name;
+    if (!name.empty()) labels.put(name, font, scene.view(body.x), finishOf(scene, body).outline);
+  }
+}
+
+}  // namespace
+
+void drawLabels(Painter& painter, const FrameScene& scene) {
+  LabelPainter labels(painter, scene);
+  if (scene.shows(Overlay::Labels)) labelCollections(labels, scene);
+  if (scene.shows(Overlay::Names)) nameBodies(labels, scene);
+}
+
+}  // namespace merge2d

@@ -1,0 +1,37 @@
+#pragma once
+/// Pictures as PNG files.
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/image.h"
+
+namespace merge2d {
+
+struct PngOptions {
+  bool alpha = false;         ///< keep the alpha channel
+  std::string description{};  ///< text for those who cannot see the picture
+};
+
+/// The bytes of a PNG file: fast rather than small, and nothing but the picture in them (no dates).
+std::vector<std::uint8_t> encodePng(const Image& image, const PngOptions& options = {});
+
+/// Throws IoError for what is not a PNG, is damaged, or is larger than 8192 pixels a side.
+Image decodePng(std::span<const std::uint8_t> bytes);
+
+/// Throws IoError.
+std::vector<std::uint8_t> readFile(const std::filesystem::path& file);
+
+/// The file appears with all its bytes or not at all. Throws IoError.
+void writeAtomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+
+inline Image loadPng(const std::filesystem::path& file) { return decodePng(readFile(file)); }
+inline void savePng(const std::filesystem::path& file, const Image& image,
+                    const PngOptions& options = {}) {
+  writeAtomically(file, encodePng(image, options));
+}
+
+}  // namespace merge2d

@@ -1,0 +1,60 @@
+#include "render/style.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/camera.h"
+#include "render/silhouette.h"
+
+namespace merge2d {
+namespace {
+
+constexpr double kGravity = 9.81;  // [m/s²], for scales only
+
+/// Forces grow towards the bottom of a stack, so the arrow of one body's weight is the shorter the
+/// more bodies find room above each other.
+double automaticForceScale(const std::vector<BodyInfo>& bodies, double typical, double height) {
+  double mass = 0.0;
+  int count = 0;
+  for (const BodyInfo& body : bodies) {
+    if (body.motion != Motion::Dynamic) continue;
+    mass += body.mass;
+    ++count;
+  }
+  if (count == 0 || mass <= 0.0) return 0.0;
+  const double rows = std::clamp(0.6 * height / typical, 1.0, 40.0);
+  return 2.0 * typical / (rows * kGravity * mass / count);
+}
+
+}  // namespace
+
+void adaptToScene(FrameStyle& style, const Scene& scene, const Snapshot& initial,
+                  const std::vector<BodyInfo>& bodies) {
+  style.title = scene.title.empty() ? scene.name : scene.title;
+  style.step = scene.step;
+  const Layout layout = layoutOf(style.width, style.height, style.overlays);
+  style.camera = scene.camera.value_or(
+      fitCamera(initial, bodies, double{layout.panel.width} / double{layout.panel.height}));
+  const double typical = BodyLooks(bodies).typical_width;
+  style.force_scale = automaticForceScale(bodies, typical, style.camera.height);
+  // What falls from the top of the picture to its bottom gets an arrow of a fifth of its height.
+  style.velocity_scale =
+      0.2 * style.camera.height / std::sqrt(2.0 * kGravity * style.camera.height);
+}
+
+Layout layoutOf(int width, int height, const Overlays& overlays) {
+  Layout out;
+  const float w = static_cast<float>(width), h = static_cast<float>(height);
+  out.unit = std::clamp(h / 720.0F, 0.6F, 8.0F);
+  const bool tall = h >= 240.0F;
+  const float top = overlays.has(Overlay::Hud) ? (tall ? 62.0F : 36.0F) * out.unit : 0.0F;
+  const float bottom =
+      overlays.has(Overlay::Legend) || overlays.has(Overlay::Scale) ? 44.0F * out.unit : 0.0F;
+  out.caption = {0.0F, 0.0F, w, std::round(std::min(top, 0.3F * h))};
+  out.footer = {0.0F, 0.0F, w, std::round(std::min(bottom, 0.3F * h))};
+  out.footer.y = h - out.footer.height;
+  out.panel = {0.0F, out.caption.height, w, h - out.caption.height - out.footer.height};
+  return out;
+}
+
+}  // namespace merge2d
