@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
-#include "src2d/core/error.h"
+#include "src2d/scene/file.h"
 #include "src2d/scene/load.h"
 #include "src2d/scene/toml_parse.h"
 
@@ -24,12 +22,11 @@ fs::path sceneFolder() {
 
 /// What the file says it is called; its name when it does not say, or is no scene.
 std::string sceneTitle(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(in), {});
   const std::string name = path.stem().string();
   try {
+    const std::string text = readFile(path);
     return parseToml(SourceText(path.string(), text))["title"].value_or(name);
-  } catch (const InputError&) {
+  } catch (const std::runtime_error&) {
     return name;
   }
 }

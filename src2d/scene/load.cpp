@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "src2d/core/error.h"
 #include "src2d/scene/builtin.h"
+#include "src2d/scene/file.h"
 #include "src2d/scene/interpret.h"
 #include "src2d/scene/override.h"
 #include "src2d/scene/toml_parse.h"
@@ -31,20 +29,6 @@ fs::path resolve(const std::string& name_or_path) {
   for (const BuiltinScene& scene : builtinScenes()) names.push_back(scene.name);
   throw InputError(fmt::format("no built-in scene is called '{}'{}; `merge2d list` names them all",
                                name_or_path, didYouMean(name_or_path, names)));
-}
-
-std::string readText(const fs::path& path) {
-  std::error_code error;
-  const auto size = fs::file_size(path, error);
-  if (error) throw IoError(fmt::format("{}: {}", path.string(), error.message()));
-  if (size > SceneLimits::kFileBytes) {
-    throw InputError(fmt::format("{}: a scene file has at most {} MB, this one {} MB",
-                                 path.string(), SceneLimits::kFileBytes >> 20u, size >> 20u));
-  }
-  std::ifstream in(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in) throw IoError(fmt::format("{}: cannot be read", path.string()));
-  return text;
 }
 
 void warnOfEmptiness(Scene& scene, const std::string& source) {
@@ -76,7 +60,7 @@ Scene parseScene(std::string_view toml, const std::string& source, const Overrid
 Scene loadScene(const std::string& name_or_path, const Overrides& overrides) {
   const fs::path path = resolve(name_or_path);
   if (path.extension() == ".png") return loadDrawing(path, overrides);
-  return parseScene(readText(path), path.string(), overrides);
+  return parseScene(readFile(path), path.string(), overrides);
 }
 
 }  // namespace merge2d

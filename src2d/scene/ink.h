@@ -1,0 +1,34 @@
+#pragma once
+/// What the colours of a drawn scene mean.
+
+#include <optional>
+#include <string_view>
+
+#include "src2d/scene/image.h"
+
+namespace merge2d {
+
+enum class Ink {
+  Empty,    ///< white, or transparent
+  Matter,   ///< any other colour: the darker, the denser
+  Pinned,   ///< blue: red equals green, both below blue
+  Held,     ///< green: red equals blue, both below green
+  Spring,   ///< red
+  Magnet,   ///< magenta
+  Joiner,   ///< yellow: connects, without matter
+  Horizon,  ///< cyan: two of them span the ground
+};
+
+/// Colours are compared with a tolerance of 0.05 (of 1).
+Ink inkOf(const Image::Pixel& pixel);
+
+/// What else the pixel might be meant as, when it is near the border of two inks.
+std::optional<Ink> doubtfulInk(const Image::Pixel& pixel);
+
+/// Mass relative to black, 1 - (0.30 r + 0.59 g + 0.11 b): between 0 and 1.
+double darkness(const Image::Pixel& pixel);
+
+/// "empty", "matter", "a spring", …
+std::string_view describe(Ink ink);
+
+}  // namespace merge2d
