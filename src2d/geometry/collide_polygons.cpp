@@ -107,8 +107,9 @@ Manifold cornerContact(const FacePair& pair, int end, double margin) {
   const Vec2 d = nearest - corner;
   const double distance = d.norm();
   if (distance <= kCornerDistance) return m;
+  // Box2D may prefer A's face by its tolerance of 0.5 mm although it is B's that parts them.
   const double height = pair.height(nearest);
-  if (height <= 0.0) {  // overlapping elsewhere: only the face's own direction parts them
+  if (height < -kCornerDistance) {  // a true overlap: only the face's own direction ends it
     m.normal = pair.normalFromA();
     addPoint(m, nearest - 0.5 * height * pair.normal, height, pair.feature(end));
   } else if (distance <= margin) {
