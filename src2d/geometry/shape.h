@@ -43,8 +43,8 @@ AreaProperties areaProperties(const std::vector<ConvexShape>& shapes);
 
 /// Cuts a simple polygon, convex or not, in either orientation, into convex polygons of at most
 /// `Polygon::kMaxVertices` vertices that cover it without overlap. Collinear and repeated vertices
-/// are dropped. Throws InputError (without a place) when it crosses or touches itself, has fewer than
-/// three distinct vertices or no area.
+/// are dropped. Throws InputError (without a place) when it crosses or touches itself, has fewer
+/// than three distinct vertices or no area.
 std::vector<Polygon> convexPieces(const std::vector<Vec2>& outline);
 
 }  // namespace merge2d
