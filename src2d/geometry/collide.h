@@ -19,7 +19,8 @@ class Collider {
   const ConvexShape& shape() const { return shape_; }
   bool isCircle() const { return count_ == 0; }
 
-  /// Box2D's copies, relative to `origin()`. Polygons carry half of `kUsualMargin` as their radius.
+  /// Box2D's copies, relative to `origin()`. Polygons carry half of `kUsualMargin` and a slack as
+  /// radius.
   const b2CircleShape& circle() const { return circle_; }
   const b2PolygonShape& polygon() const { return polygon_; }
 

@@ -30,7 +30,7 @@ Manifold collidePolygonAndDisc(const Collider& polygon, const Vec2& center, doub
   const b2PolygonShape& shape = polygon.polygon();
   b2CircleShape disc;  // Box2D looks at the sum of the radii only
   disc.m_p = toFloat(center - polygon.origin());
-  disc.m_radius = static_cast<float>(radius + margin) - shape.m_radius;
+  disc.m_radius = static_cast<float>(radius + margin) + kFloatSlack - shape.m_radius;
   b2Manifold found;
   b2CollidePolygonAndCircle(&found, &shape, identity(), &disc, identity());
   if (found.pointCount == 0) return {};

@@ -16,6 +16,10 @@ Manifold collidePolygonAndDisc(const Collider& polygon, const Vec2& center, doub
 Manifold collideDiscs(const Vec2& a, double radius_a, const Vec2& b, double radius_b,
                       double margin);
 
+/// Box2D looks this much farther than asked, so that its rounding loses no point; those beyond the
+/// margin are dropped in double. [m]
+inline constexpr float kFloatSlack = 1e-5F;
+
 inline b2Vec2 toFloat(const Vec2& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y())};
 }

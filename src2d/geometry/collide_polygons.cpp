@@ -71,7 +71,7 @@ void findFaces(b2Manifold& found, const Collider& a, const Collider& b, const Po
     return;
   }
   b2PolygonShape padded = a.polygon();
-  padded.m_radius = static_cast<float>(margin) - b.polygon().m_radius;
+  padded.m_radius = static_cast<float>(margin) + kFloatSlack - b.polygon().m_radius;
   b2CollidePolygons(&found, &padded, identity(), &b.polygon(), xf);
 }
 

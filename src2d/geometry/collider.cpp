@@ -34,7 +34,7 @@ void Collider::fill(const Polygon& polygon) {
   }
   count_ = polygon_.m_count = static_cast<int>(count);
   polygon_.m_centroid.SetZero();
-  polygon_.m_radius = 0.5F * kUsualMargin;
+  polygon_.m_radius = 0.5F * (kUsualMargin + kFloatSlack);
 }
 
 }  // namespace merge2d
