@@ -134,13 +134,19 @@ Finish finishOf(const FrameScene& scene, const BodyState& body) {
   if (isFixed(scene, body)) return theme.fixed;
   if (body.collection == kNoCollection) return body.asleep ? theme.asleep : theme.free;
   // A sleeping collection fades, but its boundary still says which one it is.
-  const Finish& finish = scene.collection(body.collection);
-  return body.asleep ? Finish{theme.asleep.fill, finish.outline} : finish;
+  if (body.asleep) return {theme.asleep.fill, standingOut(scene, body.collection)};
+  return scene.collection(body.collection);
+}
+
+Color standingOut(const FrameScene& scene, CollectionId id) {
+  const auto& [fill, outline] = scene.collection(id);
+  const Color background = scene.theme().background;
+  return contrast(fill, background) > contrast(outline, background) ? fill : outline;
 }
 
 Hatch hatchOf(const FrameScene& scene, Pixel origin, const Rotation& turn, bool scripted) {
   const float period = scene.px(9.0F);
-  const Vec2 across = turn * Vec2(1.0, scripted ? -1.0 : 1.0).normalized();
+  const Vec2 across = turn * Vec2(1.0, scripted ? 1.0 : -1.0).normalized();
   const Pixel stripes = View::direction(across) * (1.0F / period);
   const double phase =
       -(double{origin.x} * double{stripes.x} + double{origin.y} * double{stripes.y});

@@ -8,10 +8,11 @@
 namespace merge2d {
 namespace {
 
-constexpr double kMargin = 0.06;  // of the extent, on each side
-constexpr double kHuge = 2.5;     // a fixed body this much larger than the rest is not shown whole
-constexpr double kNear = 0.25;    // of the extent: how far around it fixed bodies are shown
-constexpr double kSmallest = 1e-3;  // [m]
+constexpr double kMargin = 0.06;     // of the extent, on each side
+constexpr double kHuge = 2.5;        // times the rest: such a fixed body is not shown whole
+constexpr double kNear = 0.1;        // of the height: how far around the rest it is shown
+constexpr double kSpareAbove = 0.3;  // of spare room, by which the picture moves up; 0.5 is all
+constexpr double kSmallest = 1e-3;   // [m]
 
 Aabb intersection(const Aabb& a, const Aabb& b) {
   return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
@@ -39,9 +40,9 @@ Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, 
   Aabb shown = moving.empty() ? all : moving;
   if (shown.empty()) return {};
 
-  // Fixed bodies of the same size as the rest belong to the scene; of larger ones the near part.
+  // Fixed bodies of the same size belong to the scene; of larger ones what is near.
   const double size = std::max(shown.extent().maxCoeff(), kSmallest);
-  const Aabb near = shown.grown(kNear * size);
+  const Aabb near = shown.grown(kNear * std::max(shown.extent().y(), shown.extent().x() / aspect));
   for (const BodyState& body : snapshot.bodies) {
     if (moving.empty() || dynamic(body)) continue;
     const Aabb box = boxOf(body);
@@ -50,8 +51,10 @@ Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, 
     if (!part.empty() && part.lower.y() <= part.upper.y()) shown.include(part);
   }
   const Vec2 extent = shown.extent();
-  const double height = std::max({extent.y(), extent.x() / aspect, kSmallest});
-  return {shown.center(), (1.0 + 2.0 * kMargin) * height};
+  const double needed = (1.0 + 2.0 * kMargin) * extent.y();
+  const double height = std::max({needed, (1.0 + 2.0 * kMargin) * extent.x() / aspect, kSmallest});
+  // In a wide scene most of the spare room is above, where things come from.
+  return {shown.center() + Vec2(0.0, kSpareAbove * (height - needed)), height};
 }
 
 View::View(const Camera& camera, const PixelBox& where)

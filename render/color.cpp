@@ -74,8 +74,8 @@ Color mix(Color a, Color b, double t) {
 double luminance(Color color) { return (kXyz * linear(color))[1]; }
 
 double contrast(Color a, Color b) {
-  const auto [dark, bright] = std::minmax(luminance(a), luminance(b));
-  return (bright + 0.05) / (dark + 0.05);
+  const double la = luminance(a), lb = luminance(b);
+  return (std::max(la, lb) + 0.05) / (std::min(la, lb) + 0.05);
 }
 
 double difference(Color a, Color b, Vision vision) {

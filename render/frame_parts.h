@@ -39,6 +39,8 @@ struct FrameScene {
 bool isFixed(const FrameScene& scene, const BodyState& body);
 /// The colours of a body.
 Finish finishOf(const FrameScene& scene, const BodyState& body);
+/// The one of a collection's two colours that stands out from the background.
+Color standingOut(const FrameScene& scene, CollectionId id);
 /// The stripes of a fixed body at `origin`, turned with it.
 Hatch hatchOf(const FrameScene& scene, Pixel origin, const Rotation& turn, bool scripted);
 

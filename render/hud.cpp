@@ -15,23 +15,41 @@ namespace {
 
 constexpr float kMargin = 20.0F;  // between text and the picture's edge [design px]
 
-/// A number of constant width, so that what follows it does not jump: padded with figure spaces.
-std::string padded(long long number, long long largest) {
-  std::string digits = std::to_string(number);
-  const std::size_t width = std::to_string(largest).size();
-  std::string out;
-  for (std::size_t i = digits.size(); i < width; ++i) out += "\u2007";
-  return out + digits;
+struct Count {
+  long long number;
+  long long largest;  ///< it can become, which says how much room it needs
+  const char* meaning;
+};
+
+std::vector<Count> countsOf(const FrameScene& scene) {
+  const Stats& s = scene.snapshot.stats;
+  const long long n = std::max<long long>(s.bodies, static_cast<long long>(scene.bodies.size()));
+  std::vector<Count> counts = {{s.bodies, n, "bodies"}, {s.active_bodies, n, "active |B|"}};
+  if (merges(scene.style.mode)) counts.push_back({s.collections, n / 2, "collections"});
+  if (sleeps(scene.style.mode)) counts.push_back({s.asleep, n, "asleep"});
+  counts.push_back({s.contacts, 4 * n, "contacts"});
+  if (merges(scene.style.mode)) counts.push_back({s.internal_contacts, 4 * n, "merged contacts"});
+  return counts;
 }
 
-std::string countsLine(const FrameScene& scene) {
-  const Stats& s = scene.snapshot.stats;
-  const long long n = s.bodies;
-  std::string line = fmt::format("{} bodies  ·  |B| {}  ·  {} collections", n,
-                                 padded(s.active_bodies, n), padded(s.collections, n / 2));
-  if (sleeps(scene.style.mode)) line += fmt::format("  ·  {} asleep", padded(s.asleep, n));
-  return line + fmt::format("  ·  contacts {} active, {} merged", padded(s.contacts, 4 * n),
-                            padded(s.internal_contacts, 4 * n));
+/// Numbers in columns that keep their places from frame to frame, as many as fit.
+void drawCounts(Painter& painter, const FrameScene& scene, float baseline, float right) {
+  const Font font = scene.font(13.0F);
+  float x = scene.px(kMargin);
+  for (const Count& count : countsOf(scene)) {
+    const std::string room(std::to_string(count.largest).size(), '0');
+    const float number_end = x + painter.text().width(room, font);
+    const float meaning = number_end + scene.px(5.0F);
+    const float end = meaning + painter.text().width(count.meaning, font);
+    if (end > right) return;
+    const bool first = x == scene.px(kMargin);  // stands at the margin, under the title
+    const Pixel at{first ? x : number_end, baseline};
+    const float written = painter.write(std::to_string(count.number), font, at, scene.theme().ink,
+                                        first ? Align::Left : Align::Right);
+    painter.write(count.meaning, font, {(first ? written : number_end) + scene.px(5.0F), baseline},
+                  scene.theme().ink_soft);
+    x = end + scene.px(18.0F);
+  }
 }
 
 /// One sample and what it means.
@@ -138,14 +156,14 @@ void drawLegend(Painter& painter, const FrameScene& scene, float right) {
     if (x + width > right) break;
     entry.draw(painter, {std::round(x), y});
     painter.write(entry.meaning, font, {x + sample, baseline}, scene.theme().ink_soft);
-    x += width + scene.px(20.0F);
+    x += width + scene.px(17.0F);
   }
 }
 
 /// A round length with its label to the left; returns where it starts.
 float drawScale(Painter& painter, const FrameScene& scene) {
   const Layout& layout = scene.layout;
-  const double length = roundLength(0.16 * double{layout.panel.width} / scene.view.scale);
+  const double length = roundLength(0.12 * double{layout.panel.width} / scene.view.scale);
   const std::string label = lengthLabel(length);
   const Font font = scene.font(13.0F);
   const float right = layout.footer.right() - scene.px(kMargin);
@@ -153,7 +171,7 @@ float drawScale(Painter& painter, const FrameScene& scene) {
   const float y = std::round(layout.footer.y + 0.5F * layout.footer.height);
   const float line = std::max(1.0F, std::round(scene.px(1.6F))), tick = scene.px(4.0F);
   const Paint ink{.fill = scene.theme().ink};
-  painter.box({left, y - 0.5F * line, right - left, line}, 0.0F, ink);
+  painter.box({left, std::round(y - 0.5F * line), right - left, line}, 0.0F, ink);
   for (const float x : {left, right - line}) {
     painter.box({x, y - tick, line, 2.0F * tick}, 0.0F, ink);
   }
@@ -169,25 +187,24 @@ void drawCaption(Painter& painter, const FrameScene& scene) {
   const Theme& theme = scene.theme();
   const bool two_lines = scene.layout.caption.height > scene.px(50.0F);
   const Font title = scene.font(19.0F, Weight::Bold), time = scene.font(19.0F);
-  const Font small = scene.font(13.0F);
-  const float left = scene.px(kMargin);
+  const float left = scene.px(kMargin), gap = scene.px(24.0F);
   const float right = scene.layout.caption.right() - scene.px(kMargin);
-  const float first = std::round(scene.px(two_lines ? 30.0F : 25.0F));
-  const float second = std::round(scene.px(51.0F)), gap = scene.px(24.0F);
 
+  const float first = std::round(scene.px(two_lines ? 30.0F : 25.0F));
   const std::string clock = fmt::format("t = {:.2f} s", scene.snapshot.time);
+  const float time_left = right - painter.text().width(clock, time);
+  painter.write(clock, time, {time_left, first}, theme.ink);
+  painter.write(painter.text().elided(scene.style.title, title, time_left - gap - left), title,
+                {left, first}, theme.ink);
+  if (!two_lines) return;
+
+  const Font small = scene.font(13.0F);
+  const float second = std::round(scene.px(51.0F));
   const std::string step =
       fmt::format("step {}  ·  {}", scene.snapshot.step, name(scene.style.mode));
-  const float time_left = right - painter.text().width(clock, time);
   const float step_left = right - painter.text().width(step, small);
-  const auto fit = [&](const std::string& text, Font font, float end) {
-    return painter.text().elided(text, font, end - gap - left);
-  };
-  painter.write(fit(scene.style.title, title, time_left), title, {left, first}, theme.ink);
-  painter.write(clock, time, {time_left, first}, theme.ink);
-  if (!two_lines) return;
-  painter.write(fit(countsLine(scene), small, step_left), small, {left, second}, theme.ink_soft);
   painter.write(step, small, {step_left, second}, theme.ink_soft);
+  drawCounts(painter, scene, second, step_left - gap);
 }
 
 void drawFooter(Painter& painter, const FrameScene& scene) {

@@ -65,7 +65,7 @@ void labelCollections(LabelPainter& labels, const FrameScene& scene) {
         scene.view(2.0 * c->box.half.minCoeff()) < 0.8F * static_cast<float>(font.size);
     if (small) continue;
     labels.put(fmt::format("C{}", value(c->id)), font, scene.view(labelPlace(scene, *c)),
-               scene.collection(c->id).outline);
+               standingOut(scene, c->id));
   }
 }
 

@@ -86,8 +86,7 @@ void drawWelds(Painter& painter, const FrameScene& scene) {
     if (a == nullptr || b == nullptr) continue;
     const auto found = meetings.find(ordered(weld.a, weld.b));
     const Vec2 meeting = found != meetings.end() ? found->second : isFixed(scene, *a) ? b->x : a->x;
-    const CollectionId id = a->collection != kNoCollection ? a->collection : b->collection;
-    drawLink(painter, scene, ordered(weld.a, weld.b), meeting, width, scene.collection(id).outline);
+    drawLink(painter, scene, ordered(weld.a, weld.b), meeting, width, scene.theme().graph);
   }
 }
 
@@ -123,7 +122,7 @@ void drawContacts(Painter& painter, const FrameScene& scene) {
 }
 
 ArrowPaint arrowPaint(const FrameScene& scene, Color color) {
-  const float width = std::clamp(0.07F * scene.bodySize(), scene.px(1.4F), scene.px(2.6F));
+  const float width = std::clamp(0.07F * scene.bodySize(), scene.px(1.1F), scene.px(2.6F));
   return {.color = color, .rim = scene.theme().rim, .width = width, .rim_width = scene.px(1.0F)};
 }
 

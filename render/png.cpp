@@ -10,6 +10,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "render/png_chunks.h"
 #include "src2d/core/error.h"
 
 namespace merge2d {
@@ -147,6 +148,19 @@ Image decodePng(std::span<const std::uint8_t> bytes) {
   png_read_image(png, rows.data());
   png_read_end(png, nullptr);
   return image;
+}
+
+PngSummary inspectPng(std::span<const std::uint8_t> bytes) {
+  PngSummary out;
+  PngChunks chunks(bytes);
+  while (const auto chunk = chunks.next()) {
+    if (chunk->type == "IHDR" && chunk->data.size() == 13) {
+      out.width = static_cast<int>(fromBigEndian(chunk->data));
+      out.height = static_cast<int>(fromBigEndian(chunk->data.subspan(4)));
+    }
+    out.complete = chunk->type == "IEND";
+  }
+  return out;
 }
 
 std::vector<std::uint8_t> readFile(const std::filesystem::path& file) {

@@ -22,6 +22,13 @@ std::vector<std::uint8_t> encodePng(const Image& image, const PngOptions& option
 /// Throws IoError for what is not a PNG, is damaged, or is larger than 8192 pixels a side.
 Image decodePng(std::span<const std::uint8_t> bytes);
 
+/// What can be told of a file without decoding it.
+struct PngSummary {
+  bool complete = false;  ///< from the signature to the last chunk
+  int width = 0, height = 0;
+};
+PngSummary inspectPng(std::span<const std::uint8_t> bytes);
+
 /// Throws IoError.
 std::vector<std::uint8_t> readFile(const std::filesystem::path& file);
 

@@ -46,7 +46,7 @@ Piece makePiece(const ConvexShape& shape) {
 /// The piece as a polygon; a disc with so many corners that none can be seen.
 Outline outlineOf(const Piece& piece) {
   if (piece.kind != Piece::Kind::Disc) return piece.vertices;
-  constexpr int kCorners = 72;
+  constexpr int kCorners = 48;
   Outline out;
   for (int i = 0; i < kCorners; ++i) {
     const Rotation turn = Rotation::of(2.0 * std::numbers::pi * i / kCorners);
@@ -93,6 +93,41 @@ void addRest(std::vector<Segment>& out, const Vec2& a, const Vec2& b, std::vecto
   }
 }
 
+/// Segments that go on in the same direction become one: where two ends met, a dot would show.
+std::vector<Segment> joined(std::vector<Segment> segments, double slack) {
+  const double near = 8.0 * slack;
+  const auto goesOn = [&](const Segment& s, const Segment& next) {
+    const Vec2 a = s.to - s.from, b = next.to - next.from;
+    return (next.from - s.to).norm() <= near && a.dot(b) > 0.0 &&
+           std::abs(cross(a, b)) <= 1e-6 * a.norm() * b.norm();
+  };
+  const auto start = [](const Segment& s) { return s.from.x(); };
+  std::ranges::sort(segments, {}, start);
+
+  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> next(segments.size(), kNone);
+  std::vector<bool> continues(segments.size(), false);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const double x = segments[i].to.x();
+    const auto first = std::ranges::lower_bound(segments, x - near, {}, start);
+    for (auto it = first; it != segments.end() && start(*it) <= x + near; ++it) {
+      const auto j = static_cast<std::size_t>(it - segments.begin());
+      if (continues[j] || !goesOn(segments[i], *it)) continue;
+      next[i] = j;
+      continues[j] = true;
+      break;
+    }
+  }
+  std::vector<Segment> out;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (continues[i]) continue;
+    std::size_t last = i;
+    while (next[last] != kNone) last = next[last];
+    out.push_back({segments[i].from, segments[last].to});
+  }
+  return out;
+}
+
 std::vector<Segment> boundaryOf(const std::vector<Piece>& pieces, double slack) {
   std::vector<Outline> outlines;
   std::vector<Aabb> boxes;
@@ -120,7 +155,7 @@ std::vector<Segment> boundaryOf(const std::vector<Piece>& pieces, double slack) 
       addRest(out, a, b, hidden, slack);
     }
   }
-  return out;
+  return joined(std::move(out), slack);
 }
 
 }  // namespace

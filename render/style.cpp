@@ -37,9 +37,9 @@ void adaptToScene(FrameStyle& style, const Scene& scene, const Snapshot& initial
       fitCamera(initial, bodies, double{layout.panel.width} / double{layout.panel.height}));
   const double typical = BodyLooks(bodies).typical_width;
   style.force_scale = automaticForceScale(bodies, typical, style.camera.height);
-  // What falls from the top of the picture to its bottom gets an arrow of a fifth of its height.
+  // What falls from the top of the picture to its bottom gets an arrow of a third of its height.
   style.velocity_scale =
-      0.2 * style.camera.height / std::sqrt(2.0 * kGravity * style.camera.height);
+      0.33 * style.camera.height / std::sqrt(2.0 * kGravity * style.camera.height);
 }
 
 Layout layoutOf(int width, int height, const Overlays& overlays) {

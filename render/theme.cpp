@@ -43,7 +43,7 @@ Theme makeLight() {
   t.free = {rgb(0x737b86), rgb(0x2b3036)};
   t.asleep = {rgb(0xd9dce0), rgb(0x868d96)};
   t.fixed = {rgb(0xf3f4f6), rgb(0x4b525b)};
-  t.hatch = rgb(0xa9b0b9);
+  t.hatch = rgb(0xb9bfc7);
   t.magnet = rgb(0xb5179e);
   t.spring = rgb(0x4b525b);
   t.merged_contact = rgb(0x1f2328);
@@ -65,9 +65,10 @@ Theme makeDark() {
   t.background = rgb(0x14171c);
   t.ink = rgb(0xe8ebf0);
   t.ink_soft = rgb(0xa2abb8);
-  t.collections = collectionFinishes(kBlack, 0.08, kWhite, 0.55);
-  t.free = {rgb(0x6b7480), rgb(0xc3cad4)};
-  t.asleep = {rgb(0x333941), rgb(0x7c8693)};
+  // Here the fills stand out by themselves, and the lines between them are darker still.
+  t.collections = collectionFinishes(kWhite, 0.06, t.background, 0.8);
+  t.free = {rgb(0x656e7a), rgb(0x1f242b)};
+  t.asleep = {rgb(0x3a414b), rgb(0x7c8693)};
   t.fixed = {rgb(0x1f242b), rgb(0xa2abb8)};
   t.hatch = rgb(0x4c5561);
   t.magnet = rgb(0xff7be5);
@@ -91,7 +92,7 @@ Theme makePrint() {
   t.ink = kBlack;
   t.ink_soft = rgb(0x404040);
   t.collections = collectionFinishes(kWhite, 0.3, kBlack, 1.0);
-  t.free = {rgb(0x8c8c8c), kBlack};
+  t.free = {rgb(0x747474), kBlack};
   t.asleep = {rgb(0xe2e2e2), rgb(0x6e6e6e)};
   t.fixed = {kWhite, kBlack};
   t.hatch = rgb(0x808080);

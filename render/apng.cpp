@@ -1,0 +1,115 @@
+/// Source: W3C, Portable Network Graphics (Third Edition), 2025, section 11.3.6 (acTL, fcTL, fdAT).
+
+#include "render/apng.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "render/png.h"
+#include "render/png_chunks.h"
+#include "src2d/core/error.h"
+
+namespace merge2d {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+void write(std::ofstream& out, std::span<const std::uint8_t> bytes) {
+  out.write(reinterpret_cast<const char*>(bytes.data()),
+            static_cast<std::streamsize>(bytes.size()));
+}
+
+void append(Bytes& out, std::uint32_t number) {
+  const auto bytes = bigEndian(number);
+  out.insert(out.end(), bytes.begin(), bytes.end());
+}
+
+}  // namespace
+
+ApngWriter::ApngWriter(std::filesystem::path file, int frames_per_second)
+    : file_(std::move(file)),
+      temporary_(file_.string() + ".part"),
+      out_(temporary_, std::ios::binary | std::ios::trunc),
+      frames_per_second_(static_cast<std::uint16_t>(std::clamp(frames_per_second, 1, 1000))) {
+  if (!out_) throw IoError(fmt::format("cannot write {}", file_.string()));
+}
+
+ApngWriter::~ApngWriter() {
+  if (!out_.is_open()) return;
+  out_.close();
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
+void ApngWriter::add(const Image& image, bool alpha) { add(encodePng(image, {.alpha = alpha})); }
+
+void ApngWriter::add(std::span<const std::uint8_t> png) {
+  PngChunks chunks(png);
+  const auto header = chunks.next();
+  if (!header || header->type != "IHDR") throw IoError("not a PNG file");
+  if (frames_ == 0) writeHeader(header->data);
+  if (!std::ranges::equal(header->data, header_)) {
+    throw IoError("the frames of an animation must have the same size and kind of pixels");
+  }
+  writeFrameControl();
+  while (const auto chunk = chunks.next()) {
+    if (chunk->type != "IDAT") continue;
+    if (frames_ == 0) {
+      write(out_, pngChunk("IDAT", chunk->data));
+    } else {
+      write(out_, pngChunk("fdAT", bigEndian(sequence_++), chunk->data));
+    }
+  }
+  ++frames_;
+}
+
+void ApngWriter::writeHeader(std::span<const std::uint8_t> ihdr) {
+  const std::uint32_t width = fromBigEndian(ihdr), height = fromBigEndian(ihdr.subspan(4));
+  if (width % 2 != 0 || height % 2 != 0) {
+    throw IoError(fmt::format("an animation needs even sizes, not {}x{}", width, height));
+  }
+  header_.assign(ihdr.begin(), ihdr.end());
+  write(out_, kPngSignature);
+  write(out_, pngChunk("IHDR", ihdr));
+  control_ = out_.tellp();
+  writeAnimationControl();
+}
+
+/// The number of frames, which is known at the end only: written twice.
+void ApngWriter::writeAnimationControl() {
+  Bytes data;
+  append(data, frames_);
+  append(data, 0);  // plays: for ever
+  write(out_, pngChunk("acTL", data));
+}
+
+void ApngWriter::writeFrameControl() {
+  constexpr std::uint8_t kKeep = 0, kReplace = 0;
+  Bytes data;
+  append(data, sequence_++);
+  data.insert(data.end(), header_.begin(), header_.begin() + 8);  // width and height
+  append(data, 0);                                                // x offset
+  append(data, 0);                                                // y offset
+  const std::uint16_t fps = frames_per_second_;
+  for (const int byte : {0, 1, fps >> 8, fps & 0xff})
+    data.push_back(static_cast<std::uint8_t>(byte));
+  data.push_back(kKeep);
+  data.push_back(kReplace);
+  write(out_, pngChunk("fcTL", data));
+}
+
+void ApngWriter::finish() {
+  if (frames_ == 0) throw IoError("an animation needs at least one frame");
+  write(out_, pngChunk("IEND", {}));
+  out_.seekp(control_);
+  writeAnimationControl();
+  out_.close();
+  std::error_code failed;
+  if (out_) std::filesystem::rename(temporary_, file_, failed);
+  if (!out_ || failed) throw IoError(fmt::format("cannot write {}", file_.string()));
+}
+
+}  // namespace merge2d

@@ -1,0 +1,44 @@
+#pragma once
+/// Animated PNG.
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <span>
+
+#include "render/image.h"
+
+namespace merge2d {
+
+/// Strings PNG pictures of one size together to an animation, without compressing them again.
+/// Readers that know nothing of animation show the first picture.
+class ApngWriter {
+ public:
+  /// The file appears when `finish` is called. Throws IoError.
+  ApngWriter(std::filesystem::path file, int frames_per_second);
+  ~ApngWriter();
+  ApngWriter(const ApngWriter&) = delete;
+  ApngWriter& operator=(const ApngWriter&) = delete;
+
+  /// A frame as the bytes of a PNG file. Throws IoError for another size or kind of pixels than
+  /// the first frame's, and for odd sizes.
+  void add(std::span<const std::uint8_t> png);
+  void add(const Image& image, bool alpha = false);
+  void finish();
+
+  std::uint32_t frames() const { return frames_; }
+
+ private:
+  void writeHeader(std::span<const std::uint8_t> ihdr);
+  void writeAnimationControl();
+  void writeFrameControl();
+
+  std::filesystem::path file_, temporary_;
+  std::ofstream out_;
+  std::uint16_t frames_per_second_;
+  std::vector<std::uint8_t> header_;  ///< IHDR of the first frame
+  std::streampos control_{};          ///< where acTL stands
+  std::uint32_t frames_ = 0, sequence_ = 0;
+};
+
+}  // namespace merge2d

@@ -1,0 +1,193 @@
+#include "render/sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "render/frame.h"
+#include "render/png.h"
+#include "src2d/core/error.h"
+
+namespace merge2d {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Job {
+  Snapshot snapshot;
+  CollectionSlots slots;
+  std::filesystem::path file;
+};
+
+/// Jobs on their way to the workers: so many that none waits, so few that memory stays bounded.
+class Queue {
+ public:
+  explicit Queue(std::size_t room) : room_(room) {}
+
+  /// Waits for room. False when the queue is closed.
+  bool push(Job job) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return jobs_.size() < room_ || closed_; });
+    if (closed_) return false;
+    jobs_.push_back(std::move(job));
+    changed_.notify_all();
+    return true;
+  }
+
+  /// Waits for a job. False when there will be none any more.
+  bool pop(Job& job) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !jobs_.empty() || closed_; });
+    if (jobs_.empty()) return false;
+    job = std::move(jobs_.front());
+    jobs_.pop_front();
+    changed_.notify_all();
+    return true;
+  }
+
+  /// Nothing more comes in; what waits is worked off or dropped.
+  void close(bool drop) {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    if (drop) jobs_.clear();
+    changed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> jobs_;
+  std::size_t room_;
+  bool closed_ = false;
+};
+
+/// Whether a frame of this size is there with its first and its last bytes.
+bool isComplete(const std::filesystem::path& file, const FrameStyle& style) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(file, missing)) return false;
+  const PngSummary found = inspectPng(readFile(file));
+  return found.complete && found.width == style.width && found.height == style.height;
+}
+
+}  // namespace
+
+std::string frameName(std::int64_t number) { return fmt::format("frame_{:06}.png", number); }
+
+struct SequenceWriter::Impl {
+  Impl(const std::vector<BodyInfo>& bodies_in, FrameStyle style_in, SequenceOptions options_in)
+      : bodies(bodies_in),
+        style(std::move(style_in)),
+        options(std::move(options_in)),
+        looks(bodies),
+        queue(2 * static_cast<std::size_t>(std::max(1, options.workers))) {
+    std::error_code failed;
+    std::filesystem::create_directories(options.folder, failed);
+    if (failed) {
+      throw IoError(fmt::format("cannot make {}: {}", options.folder.string(), failed.message()));
+    }
+    for (int i = 0; i < std::max(1, options.workers); ++i) {
+      workers.emplace_back([this] { work(); });
+    }
+  }
+
+  ~Impl() { stop(true); }
+
+  void stop(bool drop) {
+    queue.close(drop);
+    for (std::thread& worker : workers) worker.join();
+    workers.clear();
+  }
+
+  /// A worker: draws and writes one job after the other until there are none.
+  void work() {
+    try {
+      std::unique_ptr<Canvas> canvas;
+      for (Job job; queue.pop(job);) {
+        if (!canvas) canvas = std::make_unique<Canvas>(style.width, style.height);
+        drawAndWrite(*canvas, job);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!error) error = std::current_exception();
+      queue.close(true);
+    }
+  }
+
+  void drawAndWrite(Canvas& canvas, const Job& job) {
+    const Clock::time_point start = Clock::now();
+    const Image image =
+        canvas.draw(composeFrame(canvas.text(), job.snapshot, bodies, looks, style, job.slots));
+    const double draw_seconds = secondsSince(start);
+    const std::vector<std::uint8_t> png = encodePng(image, {.alpha = style.transparent});
+    writeAtomically(job.file, png);
+
+    const std::lock_guard lock(mutex);
+    ++stats.written;
+    stats.bytes += png.size();
+    stats.draw_seconds += draw_seconds;
+    stats.encode_seconds += secondsSince(start) - draw_seconds;
+  }
+
+  void rethrow() {
+    const std::lock_guard lock(mutex);
+    if (error) std::rethrow_exception(error);
+  }
+
+  const std::vector<BodyInfo>& bodies;
+  FrameStyle style;
+  SequenceOptions options;
+  BodyLooks looks;
+  CollectionColors colors;
+  std::int64_t next = 0;
+  Queue queue;
+  std::mutex mutex;  // guards what follows
+  SequenceStats stats;
+  std::exception_ptr error;
+  std::vector<std::thread> workers;
+};
+
+SequenceWriter::SequenceWriter(const std::vector<BodyInfo>& bodies, FrameStyle style,
+                               SequenceOptions options)
+    : impl_(std::make_unique<Impl>(bodies, std::move(style), std::move(options))) {}
+
+SequenceWriter::~SequenceWriter() = default;
+
+void SequenceWriter::add(Snapshot snapshot) {
+  Impl& w = *impl_;
+  CollectionSlots slots = w.colors.update(snapshot);
+  const std::filesystem::path file = w.options.folder / frameName(w.next++);
+  if (w.options.resume && isComplete(file, w.style)) {
+    const std::lock_guard lock(w.mutex);
+    ++w.stats.kept;
+    return;
+  }
+  if (!w.queue.push({std::move(snapshot), std::move(slots), file})) w.rethrow();
+}
+
+void SequenceWriter::skip(const Snapshot& snapshot) { impl_->colors.update(snapshot); }
+
+void SequenceWriter::finish() {
+  impl_->stop(false);
+  impl_->rethrow();
+}
+
+std::int64_t SequenceWriter::frames() const { return impl_->next; }
+
+SequenceStats SequenceWriter::stats() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->stats;
+}
+
+}  // namespace merge2d

@@ -1,0 +1,101 @@
+#include "render/apng.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "render/png.h"
+#include "render/png_chunks.h"
+#include "src2d/core/error.h"
+#include "tests/render/temporary_folder.h"
+
+namespace merge2d {
+namespace {
+
+TEST(Apng, HoldsAllFramesInOrder) {
+  const TemporaryFolder folder;
+  ApngWriter writer(folder.path() / "a.png", 25);
+  for (const std::uint32_t color : {0xff0000U, 0x00ff00U, 0x0000ffU})
+    writer.add(Image(16, 8, rgb(color)));
+  writer.finish();
+  EXPECT_EQ(folder.count(), 1U);
+
+  const auto bytes = readFile(folder.path() / "a.png");
+  std::vector<std::string> types;
+  std::uint32_t sequence = 0;
+  PngChunks chunks(bytes);
+  while (const auto chunk = chunks.next()) {
+    types.emplace_back(chunk->type);
+    if (chunk->type == "acTL") {
+      EXPECT_EQ(fromBigEndian(chunk->data), 3U);
+    }
+    if (chunk->type == "fcTL" || chunk->type == "fdAT") {
+      EXPECT_EQ(fromBigEndian(chunk->data), sequence++);
+    }
+    if (chunk->type == "fcTL") {
+      EXPECT_EQ(fromBigEndian(chunk->data.subspan(4)), 16U);
+      EXPECT_EQ(fromBigEndian(chunk->data.subspan(8)), 8U);
+      EXPECT_EQ(fromBigEndian(chunk->data.subspan(20)), 1U << 16 | 25U) << "a 25th of a second";
+    }
+  }
+  EXPECT_EQ(types, (std::vector<std::string>{"IHDR", "acTL", "fcTL", "IDAT", "fcTL", "fdAT", "fcTL",
+                                             "fdAT", "IEND"}));
+}
+
+TEST(Apng, AFrameCanBeTakenOutAgain) {
+  const TemporaryFolder folder;
+  ApngWriter writer(folder.path() / "a.png", 30);
+  writer.add(Image(16, 8, rgb(0xff0000)));
+  writer.add(Image(16, 8, rgb(0x0000ff)));
+  writer.finish();
+  // The second frame's data without its sequence number is the data of a PNG file.
+  const auto bytes = readFile(folder.path() / "a.png");
+  std::vector<std::uint8_t> png(kPngSignature.begin(), kPngSignature.end());
+  const auto append = [&](const std::vector<std::uint8_t>& b) {
+    png.insert(png.end(), b.begin(), b.end());
+  };
+  PngChunks chunks(bytes);
+  while (const auto chunk = chunks.next()) {
+    if (chunk->type == "IHDR") append(pngChunk("IHDR", chunk->data));
+    if (chunk->type == "fdAT") append(pngChunk("IDAT", chunk->data.subspan(4)));
+  }
+  append(pngChunk("IEND", {}));
+  EXPECT_EQ(decodePng(png).at(3, 3), rgb(0x0000ff));
+}
+
+TEST(Apng, ReadersWithoutAnimationSeeTheFirstFrame) {
+  const TemporaryFolder folder;
+  ApngWriter writer(folder.path() / "a.png", 30);
+  writer.add(Image(16, 8, rgb(0xff0000)));
+  writer.add(Image(16, 8, rgb(0x0000ff)));
+  writer.finish();
+  EXPECT_EQ(loadPng(folder.path() / "a.png").at(3, 3), rgb(0xff0000));
+}
+
+TEST(Apng, RefusesOddSizesAndFramesThatDiffer) {
+  const TemporaryFolder folder;
+  ApngWriter odd(folder.path() / "odd.png", 30);
+  EXPECT_THROW(odd.add(Image(15, 8)), IoError);
+  ApngWriter writer(folder.path() / "a.png", 30);
+  writer.add(Image(16, 8));
+  EXPECT_THROW(writer.add(Image(18, 8)), IoError);
+  EXPECT_THROW(writer.add(Image(16, 8), true), IoError);
+}
+
+TEST(Apng, LeavesNothingBehindWhenItIsNotFinished) {
+  const TemporaryFolder folder;
+  {
+    ApngWriter writer(folder.path() / "a.png", 30);
+    writer.add(Image(16, 8));
+  }
+  EXPECT_EQ(folder.count(), 0U);
+}
+
+TEST(EvenSize, RoundsUp) {
+  EXPECT_EQ(evenSize(1280), 1280);
+  EXPECT_EQ(evenSize(853), 854);
+}
+
+}  // namespace
+}  // namespace merge2d

@@ -1,0 +1,119 @@
+#include "render/png.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "render/png_chunks.h"
+#include "src2d/core/error.h"
+#include "tests/render/temporary_folder.h"
+
+namespace merge2d {
+namespace {
+
+/// Colours and opacities of all kinds.
+Image gradient(int width, int height, bool opaque) {
+  Image image(width, height);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    image.rgba[i] = static_cast<std::uint8_t>(i * 37 + i / 91);
+    if (opaque && i % 4 == 3) image.rgba[i] = 255;
+  }
+  return image;
+}
+
+std::vector<std::string> chunkTypes(const std::vector<std::uint8_t>& png) {
+  std::vector<std::string> types;
+  PngChunks chunks(png);
+  while (const auto chunk = chunks.next()) types.emplace_back(chunk->type);
+  return types;
+}
+
+TEST(Png, AnOpaquePictureComesBackAsItWas) {
+  const Image image = gradient(37, 21, true);
+  EXPECT_EQ(decodePng(encodePng(image)).rgba, image.rgba);
+}
+
+TEST(Png, ATransparentPictureComesBackAsItWas) {
+  const Image image = gradient(37, 21, false);
+  EXPECT_EQ(decodePng(encodePng(image, {.alpha = true})).rgba, image.rgba);
+}
+
+TEST(Png, WithoutAlphaOnlyColoursAreKept) {
+  const Image image = decodePng(encodePng(gradient(5, 4, false)));
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) EXPECT_EQ(image.rgba[i], 255);
+}
+
+TEST(Png, HoldsNothingButThePicture) {
+  EXPECT_EQ(chunkTypes(encodePng(gradient(8, 8, true))),
+            (std::vector<std::string>{"IHDR", "IDAT", "IEND"}));
+}
+
+TEST(Png, CanCarryADescription) {
+  const auto png = encodePng(gradient(8, 8, true), {.description = "Zwei Würfel, λ = 3 N s"});
+  EXPECT_EQ(chunkTypes(png), (std::vector<std::string>{"IHDR", "iTXt", "IDAT", "IEND"}));
+  const std::string bytes(png.begin(), png.end());
+  EXPECT_NE(bytes.find("Zwei Würfel, λ = 3 N s"), std::string::npos);
+  EXPECT_EQ(decodePng(png).width, 8);
+}
+
+TEST(Png, TheSamePictureGivesTheSameBytes) {
+  EXPECT_EQ(encodePng(gradient(64, 64, true)), encodePng(gradient(64, 64, true)));
+}
+
+TEST(Png, DamagedFilesAreRefused) {
+  std::vector<std::uint8_t> png = encodePng(gradient(32, 32, true));
+  EXPECT_THROW(decodePng(std::span(png).first(4)), IoError);
+  EXPECT_THROW(decodePng(std::span(png).first(png.size() / 2)), IoError);
+  std::vector<std::uint8_t> flipped = png;
+  flipped[png.size() / 2] ^= 0x55;
+  EXPECT_THROW(decodePng(flipped), IoError);
+  flipped = png;
+  flipped[0] = 'x';
+  EXPECT_THROW(decodePng(flipped), IoError);
+}
+
+TEST(Png, AHugeSizeIsRefusedBeforeAnyMemoryIsTaken) {
+  std::vector<std::uint8_t> header = {0, 1, 0x86, 0xa0, 0, 1, 0x86, 0xa0, 8, 2, 0, 0, 0};
+  std::vector<std::uint8_t> png(kPngSignature.begin(), kPngSignature.end());
+  for (const auto& chunk : {pngChunk("IHDR", header), pngChunk("IDAT", {}), pngChunk("IEND", {})}) {
+    png.insert(png.end(), chunk.begin(), chunk.end());
+  }
+  EXPECT_THROW(decodePng(png), IoError);
+}
+
+TEST(InspectPng, KnowsACompleteFileFromACutOne) {
+  const auto png = encodePng(gradient(32, 20, true));
+  const PngSummary whole = inspectPng(png);
+  EXPECT_TRUE(whole.complete);
+  EXPECT_EQ(whole.width, 32);
+  EXPECT_EQ(whole.height, 20);
+  EXPECT_FALSE(inspectPng(std::span(png).first(png.size() - 1)).complete);
+  EXPECT_FALSE(inspectPng({}).complete);
+}
+
+TEST(WriteAtomically, LeavesOneFileWithAllBytes) {
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> bytes = {1, 2, 3};
+  writeAtomically(folder.path() / "a.png", bytes);
+  EXPECT_EQ(readFile(folder.path() / "a.png"), bytes);
+  EXPECT_EQ(folder.count(), 1U);
+}
+
+TEST(WriteAtomically, ReplacesWhatWasThere) {
+  const TemporaryFolder folder;
+  writeAtomically(folder.path() / "a", std::vector<std::uint8_t>{1, 2, 3});
+  writeAtomically(folder.path() / "a", std::vector<std::uint8_t>{4});
+  EXPECT_EQ(readFile(folder.path() / "a"), (std::vector<std::uint8_t>{4}));
+}
+
+TEST(WriteAtomically, SaysWhichFileCannotBeWritten) {
+  try {
+    writeAtomically("/nowhere/at/all.png", std::vector<std::uint8_t>{1});
+    FAIL() << "written";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("/nowhere/at/all.png"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace merge2d
