@@ -207,6 +207,10 @@ toml::table parseToml(const SourceText& source) {
     return toml::parse(source.text(), std::string_view(source.name()));
   } catch (const toml::parse_error& error) {
     SyntaxError(source, error).report();
+  } catch (const TomlAssertion&) {
+    const auto missing = scanToml(source.text(), kEnd, kUnlimited).missing_value;
+    if (!missing) throw InputError(source.name() + ": this is not TOML");
+    throw InputError(source.message(*missing, "the value after '=' is missing"));
   }
 }
 

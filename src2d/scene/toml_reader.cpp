@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "src2d/scene/settings_list.h"
+
 namespace merge2d {
 namespace {
 
@@ -14,11 +16,28 @@ std::string shown(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) {
     return fmt::format("the text \"{}\"", text->substr(0, 40));
   }
-  if (const auto number = node.value_exact<double>()) return fmt::format("{:#}", *number);
+  if (const auto number = node.value_exact<double>()) {
+    const std::string digits = fmt::format("{}", *number);
+    return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
+  }
   if (const auto integer = node.value_exact<std::int64_t>()) return fmt::format("{}", *integer);
   if (const auto truth = node.value_exact<bool>()) return *truth ? "true" : "false";
   if (const auto* array = node.as_array()) return fmt::format("a list of {}", array->size());
   return node.is_table() ? "a table" : "a date or time";
+}
+
+/// " (it belongs in [merging])", for a setting or a key of the whole scene in a wrong table.
+std::string homeOf(std::string_view key) {
+  constexpr std::array<std::string_view, 5> kTop{"title", "gravity", "step", "duration", "seed"};
+  if (std::find(kTop.begin(), kTop.end(), key) != kTop.end()) {
+    return " (it belongs at the top, before the first [table])";
+  }
+  std::string homes;
+  Settings settings;
+  forEachSetting(settings, [&](std::string_view table, std::string_view setting, auto&, auto&) {
+    if (setting == key) homes += fmt::format("{}[{}]", homes.empty() ? "" : " or ", table);
+  });
+  return homes.empty() ? "" : fmt::format(" (it belongs in {})", homes);
 }
 
 }  // namespace
@@ -172,8 +191,10 @@ void TableReader::done() const {
     if (unknown == nullptr || position(key) < position(*unknown)) unknown = &key;
   }
   if (unknown != nullptr) {
-    source_->fail(unknown->source(), fmt::format("unknown key '{}' in {}{}", unknown->str(), title_,
-                                                 didYouMean(unknown->str(), known_)));
+    const std::string_view key = unknown->str();
+    const std::string home = homeOf(key);
+    source_->fail(unknown->source(), fmt::format("unknown key '{}' in {}{}", key, title_,
+                                                 home.empty() ? didYouMean(key, known_) : home));
   }
   if (!missing_.empty()) fail(fmt::format("{} needs the key '{}'", title_, missing_.front()));
 }

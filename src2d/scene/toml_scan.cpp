@@ -37,7 +37,14 @@ class Scanner {
     if (c == '.') ++dots_;
     if (c == '\n' || c == '=' || c == ',') dots_ = 0;
     if (result_.open.size() > limit_ || dots_ > limit_) result_.too_deep = place_;
+    if (c == '=' && !result_.missing_value && !valueFollows()) result_.missing_value = place_;
     advance();
+  }
+
+  bool valueFollows() const {
+    const std::size_t value = text_.find_first_not_of(" \t", next_ + 1);
+    return value != std::string_view::npos &&
+           std::string_view(",]}#\r\n").find(text_[value]) == std::string_view::npos;
   }
 
   void skipComment() {

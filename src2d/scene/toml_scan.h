@@ -17,7 +17,8 @@ struct TomlScan {
   };
   std::vector<Bracket> open;  ///< outermost first
   std::optional<toml::source_position> unclosed_quote;
-  std::optional<toml::source_position> too_deep;  ///< where nesting passes the limit
+  std::optional<toml::source_position> missing_value;  ///< after an '=' where none follows
+  std::optional<toml::source_position> too_deep;       ///< where nesting passes the limit
 };
 
 /// Reads up to line and column `end`, or until the nesting passes `limit`. Dots in keys nest too.

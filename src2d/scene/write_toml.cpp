@@ -167,7 +167,7 @@ void writeSettings(TomlText& out, const Settings& settings) {
 
 void writeBodyKeys(TomlText& out, const BodyDesc& body, const Material& material) {
   const bool follows_keys = body.script && std::holds_alternative<Keyframes>(*body.script);
-  out.put("name", body.name);
+  if (!body.name.empty()) out.put("name", body.name);
   out.put("motion", body.motion, Motion::Dynamic);
   if (!follows_keys) {
     out.put("at", body.at);

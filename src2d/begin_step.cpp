@@ -1,0 +1,81 @@
+#include "src2d/begin_step.h"
+
+#include <algorithm>
+
+#include "src2d/dynamics/setup.h"
+#include "src2d/merging/collection.h"
+#include "src2d/merging/unmerge.h"
+
+namespace merge2d {
+namespace {
+
+/// True from the step that begins nearest to `time` on.
+bool reached(const State& state, double time) { return time < state.time + 0.5 * state.h; }
+
+void emitBodies(State& state, Actions& actions, Scratch& scratch) {
+  auto& next = actions.next_emission;
+  for (; next < actions.emissions.size(); ++next) {
+    const Actions::Emission& emission = actions.emissions[next];
+    if (!reached(state, emission.time)) break;
+    bringIn(state, emission.body);
+    scratch.events.push_back({EventType::Emit, emission.body, emission.body});
+  }
+}
+
+void letGo(State& state, Actions& actions, Scratch& scratch) {
+  for (Actions::Launch& launch : actions.launches) {
+    if (launch.done || !reached(state, state[launch.body].pinned_until)) continue;
+    launch.done = true;
+    releaseBody(state, scratch, launch.body);
+    Rigid& r = state[rigidOf(launch.body)];
+    r.anchor = kFloating;
+    r.inv_mass = 1.0 / r.mass;
+    r.inv_inertia = 1.0 / r.inertia;
+    r.v = launch.v;
+    r.omega = launch.omega;
+    r.resized = true;
+    for (const ContactTable::Entry& entry : state.contacts.order) {
+      if (entry.key.a == launch.body) scratch.woken.push_back(entry.key.b);
+      if (entry.key.b == launch.body) scratch.woken.push_back(entry.key.a);
+    }
+    scratch.woken.push_back(launch.body);
+  }
+}
+
+void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
+  for (const MagnetDesc& magnet : actions.magnets) {
+    const BodyId id{static_cast<std::uint32_t>(magnet.body)};
+    const bool on = std::any_of(magnet.on.begin(), magnet.on.end(), [&](const auto& interval) {
+      return reached(state, interval.from) && !reached(state, interval.until);
+    });
+    Body& body = state[id];
+    if (body.magnet_on == on) continue;
+    body.magnet_on = on;
+    scratch.woken.push_back(id);
+    // Contacts inside collections turn bilateral, or back.
+    for (Collection& c : state.collections) {
+      const bool concerned = std::any_of(c.welds.begin(), c.welds.end(), [&](const Weld& w) {
+        return w.a == id || w.b == id;
+      });
+      if (c.id == kNoCollection || !concerned) continue;
+      saveForces(c);
+      c.stale = true;
+    }
+    layOutCollections(state);
+  }
+}
+
+}  // namespace
+
+void beginStep(State& state, Actions& actions, Scratch& scratch) {
+  scratch.events.clear();
+  emitBodies(state, actions, scratch);
+  letGo(state, actions, scratch);
+  switchMagnets(state, actions, scratch);
+  moveScripted(state, actions);
+  followAnchors(state);
+  listLoads(state, actions, scratch);
+  listKicks(state, actions, scratch);
+}
+
+}  // namespace merge2d

@@ -1,0 +1,272 @@
+#include "src2d/contact/broadphase.h"
+
+#include <algorithm>
+
+namespace merge2d {
+namespace {
+
+/// Shapes are paired while their boxes are nearer than this, and paired anew once the two rigid
+/// things have moved by as much against each other [m].
+constexpr double kNear = 0.05;
+
+Aabb worldBounds(const Rigid& r) {
+  const Vec2 half = 0.5 * r.bounds.extent();
+  const Vec2 center = r.frame() * r.bounds.center();
+  const double c = std::abs(r.rotation.c), s = std::abs(r.rotation.s);
+  const Vec2 extent(c * half.x() + s * half.y(), s * half.x() + c * half.y());
+  return {center - extent, center + extent};
+}
+
+/// The box around `box` as seen from another frame.
+Aabb seenFrom(const Pose& relative, const Aabb& box) {
+  const Vec2 half = 0.5 * box.extent();
+  const Vec2 center = relative * box.center();
+  const double c = std::abs(relative.rotation.c), s = std::abs(relative.rotation.s);
+  const Vec2 extent(c * half.x() + s * half.y(), s * half.x() + c * half.y());
+  return {center - extent, center + extent};
+}
+
+std::array<Vec2, 4> cornersSeenFrom(const Pose& relative, const Aabb& box) {
+  return {relative * box.lower, relative * Vec2(box.upper.x(), box.lower.y()), relative * box.upper,
+          relative * Vec2(box.lower.x(), box.upper.y())};
+}
+
+bool hasShapeTree(const State& state, RigidId id) {
+  return state.broadphase.shape_trees[index(id)] != nullptr;
+}
+
+/// The shape of a rigid thing without a tree of shapes: a body (collections always have one).
+std::uint32_t onlyShape(const State& state, RigidId id) {
+  return state.bodies[index(id)].first_shape;
+}
+
+bool moves(const Rigid& r) { return !r.asleep && r.anchor != kWorldFrame; }
+
+/// Pairs of things that do not move by themselves are of no interest.
+bool canTouch(const Rigid& a, const Rigid& b) {
+  return (a.floating() || b.floating()) && (moves(a) || moves(b));
+}
+
+bool bodiesCollide(const State& state, BodyId a, BodyId b) {
+  return a != b && state[a].rigid != state[b].rigid;
+}
+
+ContactKey keyOf(const State& state, std::uint32_t shape_a, std::uint32_t shape_b) {
+  BodyId a = state.shape_body[shape_a], b = state.shape_body[shape_b];
+  if (b < a) {
+    std::swap(a, b);
+    std::swap(shape_a, shape_b);
+  }
+  return {a, b, shape_a, shape_b};
+}
+
+Pose shapeFrame(const State& state, RigidId id, std::uint32_t shape) {
+  const Body& body = state[state.shape_body[shape]];
+  return state.isCollection(id) ? Pose{body.local, body.local_rotation} : Pose{};
+}
+
+Aabb shapeBounds(const State& state, RigidId id, std::uint32_t shape) {
+  return bounds(state.colliders[shape].shape(), shapeFrame(state, id, shape));
+}
+
+/// Follows what moved; fills `moved`.
+void moveLeaves(State& state, Scratch& scratch) {
+  scratch.moved.clear();
+  scratch.moved_flag.assign(state.rigids.size(), 0);
+  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
+    Rigid& r = state.rigids[i];
+    if (!r.present() || (!moves(r) && !r.resized)) continue;
+    const bool left = state.broadphase.tree.move(r.leaf, worldBounds(r), state.h * r.v);
+    if (!left && !r.resized) continue;
+    r.resized = false;
+    scratch.moved.push_back(RigidId{static_cast<std::uint32_t>(i)});
+    scratch.moved_flag[i] = 1;
+  }
+}
+
+/// Asks the tree who is near what moved: shape pairs at once where both have one shape, near pairs
+/// otherwise.
+void findNeighbours(State& state, Scratch& scratch) {
+  scratch.candidates.clear();
+  scratch.near_candidates.clear();
+  for (const RigidId id : scratch.moved) {
+    const Rigid& r = state[id];
+    state.broadphase.tree.queryLeaf(r.leaf, [&](std::uint32_t other) {
+      const RigidId o{other};
+      if (o == id || (scratch.moved_flag[other] && o < id) || !canTouch(r, state[o])) return;
+      if (hasShapeTree(state, id) || hasShapeTree(state, o)) {
+        NearPair pair{.a = std::min(id, o), .b = std::max(id, o)};
+        scratch.near_candidates.push_back(pair);
+      } else {
+        scratch.candidates.push_back(keyOf(state, onlyShape(state, id), onlyShape(state, o)));
+      }
+    });
+  }
+}
+
+/// Adds the new near pairs and drops those whose fat boxes no longer meet.
+void updateNearPairs(State& state, Scratch& scratch) {
+  auto& near = state.broadphase.near;
+  std::erase_if(near, [&](const NearPair& p) {
+    const Rigid &a = state[p.a], &b = state[p.b];
+    return !a.present() || !b.present() ||
+           !(hasShapeTree(state, p.a) || hasShapeTree(state, p.b)) ||
+           !state.broadphase.tree.overlap(a.leaf, b.leaf);
+  });
+  auto& found = scratch.near_candidates;
+  if (found.empty()) return;
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  std::erase_if(found, [&](const NearPair& p) {
+    const auto known = std::lower_bound(near.begin(), near.end(), p);
+    if (known == near.end() || !(*known == p)) return false;
+    known->fresh = true;  // a collection may have new members: pair its shapes anew
+    return true;
+  });
+  const auto middle = static_cast<std::ptrdiff_t>(near.size());
+  near.insert(near.end(), found.begin(), found.end());
+  std::inplace_merge(near.begin(), near.begin() + middle, near.end());
+}
+
+/// Pairs of shapes of `host` (which has a tree) and `guest` that are nearer than kNear.
+void pairShapes(State& state, Scratch& scratch, RigidId host, RigidId guest) {
+  const Pose relative = state[host].frame().inverse() * state[guest].frame();
+  const auto& host_tree = *state.broadphase.shape_trees[index(host)];
+  const auto add = [&](std::uint32_t shape_host, std::uint32_t shape_guest) {
+    if (bodiesCollide(state, state.shape_body[shape_host], state.shape_body[shape_guest])) {
+      scratch.candidates.push_back(keyOf(state, shape_host, shape_guest));
+    }
+  };
+  const Aabb all = seenFrom(relative, state[guest].bounds).grown(2.0 * kNear);
+  host_tree.query(all, [&](std::uint32_t shape_host) {
+    if (!hasShapeTree(state, guest)) return add(shape_host, onlyShape(state, guest));
+    const Aabb box =
+        seenFrom(relative.inverse(), shapeBounds(state, host, shape_host)).grown(2.0 * kNear);
+    state.broadphase.shape_trees[index(guest)]->query(
+        box, [&](std::uint32_t shape_guest) { add(shape_host, shape_guest); });
+  });
+}
+
+/// Pairs shapes anew where two rigid things have moved against each other.
+void refineNearPairs(State& state, Scratch& scratch) {
+  auto& near = state.broadphase.near;
+  scratch.near_refined.assign(near.size(), 0);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    NearPair& p = near[i];
+    const Rigid &a = state[p.a], &b = state[p.b];
+    if (!p.fresh && !canTouch(a, b)) continue;
+    const bool a_hosts = hasShapeTree(state, p.a);
+    const RigidId host = a_hosts ? p.a : p.b, guest = a_hosts ? p.b : p.a;
+    const auto corners =
+        cornersSeenFrom(state[host].frame().inverse() * state[guest].frame(), state[guest].bounds);
+    bool moved = p.fresh;
+    for (std::size_t k = 0; k < 4 && !moved; ++k) {
+      moved = (corners[k] - p.corners[k]).squaredNorm() > kNear * kNear;
+    }
+    if (!moved) continue;
+    p.corners = corners;
+    p.fresh = false;
+    scratch.near_refined[i] = 1;
+    pairShapes(state, scratch, host, guest);
+  }
+}
+
+/// Contacts whose rigid things parted, or that a new pairing of their shapes no longer names.
+void dropParted(State& state, Scratch& scratch) {
+  const auto& near = state.broadphase.near;
+  const auto& candidates = scratch.candidates;
+  dropContacts(state, [&](const Contact& contact) {
+    const RigidId ra = state[contact.key.a].rigid, rb = state[contact.key.b].rigid;
+    const Rigid &a = state[ra], &b = state[rb];
+    if (!a.present() || !b.present()) return true;
+    const bool one_moved = scratch.moved_flag[index(ra)] || scratch.moved_flag[index(rb)];
+    if (one_moved && !state.broadphase.tree.overlap(a.leaf, b.leaf)) return true;
+    if (!hasShapeTree(state, ra) && !hasShapeTree(state, rb)) return false;
+    const NearPair wanted{.a = std::min(ra, rb), .b = std::max(ra, rb)};
+    const auto pair = std::lower_bound(near.begin(), near.end(), wanted);
+    if (pair == near.end() || !(*pair == wanted)) return canTouch(a, b);
+    if (!scratch.near_refined[static_cast<std::size_t>(pair - near.begin())]) return false;
+    return !std::binary_search(candidates.begin(), candidates.end(), contact.key);
+  });
+}
+
+}  // namespace
+
+void insertRigid(State& state, RigidId id) {
+  Rigid& r = state[id];
+  r.leaf = state.broadphase.tree.insert(worldBounds(r), static_cast<std::uint32_t>(id));
+  r.resized = true;
+}
+
+void removeRigid(State& state, RigidId id) {
+  state.broadphase.tree.remove(state[id].leaf);
+  state[id].leaf = -1;
+}
+
+void addShapes(State& state, RigidId id, const std::vector<BodyId>& bodies) {
+  auto& tree = state.broadphase.shape_trees[index(id)];
+  if (!tree) tree = std::make_unique<AabbTree>();
+  for (const BodyId b : bodies) {
+    const Body& body = state[b];
+    for (std::uint32_t s = body.first_shape; s < body.first_shape + body.shape_count; ++s) {
+      state.broadphase.shape_leaves[s] = tree->insert(shapeBounds(state, id, s), s);
+    }
+  }
+}
+
+void removeShapes(State& state, RigidId id, const std::vector<BodyId>& bodies) {
+  auto& tree = *state.broadphase.shape_trees[index(id)];
+  for (const BodyId b : bodies) {
+    const Body& body = state[b];
+    for (std::uint32_t s = body.first_shape; s < body.first_shape + body.shape_count; ++s) {
+      tree.remove(state.broadphase.shape_leaves[s]);
+      state.broadphase.shape_leaves[s] = -1;
+    }
+  }
+}
+
+void dropShapeTree(State& state, RigidId id) { state.broadphase.shape_trees[index(id)].reset(); }
+
+void addContacts(State& state, const std::vector<ContactKey>& keys) {
+  auto& table = state.contacts;
+  const auto by_key = [](const ContactTable::Entry& x, const ContactTable::Entry& y) {
+    return x.key < y.key;
+  };
+  const auto known = table.order.size();
+  for (const ContactKey& key : keys) {
+    const auto end = table.order.begin() + static_cast<std::ptrdiff_t>(known);
+    const auto at = std::lower_bound(table.order.begin(), end, ContactTable::Entry{key, 0}, by_key);
+    if (at != end && at->key == key) continue;
+    std::uint32_t slot;
+    if (table.free_slots.empty()) {
+      slot = static_cast<std::uint32_t>(table.slots.size());
+      table.slots.emplace_back();
+    } else {
+      slot = table.free_slots.back();
+      table.free_slots.pop_back();
+    }
+    const Body &a = state[key.a], &b = state[key.b];
+    Contact& contact = table.slots[slot];
+    contact = {};
+    contact.key = key;
+    contact.mu = std::sqrt(a.friction * b.friction);
+    contact.restitution = std::max(a.restitution, b.restitution);
+    table.order.push_back({key, slot});
+  }
+  std::inplace_merge(table.order.begin(), table.order.begin() + static_cast<std::ptrdiff_t>(known),
+                     table.order.end(), by_key);
+}
+
+void updateBroadphase(State& state, Scratch& scratch) {
+  moveLeaves(state, scratch);
+  findNeighbours(state, scratch);
+  updateNearPairs(state, scratch);
+  refineNearPairs(state, scratch);
+  auto& candidates = scratch.candidates;
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  dropParted(state, scratch);
+  if (!candidates.empty()) addContacts(state, candidates);
+}
+
+}  // namespace merge2d

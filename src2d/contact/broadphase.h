@@ -1,0 +1,41 @@
+#pragma once
+/// Which shapes may touch: two levels. One tree holds a leaf per rigid thing; each rigid thing with
+/// several shapes (a compound body, a collection) has a tree of its shapes in its own frame, which
+/// never changes while it moves (Section 4.1).
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Puts a rigid thing into the broadphase, or takes it out. Its shapes' tree is not touched.
+void insertRigid(State& state, RigidId id);
+void removeRigid(State& state, RigidId id);
+
+/// Builds the tree of the shapes of a rigid thing, if it has more than one; `bodies` are its members
+/// (the body itself for a body).
+void addShapes(State& state, RigidId id, const std::vector<BodyId>& bodies);
+void removeShapes(State& state, RigidId id, const std::vector<BodyId>& bodies);
+void dropShapeTree(State& state, RigidId id);
+
+/// Follows the motion of all rigid things and brings the contact table up to date with the pairs of
+/// shapes whose boxes meet: contacts of pairs that parted are dropped, new ones start empty.
+void updateBroadphase(State& state, Scratch& scratch);
+
+/// Adds many keys at once (ascending, unique); those already there are left alone.
+void addContacts(State& state, const std::vector<ContactKey>& keys);
+/// Drops all contacts for which `gone(contact)` holds.
+template <class Gone>
+void dropContacts(State& state, Gone&& gone) {
+  auto& table = state.contacts;
+  std::size_t kept = 0;
+  for (const ContactTable::Entry& entry : table.order) {
+    if (gone(table[entry])) {
+      table.free_slots.push_back(entry.slot);
+    } else {
+      table.order[kept++] = entry;
+    }
+  }
+  table.order.resize(kept);
+}
+
+}  // namespace merge2d

@@ -1,0 +1,100 @@
+#include "src2d/contact/detection.h"
+
+#include "src2d/contact/broadphase.h"
+
+namespace merge2d {
+namespace {
+
+/// Far enough apart to skip the manifold: the distance of b's box, seen from a, to a's box.
+bool boxesApart(const Aabb& a, const Aabb& b, const Pose& b_in_a, double margin) {
+  const Vec2 half = 0.5 * b.extent();
+  const Vec2 center = b_in_a * b.center();
+  const double c = std::abs(b_in_a.rotation.c), s = std::abs(b_in_a.rotation.s);
+  const double ex = c * half.x() + s * half.y() + margin, ey = s * half.x() + c * half.y() + margin;
+  return center.x() - ex > a.upper.x() || center.x() + ex < a.lower.x() ||
+         center.y() - ey > a.upper.y() || center.y() + ey < a.lower.y();
+}
+
+/// Contacts are found ahead by the way that the two bodies can go towards each other in one step.
+double detectionMargin(const State& state, const Contact& contact) {
+  const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
+  const Body &body_a = state[contact.key.a], &body_b = state[contact.key.b];
+  const double turning = std::abs(a.omega) * body_a.bounds.extent().norm() +
+                         std::abs(b.omega) * body_b.bounds.extent().norm();
+  const double speed = (b.v - a.v).norm() + turning;
+  return std::max(state.settings.solver.margin, state.h * speed);
+}
+
+/// Hands on what is remembered of a point, or marks it as new.
+void inherit(ContactPoint& point, const Contact& old) {
+  for (int j = 0; j < old.count; ++j) {
+    const ContactPoint& before = old.points[static_cast<std::size_t>(j)];
+    if (before.feature != point.feature) continue;
+    point.previous_gap = before.gap;
+    point.lambda_n = before.lambda_n;
+    point.lambda_t = before.lambda_t;
+    point.w_n = before.w_n;
+    point.w_t = before.w_t;
+    point.approach = before.approach;
+    point.fresh = before.lambda_n == 0.0;
+    return;
+  }
+  point.previous_gap = point.gap;
+  point.fresh = true;
+}
+
+bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
+
+}  // namespace
+
+void updateManifold(const State& state, Contact& contact) {
+  const Pose b_in_a = state.pose(contact.key.a).inverse() * state.pose(contact.key.b);
+  const double margin = detectionMargin(state, contact);
+  const Collider& a = state.colliders[contact.key.shape_a];
+  const Collider& b = state.colliders[contact.key.shape_b];
+  if (boxesApart(state.shape_bounds[contact.key.shape_a], state.shape_bounds[contact.key.shape_b],
+                 b_in_a, margin)) {
+    contact.count = 0;
+    return;
+  }
+  const Manifold manifold = collide(a, b, b_in_a, margin);
+  const Contact old = contact;
+  contact.count = manifold.count;
+  contact.normal = manifold.normal;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
+    ContactPoint point;
+    point.position = manifold.points[i].position;
+    point.gap = manifold.points[i].gap;
+    point.feature = manifold.points[i].feature;
+    inherit(point, old);
+    contact.points[i] = point;
+  }
+}
+
+void collectPairs(const State& state, Scratch& scratch) {
+  scratch.pairs.clear();
+  const auto& order = state.contacts.order;
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    const Contact& contact = state.contacts[order[i]];
+    if (contact.count == 0) continue;
+    const bool same = !scratch.pairs.empty() && scratch.pairs.back().a == contact.key.a &&
+                      scratch.pairs.back().b == contact.key.b;
+    if (!same) scratch.pairs.push_back({contact.key.a, contact.key.b, i, 0});
+    scratch.pairs.back().count = i + 1 - scratch.pairs.back().first;
+  }
+}
+
+void detectContacts(State& state, Scratch& scratch) {
+  updateBroadphase(state, scratch);
+  for (const ContactTable::Entry& entry : state.contacts.order) {
+    const Rigid &a = state.rigid(entry.key.a), &b = state.rigid(entry.key.b);
+    if (resting(a) && resting(b)) continue;
+    updateManifold(state, state.contacts[entry]);
+  }
+  collectPairs(state, scratch);
+  for (const BodyPair& pair : scratch.pairs) {
+    if (pair.count > 1) prunePair(state.contacts, pair, state.pose(pair.a));
+  }
+}
+
+}  // namespace merge2d

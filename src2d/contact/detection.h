@@ -1,0 +1,23 @@
+#pragma once
+/// ContactDetection, the first stage of Algorithm 1.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Finds all contacts between different rigid things and carries the impulses of those that last.
+/// Reads poses; writes the contact table, the broadphase and `scratch.pairs`.
+void detectContacts(State& state, Scratch& scratch);
+
+/// Computes one contact's manifold from the current poses, keeping what is remembered of points
+/// whose features are still there.
+void updateManifold(const State& state, Contact& contact);
+
+/// Lists the body pairs that have a contact point, ascending.
+void collectPairs(const State& state, Scratch& scratch);
+
+/// At most two well-spread points per flat region of a pair of bodies: keeps the outermost two of
+/// each group of points with one normal and in one line, over all shape contacts of the pair.
+void prunePair(ContactTable& table, const BodyPair& pair, const Pose& pose_a);
+
+}  // namespace merge2d

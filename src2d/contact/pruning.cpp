@@ -1,0 +1,73 @@
+/// Contact pruning per pair of bodies: compounds touch with several pairs of shapes, and a flat side
+/// made of many pieces would otherwise rest on many points (Section 2, "Collision Detection").
+
+#include <algorithm>
+
+#include "src2d/contact/detection.h"
+
+namespace merge2d {
+namespace {
+
+/// Points belong to one flat region when their normals differ by less than this angle [rad] …
+constexpr double kSameNormal = 0.02;
+/// … and they lie in one line along the tangent up to this height [m], relative to the region.
+constexpr double kSameLine = 0.005;
+
+struct Region {
+  Vec2 normal;
+  double height = 0.0;                 ///< of the line along the normal
+  ContactPoint* low = nullptr;         ///< outermost points along the tangent
+  ContactPoint* high = nullptr;
+  double low_at = 0.0, high_at = 0.0;
+};
+
+}  // namespace
+
+void prunePair(ContactTable& table, const BodyPair& pair, const Pose&) {
+  // All contacts of the pair are in a's frame already.
+  thread_local std::vector<Region> regions;
+  regions.clear();
+  const auto forEach = [&](auto&& visit) {
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      Contact& contact = table[table.order[i]];
+      for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
+        visit(contact, contact.points[k]);
+      }
+    }
+  };
+  const auto regionOf = [&](const Contact& contact, const ContactPoint& point) {
+    return std::find_if(regions.begin(), regions.end(), [&](const Region& r) {
+      return std::abs(cross(r.normal, contact.normal)) < kSameNormal &&
+             r.normal.dot(contact.normal) > 0.0 &&
+             std::abs(r.normal.dot(point.position) - r.height) < kSameLine;
+    });
+  };
+
+  // Group the points and find the outermost two of each group.
+  forEach([&](Contact& contact, ContactPoint& point) {
+    auto region = regionOf(contact, point);
+    if (region == regions.end()) {
+      regions.push_back({contact.normal, contact.normal.dot(point.position)});
+      region = regions.end() - 1;
+    }
+    const double at = perpendicular(region->normal).dot(point.position);
+    if (!region->low || at < region->low_at) region->low = &point, region->low_at = at;
+    if (!region->high || at > region->high_at) region->high = &point, region->high_at = at;
+  });
+
+  // Keep these only.
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    Contact& contact = table[table.order[i]];
+    int kept = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
+      const ContactPoint point = contact.points[k];
+      const bool outermost = std::any_of(regions.begin(), regions.end(), [&](const Region& r) {
+        return r.low == &contact.points[k] || r.high == &contact.points[k];
+      });
+      if (outermost) contact.points[static_cast<std::size_t>(kept++)] = point;
+    }
+    contact.count = kept;
+  }
+}
+
+}  // namespace merge2d

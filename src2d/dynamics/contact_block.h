@@ -1,0 +1,188 @@
+#pragma once
+/// The kernel of every sweep: one manifold's contact rows, solved as a block.
+///
+/// Source: projected Gauss-Seidel on Eqs. (4)-(7) and (9), with the two normals of a manifold solved
+/// together. A block holds the impulses of its points; a sweep changes them and the velocities of
+/// the two bodies, so that u = u₀ + M⁻¹Jᵀλ holds at any time.
+///
+/// Letters (docs/symbols.md): λ impulse [N s], w relative velocity at the contact [m/s],
+/// K = J M⁻¹ Jᵀ [1/kg], C softness [1/kg], n normal from a to b, t = n turned by +90°.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "src2d/core/pose.h"
+
+namespace merge2d {
+
+/// What a sweep knows about a body: one cache line.
+struct alignas(64) SolverVelocity {
+  double vx = 0.0, vy = 0.0;  ///< of the centre of mass [m/s]
+  double omega = 0.0;         ///< [rad/s]
+  double inv_mass = 0.0;      ///< 0: does not respond to forces [1/kg]
+  double inv_inertia = 0.0;   ///< [1/(kg m²)]
+};
+
+/// The rows of one manifold. Lever arms are moments of the unit normal or tangent about the centre
+/// of mass; they do not change when the whole pair is turned, so a block stays valid in the frame
+/// of a rigid collection and only its normal is turned.
+struct ContactBlock {
+  std::uint32_t a = 0, b = 0;  ///< indices into the velocities
+  std::int32_t count = 0;      ///< points, 1 or 2
+  bool bilateral = false;      ///< a magnet's contact: pulls, and does not slide
+  double nx = 1.0, ny = 0.0;   ///< normal
+  double arm_an[2] = {0, 0}, arm_bn[2] = {0, 0};  ///< r × n [m]
+  double arm_at[2] = {0, 0}, arm_bt[2] = {0, 0};  ///< r × t [m]
+  double k11 = 1.0, k12 = 0.0, k22 = 1.0;  ///< K + C of the normals
+  double inv_det = 1.0;                    ///< of that matrix
+  double inv_kt[2] = {0, 0};               ///< 1 / K of each tangent
+  double softness = 0.0;                   ///< C
+  double bias[2] = {0, 0};                 ///< wanted: w_n + bias + Cλ ≥ 0 [m/s]
+  double mu = 0.0;
+  double lambda_n[2] = {0, 0}, lambda_t[2] = {0, 0};
+};
+
+/// Relative velocity of b against a at point `i` along the normal and the tangent.
+struct ContactVelocity {
+  double n = 0.0, t = 0.0;
+};
+inline ContactVelocity contactVelocity(const ContactBlock& k, int i, double nx, double ny,
+                                       const SolverVelocity& a, const SolverVelocity& b) {
+  const double dx = b.vx - a.vx, dy = b.vy - a.vy;
+  return {nx * dx + ny * dy + k.arm_bn[i] * b.omega - k.arm_an[i] * a.omega,
+          nx * dy - ny * dx + k.arm_bt[i] * b.omega - k.arm_at[i] * a.omega};
+}
+
+/// Adds the impulses `pn` along the normal and `pt` along the tangent at point `i`.
+inline void applyImpulse(const ContactBlock& k, int i, double nx, double ny, double pn, double pt,
+                         SolverVelocity& a, SolverVelocity& b) {
+  const double px = nx * pn - ny * pt, py = ny * pn + nx * pt;
+  a.vx -= a.inv_mass * px;
+  a.vy -= a.inv_mass * py;
+  a.omega -= a.inv_inertia * (k.arm_an[i] * pn + k.arm_at[i] * pt);
+  b.vx += b.inv_mass * px;
+  b.vy += b.inv_mass * py;
+  b.omega += b.inv_inertia * (k.arm_bn[i] * pn + k.arm_bt[i] * pt);
+}
+
+/// The exact solution x ≥ 0, (K+C)x + q ≥ 0, x·((K+C)x + q) = 0 of the two normals, by cases.
+inline void solveNormalPair(const ContactBlock& k, double w1, double w2, double& x1, double& x2) {
+  const double l1 = k.lambda_n[0], l2 = k.lambda_n[1];
+  x1 = l1 - (k.k22 * w1 - k.k12 * w2) * k.inv_det;
+  x2 = l2 - (k.k11 * w2 - k.k12 * w1) * k.inv_det;
+  if ((x1 >= 0.0 && x2 >= 0.0) || k.bilateral) return;  // both press
+
+  const double q1 = w1 - k.k11 * l1 - k.k12 * l2;
+  const double q2 = w2 - k.k12 * l1 - k.k22 * l2;
+  x1 = -q1 / k.k11;
+  x2 = 0.0;
+  if (x1 >= 0.0 && k.k12 * x1 + q2 >= 0.0) return;  // only the first presses
+  x1 = 0.0;
+  x2 = -q2 / k.k22;
+  if (x2 >= 0.0 && k.k12 * x2 + q1 >= 0.0) return;  // only the second presses
+  x2 = 0.0;
+}
+
+/// Solves one block: normals together, then friction at each point (Eqs. (5)-(7)). `nx`, `ny` is
+/// the block's normal in the frame of the velocities.
+inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& body_a,
+                       SolverVelocity& body_b) {
+  SolverVelocity a = body_a, b = body_b;
+  if (k.count == 2) {
+    const double w1 = contactVelocity(k, 0, nx, ny, a, b).n + k.bias[0] + k.softness * k.lambda_n[0];
+    const double w2 = contactVelocity(k, 1, nx, ny, a, b).n + k.bias[1] + k.softness * k.lambda_n[1];
+    double x1, x2;
+    solveNormalPair(k, w1, w2, x1, x2);
+    const double p1 = x1 - k.lambda_n[0], p2 = x2 - k.lambda_n[1];
+    k.lambda_n[0] = x1;
+    k.lambda_n[1] = x2;
+    const double px = nx * (p1 + p2), py = ny * (p1 + p2);
+    a.vx -= a.inv_mass * px;
+    a.vy -= a.inv_mass * py;
+    a.omega -= a.inv_inertia * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
+    b.vx += b.inv_mass * px;
+    b.vy += b.inv_mass * py;
+    b.omega += b.inv_inertia * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
+  } else {
+    const double w = contactVelocity(k, 0, nx, ny, a, b).n + k.bias[0] + k.softness * k.lambda_n[0];
+    double x = k.lambda_n[0] - w / k.k11;
+    if (!k.bilateral) x = std::max(0.0, x);
+    applyImpulse(k, 0, nx, ny, x - k.lambda_n[0], 0.0, a, b);
+    k.lambda_n[0] = x;
+  }
+  for (int i = 0; i < k.count; ++i) {
+    const double w = contactVelocity(k, i, nx, ny, a, b).t;
+    const double limit =
+        k.bilateral ? std::numeric_limits<double>::infinity() : k.mu * k.lambda_n[i];
+    const double x = std::clamp(k.lambda_t[i] - k.inv_kt[i] * w, -limit, limit);
+    applyImpulse(k, i, nx, ny, 0.0, x - k.lambda_t[i], a, b);
+    k.lambda_t[i] = x;
+  }
+  body_a.vx = a.vx, body_a.vy = a.vy, body_a.omega = a.omega;
+  body_b.vx = b.vx, body_b.vy = b.vy, body_b.omega = b.omega;
+}
+
+/// The paper's plain PGS: one row at a time, each normal followed by its friction.
+inline void solveRows(ContactBlock& k, double nx, double ny, SolverVelocity& a, SolverVelocity& b) {
+  for (int i = 0; i < k.count; ++i) {
+    const double w_n = contactVelocity(k, i, nx, ny, a, b).n + k.bias[i] + k.softness * k.lambda_n[i];
+    double x = k.lambda_n[i] - w_n / (i == 0 ? k.k11 : k.k22);
+    if (!k.bilateral) x = std::max(0.0, x);
+    applyImpulse(k, i, nx, ny, x - k.lambda_n[i], 0.0, a, b);
+    k.lambda_n[i] = x;
+    const double w_t = contactVelocity(k, i, nx, ny, a, b).t;
+    const double limit =
+        k.bilateral ? std::numeric_limits<double>::infinity() : k.mu * k.lambda_n[i];
+    const double y = std::clamp(k.lambda_t[i] - k.inv_kt[i] * w_t, -limit, limit);
+    applyImpulse(k, i, nx, ny, 0.0, y - k.lambda_t[i], a, b);
+    k.lambda_t[i] = y;
+  }
+}
+
+/// Where a manifold acts: what a block is made from.
+struct BlockGeometry {
+  Vec2 normal = Vec2::UnitX();
+  int count = 0;
+  Vec2 arm_a[2] = {Vec2::Zero(), Vec2::Zero()};  ///< from a's centre of mass to the point [m]
+  Vec2 arm_b[2] = {Vec2::Zero(), Vec2::Zero()};
+  double softness = 0.0;
+};
+
+/// Fills geometry and effective masses of `k`. Two points that are too close for their 2×2 matrix
+/// to be inverted well are treated as one, the first.
+inline void prepareBlock(ContactBlock& k, const BlockGeometry& g, const SolverVelocity& a,
+                         const SolverVelocity& b) {
+  const Vec2 t = perpendicular(g.normal);
+  k.nx = g.normal.x();
+  k.ny = g.normal.y();
+  k.count = g.count;
+  k.softness = g.softness;
+  const double inv_mass = a.inv_mass + b.inv_mass;
+  for (int i = 0; i < g.count; ++i) {
+    k.arm_an[i] = cross(g.arm_a[i], g.normal);
+    k.arm_bn[i] = cross(g.arm_b[i], g.normal);
+    k.arm_at[i] = cross(g.arm_a[i], t);
+    k.arm_bt[i] = cross(g.arm_b[i], t);
+    k.inv_kt[i] = 1.0 / (inv_mass + a.inv_inertia * k.arm_at[i] * k.arm_at[i] +
+                         b.inv_inertia * k.arm_bt[i] * k.arm_bt[i]);
+  }
+  const auto normalK = [&](int i, int j) {
+    return inv_mass + a.inv_inertia * k.arm_an[i] * k.arm_an[j] +
+           b.inv_inertia * k.arm_bn[i] * k.arm_bn[j];
+  };
+  k.k11 = normalK(0, 0) + g.softness;
+  if (g.count < 2) return;
+  k.k22 = normalK(1, 1) + g.softness;
+  k.k12 = normalK(0, 1);
+  const double det = k.k11 * k.k22 - k.k12 * k.k12;
+  if (det < 1e-6 * k.k11 * k.k22) {
+    k.count = 1;
+    k.lambda_n[1] = k.lambda_t[1] = 0.0;
+  } else {
+    k.inv_det = 1.0 / det;
+  }
+}
+
+}  // namespace merge2d

@@ -1,0 +1,17 @@
+#pragma once
+/// AdvanceVelocities and AdvancePositions: symplectic Euler, Eq. (8).
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// u₊ of the solve becomes the velocity.
+void advanceVelocities(State& state, const Scratch& scratch);
+
+/// x₊ = x₋ + h u₊; anchored collections follow their frames.
+void advancePositions(State& state);
+
+/// Throws SimulationError naming body, stage and step when a velocity or position is not finite.
+void checkFinite(const State& state, const std::vector<BodyInfo>& bodies, Stage stage);
+
+}  // namespace merge2d

@@ -1,0 +1,180 @@
+#include "src2d/dynamics/setup.h"
+
+#include <algorithm>
+#include <random>
+
+#include "src2d/contact/broadphase.h"
+#include "src2d/core/assert.h"
+
+namespace merge2d {
+namespace {
+
+class Builder {
+ public:
+  Builder(const Scene& scene, Mode mode, Setup& setup) : scene_(scene), setup_(setup) {
+    State& s = setup_.state;
+    s.settings = scene.settings;
+    s.mode = mode;
+    s.h = scene.step;
+    s.gravity = scene.gravity;
+  }
+
+  void build() {
+    for (const BodyDesc& desc : scene_.bodies) addBody(desc, desc.name, desc.at, true);
+    for (const EmitterDesc& emitter : scene_.emitters) addEmitter(emitter);
+    for (const SpringDesc& spring : scene_.springs) addSpring(spring);
+    for (ForceDesc force : scene_.forces) {
+      force.at -= centers_[force.body];
+      setup_.actions.forces.push_back(force);
+    }
+    setup_.actions.impulses = scene_.impulses;
+    std::stable_sort(setup_.actions.impulses.begin(), setup_.actions.impulses.end(),
+                     [](const auto& x, const auto& y) { return x.time < y.time; });
+    std::stable_sort(setup_.actions.emissions.begin(), setup_.actions.emissions.end(),
+                     [](const auto& x, const auto& y) { return x.time < y.time; });
+    setup_.actions.magnets = scene_.magnets;
+    for (const MagnetDesc& magnet : scene_.magnets) setup_.bodies[magnet.body].magnet = true;
+    enterWorld();
+  }
+
+ private:
+  BodyId addBody(const BodyDesc& desc, const std::string& name, const Vec2& at, bool alive) {
+    State& s = setup_.state;
+    const auto id = static_cast<std::uint32_t>(s.bodies.size());
+    MERGE2D_ASSERT(!desc.shapes.empty(), "body '{}' has no shape", name);
+    const AreaProperties area = areaProperties(desc.shapes);
+
+    Body body;
+    body.mass = desc.mass.value_or(desc.density * area.area);
+    body.inertia = body.mass * area.secondMoment / area.area;
+    body.friction = desc.friction;
+    body.restitution = desc.restitution;
+    body.pinned_until = desc.pinned_until;
+    body.motion = desc.motion;
+    body.alive = alive;
+    body.rigid = RigidId{id};
+    addShapes(desc, area.centroid, body);
+
+    Rigid r;
+    r.angle = desc.angle;
+    r.rotation = r.previous_rotation = Rotation::of(desc.angle);
+    r.x = at + r.rotation * area.centroid;
+    r.mass = body.mass;
+    r.inertia = body.inertia;
+    r.anchor = anchorOf(desc, id);
+    r.bounds = body.bounds;
+    r.box = body.box;
+    if (r.floating()) {
+      r.v = desc.velocity;
+      r.omega = desc.spin;
+      r.inv_mass = 1.0 / r.mass;
+      r.inv_inertia = 1.0 / r.inertia;
+    }
+    if (desc.script) {
+      setup_.actions.scripts.push_back(
+          {BodyId{id}, *desc.script, Pose::at(at, desc.angle), desc.angle, area.centroid});
+    }
+    s.bodies.push_back(body);
+    s.rigids.push_back(r);
+    centers_.push_back(area.centroid);
+    describe(desc, name, body);
+    if (desc.pinned_until > 0.0) launch_.push_back({BodyId{id}, desc.velocity, desc.spin});
+    return BodyId{id};
+  }
+
+  /// Shapes are kept in the frame at the centre of mass.
+  void addShapes(const BodyDesc& desc, const Vec2& centroid, Body& body) {
+    State& s = setup_.state;
+    body.first_shape = static_cast<std::uint32_t>(s.colliders.size());
+    body.shape_count = static_cast<std::uint32_t>(desc.shapes.size());
+    std::vector<Vec2> outline;
+    for (const ConvexShape& shape : desc.shapes) {
+      const ConvexShape centered = transformed(shape, {-centroid, {}});
+      s.colliders.emplace_back(centered);
+      s.shape_body.push_back(BodyId{static_cast<std::uint32_t>(body.rigid)});
+      s.shape_bounds.push_back(bounds(centered));
+      body.bounds.include(s.shape_bounds.back());
+      for (const Vec2& p : outlinePoints(centered)) outline.push_back(p);
+    }
+    body.box = tightBox(outline);
+  }
+
+  static FrameId anchorOf(const BodyDesc& desc, std::uint32_t id) {
+    if (desc.motion == Motion::Scripted) return static_cast<FrameId>(id) + 1;
+    if (desc.motion == Motion::Pinned || desc.pinned_until > 0.0) return kWorldFrame;
+    return kFloating;
+  }
+
+  void describe(const BodyDesc& desc, const std::string& name, const Body& body) {
+    BodyInfo info;
+    info.name = name;
+    info.motion = desc.motion;
+    info.mass = body.mass;
+    info.inertia = body.inertia;
+    for (std::uint32_t i = 0; i < body.shape_count; ++i) {
+      info.shapes.push_back(setup_.state.colliders[body.first_shape + i].shape());
+    }
+    setup_.bodies.push_back(std::move(info));
+  }
+
+  void addEmitter(const EmitterDesc& emitter) {
+    std::mt19937_64 random(scene_.seed * 0x9e3779b97f4a7c15u + emitter.seed);
+    const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
+    for (int i = 0; i < emitter.count; ++i) {
+      const double dx = uniform(), dy = uniform();
+      const Vec2 at = emitter.body.at + Vec2(dx * emitter.spread.x(), dy * emitter.spread.y());
+      const BodyId id =
+          addBody(emitter.body, emitter.body.name + "[" + std::to_string(i) + "]", at, false);
+      setup_.actions.emissions.push_back({emitter.start + i * emitter.every, id});
+    }
+  }
+
+  void addSpring(const SpringDesc& spring) {
+    TimedSpring t;
+    t.body = spring.body;
+    t.anchor = spring.anchor - centers_[spring.body];
+    t.to = spring.to;
+    if (spring.to_body) {
+      t.to_body = static_cast<std::int64_t>(*spring.to_body);
+      t.to -= centers_[*spring.to_body];
+    }
+    t.stiffness = spring.stiffness;
+    t.damping = spring.damping;
+    t.rest_length = spring.rest_length;
+    setup_.actions.springs.push_back(t);
+  }
+
+  void enterWorld() {
+    State& s = setup_.state;
+    s.broadphase.shape_trees.resize(s.rigids.size());
+    s.broadphase.shape_leaves.assign(s.colliders.size(), -1);
+    for (const Actions::Scripted& script : setup_.actions.scripts) {
+      Rigid& r = s[rigidOf(script.body)];
+      const ScriptPose pose = scriptPose(script, 0.0);
+      r.angle = pose.angle;
+      r.rotation = r.previous_rotation = Rotation::of(pose.angle);
+      r.x = pose.position + r.rotation * script.center;
+    }
+    for (std::uint32_t i = 0; i < s.bodies.size(); ++i) {
+      if (s.bodies[i].alive) bringIn(s, BodyId{i});
+    }
+    setup_.actions.launches = launch_;
+  }
+
+  const Scene& scene_;
+  Setup& setup_;
+  std::vector<Vec2> centers_;
+  std::vector<Actions::Launch> launch_;
+};
+
+}  // namespace
+
+void setUp(const Scene& scene, Mode mode, Setup& out) { Builder(scene, mode, out).build(); }
+
+void bringIn(State& state, BodyId body) {
+  state[body].alive = true;
+  if (state[body].shape_count > 1) addShapes(state, rigidOf(body), {body});
+  insertRigid(state, rigidOf(body));
+}
+
+}  // namespace merge2d

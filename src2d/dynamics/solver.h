@@ -1,0 +1,27 @@
+#pragma once
+/// SolveLCP: the contact forces of everything in B, Eqs. (2)-(9).
+///
+/// Default: block sweeps inside a nonsmooth nonlinear conjugate gradient (Silcowitz-Hansen, Niebe,
+/// Erleben 2010), per island. Deviation: the paper runs plain PGS; at ten sweeps it holds neither
+/// tall columns nor walls (docs/decisions/solver.md). "pgs" selects it.
+/// Guarded by tests/src2d/dynamics/solver_test.cpp.
+
+#include <span>
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// The softness C [1/kg] and the velocity [m/s] with which a gap is to be closed or an overlap
+/// removed, at a contact with `gap` [m].
+double contactBias(const SolverSettings& settings, double h, double gap);
+double contactSoftness(const SolverSettings& settings, double inv_mass_a, double inv_mass_b);
+
+/// Sets up the velocities u₋ + h M⁻¹ f and the rows of all contacts in B, with the impulses of the
+/// last step as a start.
+void buildRows(State& state, Scratch& scratch);
+
+/// Sweeps over the rows; writes the impulses into the contacts and the velocities into `scratch.u`.
+void solveContacts(State& state, Scratch& scratch);
+
+}  // namespace merge2d

@@ -1,0 +1,336 @@
+#pragma once
+/// Everything that lives across time steps, in flat tables ordered by id, and what lives for one.
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "src2d/core/ids.h"
+#include "src2d/dynamics/contact_block.h"
+#include "src2d/dynamics/islands.h"
+#include "src2d/geometry/box.h"
+#include "src2d/geometry/collide.h"
+#include "src2d/geometry/tree.h"
+#include "src2d/scene/scene.h"
+#include "src2d/trace/snapshot.h"
+
+namespace merge2d {
+
+/// A rigid thing: body `i` is rigid `i`; collections follow after the last body.
+enum class RigidId : std::uint32_t {};
+constexpr std::size_t index(RigidId id) { return static_cast<std::size_t>(id); }
+constexpr RigidId rigidOf(BodyId id) { return RigidId{static_cast<std::uint32_t>(id)}; }
+
+/// Bodies that never move against each other share a frame: 0 is the world (all pinned bodies), a
+/// scripted body has its own. `kFloating` means: responds to forces.
+using FrameId = std::int32_t;
+inline constexpr FrameId kFloating = -1;
+inline constexpr FrameId kWorldFrame = 0;
+
+/// One rigid thing. Its frame is fixed to the matter; for a collection the centre of mass moves in
+/// it as members come and go.
+struct Rigid {
+  Vec2 x = Vec2::Zero();       ///< centre of mass (the frame's origin when not floating) [m]
+  double angle = 0.0;          ///< [rad]
+  Rotation rotation;           ///< of `angle`
+  Rotation previous_rotation;  ///< before the last position update
+  Vec2 center = Vec2::Zero();  ///< centre of mass in the frame [m]
+  Vec2 v = Vec2::Zero();       ///< of the centre of mass [m/s]
+  double omega = 0.0;          ///< [rad/s]
+  double mass = 0.0, inertia = 0.0;
+  double inv_mass = 0.0, inv_inertia = 0.0;  ///< 0 unless floating
+  FrameId anchor = kFloating;  ///< the frame it is fixed to
+  Aabb bounds;                 ///< in the frame [m]
+  OrientedBox box;             ///< in the frame [m]
+  int leaf = -1;               ///< in the broadphase; −1: not simulated as its own
+  int quiet_steps = 0;         ///< consecutive steps below the sleeping threshold
+  bool asleep = false;
+  bool resized = false;        ///< bounds changed since the broadphase last looked
+
+  bool present() const { return leaf >= 0; }
+  bool floating() const { return anchor == kFloating; }
+  Pose frame() const { return {x - rotation * center, rotation}; }
+  Vec2 velocityAt(const Vec2& p) const { return v + cross(omega, p - x); }
+};
+
+/// A body's own constants, and where it is found now.
+struct Body {
+  std::uint32_t first_shape = 0, shape_count = 0;  ///< into State::colliders
+  double mass = 0.0, inertia = 0.0;
+  double friction = 0.0, restitution = 0.0;
+  double pinned_until = 0.0;
+  Motion motion = Motion::Dynamic;
+  bool alive = true;         ///< false before its emission
+  bool magnet_on = false;
+  Vec2 load = Vec2::Zero(), load_asleep = Vec2::Zero();  ///< outer forces now, and when it slept [N]
+  Aabb bounds;               ///< in the body frame
+  OrientedBox box;           ///< in the body frame
+  RigidId rigid{};           ///< itself, or its collection
+  Vec2 local = Vec2::Zero(); ///< pose in the collection's frame
+  double local_angle = 0.0;
+  Rotation local_rotation;
+};
+
+/// Identifies a pair of shapes; contacts are kept in this order.
+struct ContactKey {
+  BodyId a{}, b{};  ///< a < b
+  std::uint32_t shape_a = 0, shape_b = 0;
+  auto operator<=>(const ContactKey&) const = default;
+};
+
+/// What is remembered of a contact point while it lasts.
+struct ContactPoint {
+  Vec2 position = Vec2::Zero();  ///< in a's frame; inside a collection in the collection's [m]
+  double gap = 0.0;
+  double previous_gap = 0.0;
+  std::uint32_t feature = 0;
+  bool fresh = false;            ///< was not there, or carried nothing, in the last step
+  double lambda_n = 0.0, lambda_t = 0.0;  ///< impulse of the last step [N s]
+  double w_n = 0.0, w_t = 0.0;            ///< velocity after it [m/s]
+  double approach = 0.0;         ///< fastest approach while it was still open [m/s]
+};
+
+/// The contact of two convex shapes: persistent over steps, at most two points.
+struct Contact {
+  ContactKey key;
+  Vec2 normal = Vec2::UnitX();  ///< from a to b, in a's frame; inside a collection in its frame
+  int count = 0;
+  std::array<ContactPoint, 2> points;
+  double mu = 0.0, restitution = 0.0;
+  int quiet_steps = 0;          ///< consecutive steps in which the pair could have merged
+};
+
+/// Contacts between different rigid things: slots that stay in place, and their order by key.
+struct ContactTable {
+  struct Entry {
+    ContactKey key;
+    std::uint32_t slot = 0;
+  };
+  std::vector<Contact> slots;
+  std::vector<std::uint32_t> free_slots;
+  std::vector<Entry> order;
+
+  Contact& operator[](const Entry& entry) { return slots[entry.slot]; }
+  const Contact& operator[](const Entry& entry) const { return slots[entry.slot]; }
+};
+
+/// A pair of bodies in contact: a run of ContactTable::order.
+struct BodyPair {
+  BodyId a{}, b{};
+  std::uint32_t first = 0, count = 0;
+};
+
+/// Two rigid things near each other of which at least one has several shapes: where the second was
+/// seen from the first when their shapes were last paired.
+struct NearPair {
+  RigidId a{}, b{};
+  std::array<Vec2, 4> corners{};  ///< of b's bounds in a's frame
+  bool fresh = true;
+  auto operator<=>(const NearPair& o) const {
+    if (auto c = a <=> o.a; c != 0) return c;
+    return b <=> o.b;
+  }
+  bool operator==(const NearPair& o) const { return a == o.a && b == o.b; }
+};
+
+struct Broadphase {
+  AabbTree tree;  ///< one leaf per rigid thing that is simulated as its own
+  std::vector<std::unique_ptr<AabbTree>> shape_trees;  ///< per rigid, where it has several shapes
+  std::vector<int> shape_leaves;                       ///< per shape, in its rigid's tree, or −1
+  std::vector<NearPair> near;                          ///< ascending
+};
+
+/// A change of a body's velocity.
+struct Twist {
+  double vx = 0.0, vy = 0.0;  ///< [m/s]
+  double omega = 0.0;         ///< [rad/s]
+};
+
+/// A velocity summed over consecutive steps.
+struct Drift {
+  double sum = 0.0;  ///< [m/s]
+  int steps = 0;
+};
+
+/// A contact inside a collection: its memory is cold, its block hot.
+struct InternalContact {
+  Contact contact;            ///< positions and normal in the collection's frame
+  bool active[2] = {false, false};  ///< has carried a force, so that its loss is a break
+  Drift slip[2];     ///< along the tangent, over consecutive steps on the edge of the cone
+  Drift opening[2];  ///< along the normal, over consecutive steps without a force
+};
+
+/// A pair of bodies held together: a run of Collection::contacts.
+struct Weld {
+  BodyId a{}, b{};
+  std::uint32_t first = 0, count = 0;
+  int loud_steps = 0;       ///< consecutive steps above the unmerging threshold
+  bool cut = false;         ///< found broken, sliding or moving in this step
+  EventReason reason = EventReason::None;
+};
+
+/// Bodies simulated as one (Section 4).
+struct Collection {
+  CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
+  RigidId rigid{};
+  BodyId anchor{};                  ///< when its rigid is not floating: a body of that frame
+  std::vector<BodyId> members;      ///< ascending; pinned and scripted bodies are never members
+  std::vector<InternalContact> contacts;  ///< ascending by key
+  std::vector<ContactBlock> blocks;       ///< one per contact, in the order of an undisturbed sweep
+  std::vector<std::uint32_t> block_contact;  ///< which contact a block is
+  std::uint32_t active_blocks = 0;  ///< the first ones; the others are swept in disturbed steps
+  std::vector<Weld> welds;          ///< ascending by pair
+  std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
+  bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
+  bool settled = false;             ///< inner forces did not change in the last sweep
+  bool any_cut = false;             ///< some weld was cut in the last step
+};
+
+struct TimedSpring {
+  BodyIndex body = 0;
+  Vec2 anchor = Vec2::Zero();  ///< from the centre of mass, in the body frame
+  Vec2 to = Vec2::Zero();      ///< world, or the same in `to_body`
+  std::int64_t to_body = -1;
+  double stiffness = 0.0, damping = 0.0, rest_length = 0.0;
+};
+
+/// The state of a world between two steps.
+struct State {
+  // constant
+  Settings settings;
+  Mode mode = Mode::MergeSleep;
+  double h = 0.01;
+  Vec2 gravity{0.0, -9.81};
+  std::vector<Collider> colliders;        ///< all shapes of all bodies, in the body frame
+  std::vector<BodyId> shape_body;         ///< whose shape it is
+  std::vector<Aabb> shape_bounds;         ///< in the body frame
+
+  // what moves
+  std::int64_t step = 0;
+  double time = 0.0;
+  std::vector<Body> bodies;
+  std::vector<Rigid> rigids;              ///< bodies, then collections
+  std::vector<Collection> collections;    ///< slot i is rigid bodies.size() + i
+  std::int32_t next_collection = 0;
+  ContactTable contacts;
+  Broadphase broadphase;
+
+  Body& operator[](BodyId id) { return bodies[index(id)]; }
+  const Body& operator[](BodyId id) const { return bodies[index(id)]; }
+  Rigid& operator[](RigidId id) { return rigids[index(id)]; }
+  const Rigid& operator[](RigidId id) const { return rigids[index(id)]; }
+  /// The rigid thing that a body moves with: itself or its collection.
+  Rigid& rigid(BodyId id) { return rigids[index(bodies[index(id)].rigid)]; }
+  const Rigid& rigid(BodyId id) const { return rigids[index(bodies[index(id)].rigid)]; }
+  bool isCollection(RigidId id) const { return index(id) >= bodies.size(); }
+  Collection& collection(RigidId id) { return collections[index(id) - bodies.size()]; }
+  const Collection& collection(RigidId id) const { return collections[index(id) - bodies.size()]; }
+
+  Pose pose(BodyId id) const {
+    const Body& body = bodies[index(id)];
+    const Rigid& r = rigids[index(body.rigid)];
+    if (body.rigid == rigidOf(id)) return {r.x, r.rotation};
+    return r.frame() * Pose{body.local, body.local_rotation};
+  }
+  double angle(BodyId id) const {
+    const Body& body = bodies[index(id)];
+    const double own = rigids[index(body.rigid)].angle;
+    return body.rigid == rigidOf(id) ? own : own + body.local_angle;
+  }
+};
+
+/// A force acting through this step: on a body, about its centre of mass.
+struct Load {
+  BodyId body{};
+  Vec2 force = Vec2::Zero();    ///< [N]
+  double torque = 0.0;          ///< [N m]
+};
+
+/// An impulse given at the start of this step.
+struct Kick {
+  BodyId body{};
+  Vec2 at = Vec2::Zero();       ///< world point [m]
+  Vec2 impulse = Vec2::Zero();  ///< [N s]
+};
+
+/// A contact outside collections in the single sweep.
+struct SweepContact {
+  std::uint32_t slot = 0;  ///< of the contact table
+  ContactBlock block;      ///< with the bodies' own masses
+};
+
+/// The contact points of a block of the full solve.
+struct RowPoints {
+  ContactPoint* point[2] = {nullptr, nullptr};
+};
+
+/// Blocks and bodies of one island of the full solve: ranges of Scratch::blocks, island_bodies.
+struct Island {
+  std::uint32_t root = 0;
+  std::uint32_t first = 0, last = 0;
+  std::uint32_t first_body = 0, last_body = 0;
+};
+
+struct BlockOrder {
+  std::uint32_t island = 0, colour = 0, block = 0;
+  auto operator<=>(const BlockOrder&) const = default;
+};
+
+/// Normal and tangential impulses of a block's two points.
+using Impulses = std::array<double, 4>;
+
+/// Lives for one step; its memory is kept.
+struct Scratch {
+  std::vector<Load> loads;
+  std::vector<Kick> kicks;
+  std::vector<SpringView> springs;
+  std::vector<BodyPair> pairs;       ///< body pairs in contact, ascending
+  std::vector<Event> events;
+  std::vector<Decision>* decisions = nullptr;  ///< null: nobody asks
+  Stats stats;
+
+  // ContactDetection
+  std::vector<RigidId> moved;
+  std::vector<std::uint8_t> moved_flag;
+  std::vector<ContactKey> candidates;
+  std::vector<NearPair> near_candidates;
+  std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
+
+  // ContactOrdering: breadth-first distance of each contact from what is new
+  std::vector<std::uint32_t> seeds;        ///< bodies
+
+  // SleepAndWake
+  std::vector<BodyId> woken;               ///< to be kept awake in this step
+  std::vector<std::uint8_t> restless, island_awake;  ///< per rigid
+
+  // SingleIterationPGS
+  bool sweeping = false;                   ///< some collection is swept
+  std::vector<SolverVelocity> sweep_u;     ///< per body
+  std::vector<Twist> sweep_before;         ///< per member
+  std::vector<SweepContact> sweep_contacts;
+  std::vector<std::uint8_t> disturbed;     ///< per collection slot
+
+  // Unmerge
+  bool split = false;                      ///< some collection was taken apart
+  std::vector<std::uint8_t> cuts_before;   ///< per weld of the collection at hand
+
+  // SolveLCP
+  std::vector<SolverVelocity> u;           ///< per rigid
+  std::vector<ContactBlock> blocks;        ///< by island, then by colour
+  std::vector<RowPoints> row_points;       ///< where each block's impulses go
+  std::vector<Island> islands;
+  std::vector<std::uint32_t> island_bodies;
+  std::vector<std::int32_t> island_of;     ///< per rigid; −1: touches nothing
+  DisjointSets sets;
+  std::vector<std::uint64_t> colours;      ///< per rigid: those of its blocks, as bits
+  std::vector<BlockOrder> block_order;
+  std::vector<ContactBlock> sorted_blocks;
+  std::vector<RowPoints> sorted_points;
+  std::vector<Impulses> before, direction; ///< per block
+  std::vector<Twist> u_before, u_direction;  ///< per body of an island
+};
+
+}  // namespace merge2d

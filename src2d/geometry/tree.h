@@ -1,0 +1,80 @@
+#pragma once
+/// Box2D's dynamic tree of bounding boxes, behind the few calls that the broadphase needs.
+
+#include <box2d/b2_dynamic_tree.h>
+
+#include <cstdint>
+
+#include "src2d/geometry/box.h"
+
+namespace merge2d {
+
+/// Leaves hold a number and a fat box: the given one grown by 0.1 m, so that small motions cost
+/// nothing. Box2D keeps the boxes in float; the fat margin covers the rounding up to 10^6 m.
+class AabbTree {
+ public:
+  AabbTree() = default;
+  AabbTree(const AabbTree&) = delete;
+  AabbTree& operator=(const AabbTree&) = delete;
+
+  int insert(const Aabb& box, std::uint32_t value) {
+    return tree_.CreateProxy(toB2(box), toUserData(value));
+  }
+  void remove(int leaf) { tree_.DestroyProxy(leaf); }
+
+  /// True when the box left its fat box and the leaf was placed anew, with room ahead along
+  /// `displacement` [m].
+  bool move(int leaf, const Aabb& box, const Vec2& displacement) {
+    return tree_.MoveProxy(leaf, toB2(box), toB2(displacement));
+  }
+  bool overlap(int leaf, int other) const {
+    return b2TestOverlap(tree_.GetFatAABB(leaf), tree_.GetFatAABB(other));
+  }
+  Aabb fatBox(int leaf) const {
+    const b2AABB& box = tree_.GetFatAABB(leaf);
+    return {{box.lowerBound.x, box.lowerBound.y}, {box.upperBound.x, box.upperBound.y}};
+  }
+
+  /// Calls visit(value) for each leaf whose fat box meets `box`.
+  template <class Visit>
+  void query(const Aabb& box, Visit&& visit) const {
+    Callback<Visit> callback{&tree_, &visit};
+    tree_.Query(&callback, toB2(box));
+  }
+  template <class Visit>
+  void queryLeaf(int leaf, Visit&& visit) const {
+    Callback<Visit> callback{&tree_, &visit};
+    tree_.Query(&callback, tree_.GetFatAABB(leaf));
+  }
+
+ private:
+  template <class Visit>
+  struct Callback {
+    const b2DynamicTree* tree;
+    Visit* visit;
+    bool QueryCallback(int32 leaf) {
+      (*visit)(toValue(tree->GetUserData(leaf)));
+      return true;
+    }
+  };
+
+  static b2Vec2 toB2(const Vec2& a) {
+    return {static_cast<float>(a.x()), static_cast<float>(a.y())};
+  }
+  static b2AABB toB2(const Aabb& box) {
+    b2AABB result;
+    result.lowerBound = toB2(box.lower);
+    result.upperBound = toB2(box.upper);
+    return result;
+  }
+  static void* toUserData(std::uint32_t value) {
+    return reinterpret_cast<void*>(static_cast<std::uintptr_t>(value));
+  }
+  static std::uint32_t toValue(void* data) {
+    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(data));
+  }
+
+  b2DynamicTree tree_;
+};
+
+}  // namespace merge2d

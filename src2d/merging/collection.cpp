@@ -1,0 +1,243 @@
+#include "src2d/merging/collection.h"
+
+#include <algorithm>
+
+#include "src2d/contact/broadphase.h"
+
+namespace merge2d {
+namespace {
+
+/// Makes a body a member: it keeps its place in the world and leaves the broadphase.
+void enlist(State& state, RigidId id, BodyId b, const Pose& world, double angle) {
+  Body& body = state[b];
+  const Rigid& r = state[id];
+  const Pose local = r.frame().inverse() * world;
+  body.rigid = id;
+  body.local = local.position;
+  body.local_angle = angle - r.angle;
+  body.local_rotation = local.rotation;
+}
+
+/// A collection of the one body, which keeps pose and motion.
+RigidId collectionOf(State& state, BodyId b) {
+  const RigidId own = rigidOf(b);
+  const RigidId id = newCollection(state);
+  const Rigid single = state[own];
+  Rigid& r = state[id];
+  r = single;
+  r.leaf = -1;
+  r.center = Vec2::Zero();
+  removeRigid(state, own);
+  enlist(state, id, b, {single.x, single.rotation}, single.angle);
+  state.collection(id).members = {b};
+  addShapes(state, id, {b});
+  insertRigid(state, id);
+  state.collection(id).stale = true;
+  return id;
+}
+
+RigidId asCollection(State& state, RigidId id) {
+  return state.isCollection(id) ? id : collectionOf(state, BodyId{static_cast<std::uint32_t>(id)});
+}
+
+/// Moves the members of `from` into `to`, whose frame stays.
+void absorbMembers(State& state, RigidId to, RigidId from) {
+  Collection &target = state.collection(to), &source = state.collection(from);
+  const Pose relative = state[to].frame().inverse() * state[from].frame();
+  saveForces(target);
+  saveForces(source);
+  for (const BodyId b : source.members) enlist(state, to, b, state.pose(b), state.angle(b));
+  for (InternalContact& inner : source.contacts) {
+    inner.contact.normal = relative.rotation * inner.contact.normal;
+    for (ContactPoint& p : inner.contact.points) p.position = relative * p.position;
+    target.contacts.push_back(inner);
+  }
+  addShapes(state, to, source.members);
+  const auto middle = static_cast<std::ptrdiff_t>(target.members.size());
+  target.members.insert(target.members.end(), source.members.begin(), source.members.end());
+  std::inplace_merge(target.members.begin(), target.members.begin() + middle,
+                     target.members.end());
+  for (const Vec2& corner :
+       {state[from].bounds.lower, state[from].bounds.upper,
+        Vec2(state[from].bounds.lower.x(), state[from].bounds.upper.y()),
+        Vec2(state[from].bounds.upper.x(), state[from].bounds.lower.y())}) {
+    state[to].bounds.include(relative * corner);
+  }
+  state[to].resized = true;
+  target.stale = true;
+  removeRigid(state, from);
+  freeCollection(state, from);
+}
+
+/// Fixes the floating collection to a frame: no mass, and the frame's pose becomes its own.
+void fix(State& state, RigidId id, FrameId frame, const Rigid& anchor) {
+  Rigid& r = state[id];
+  const Pose old = r.frame();
+  const double old_angle = r.angle;
+  r.anchor = frame;
+  r.inv_mass = r.inv_inertia = 0.0;
+  r.center = Vec2::Zero();
+  r.x = frame == kWorldFrame ? Vec2::Zero() : anchor.x;
+  r.angle = frame == kWorldFrame ? 0.0 : anchor.angle;
+  r.rotation = frame == kWorldFrame ? Rotation{} : anchor.rotation;
+  r.previous_rotation = frame == kWorldFrame ? Rotation{} : anchor.previous_rotation;
+  r.v = frame == kWorldFrame ? Vec2::Zero() : anchor.v;
+  r.omega = frame == kWorldFrame ? 0.0 : anchor.omega;
+
+  // Re-express members, contacts and shapes in the new frame.
+  Collection& c = state.collection(id);
+  const Pose relative = r.frame().inverse() * old;
+  saveForces(c);
+  removeShapes(state, id, c.members);
+  for (const BodyId b : c.members) {
+    const Pose local{state[b].local, state[b].local_rotation};
+    enlist(state, id, b, old * local, old_angle + state[b].local_angle);
+  }
+  for (InternalContact& inner : c.contacts) {
+    inner.contact.normal = relative.rotation * inner.contact.normal;
+    for (ContactPoint& p : inner.contact.points) p.position = relative * p.position;
+  }
+  addShapes(state, id, c.members);
+  r.resized = true;
+  c.stale = true;
+}
+
+}  // namespace
+
+RigidId newCollection(State& state) {
+  std::size_t slot = 0;
+  while (slot < state.collections.size() && state.collections[slot].id != kNoCollection) ++slot;
+  if (slot == state.collections.size()) {
+    state.collections.emplace_back();
+    state.rigids.emplace_back();
+    state.broadphase.shape_trees.emplace_back();
+  }
+  const RigidId id{static_cast<std::uint32_t>(state.bodies.size() + slot)};
+  Collection& c = state.collections[slot];
+  c = {};
+  c.id = CollectionId{state.next_collection++};
+  c.rigid = id;
+  state[id] = {};
+  return id;
+}
+
+void freeCollection(State& state, RigidId id) {
+  state.collection(id) = {};
+  dropShapeTree(state, id);
+}
+
+void addMotion(Rigid& c, const Rigid& b) {
+  const double mass = c.mass + b.mass;
+  const Vec2 x = (c.mass * c.x + b.mass * b.x) / mass;
+  const Vec2 r_c = c.x - x, r_b = b.x - x;
+  const double inertia =
+      c.inertia + c.mass * r_c.squaredNorm() + b.inertia + b.mass * r_b.squaredNorm();
+  c.omega = (c.inertia * c.omega + c.mass * cross(r_c, c.v) + b.inertia * b.omega +
+             b.mass * cross(r_b, b.v)) /
+            inertia;                                  // Eq. (10)
+  c.v = (c.mass * c.v + b.mass * b.v) / mass;         // Eq. (11)
+  c.center += c.rotation.inverse() * (x - c.x);
+  c.mass = mass;                                      // Eq. (12)
+  c.inertia = inertia;                                // Eq. (13)
+  c.x = x;                                            // Eq. (14)
+  c.inv_mass = 1.0 / mass;
+  c.inv_inertia = 1.0 / inertia;
+}
+
+RigidId mergeRigids(State& state, RigidId a, RigidId b) {
+  a = asCollection(state, a);
+  b = asCollection(state, b);
+  // The larger part keeps its id; of equals the older one.
+  const auto rank = [&](RigidId id) {
+    const Collection& c = state.collection(id);
+    return std::pair(-static_cast<std::int64_t>(c.members.size()), value(c.id));
+  };
+  const RigidId to = rank(a) <= rank(b) ? a : b, from = to == a ? b : a;
+  Rigid &target = state[to], &source = state[from];
+  if (target.floating() && source.floating()) {
+    addMotion(target, source);
+  } else if (target.floating()) {
+    fix(state, to, source.anchor, source);
+    state.collection(to).anchor = state.collection(from).anchor;
+  }
+  target.quiet_steps = 0;
+  target.asleep = false;
+  absorbMembers(state, to, from);
+  return to;
+}
+
+RigidId anchorRigid(State& state, RigidId id, BodyId anchor) {
+  id = asCollection(state, id);
+  if (state[id].floating()) {
+    fix(state, id, frameOf(state, anchor), state[rigidOf(anchor)]);
+    state.collection(id).anchor = anchor;
+    state[id].quiet_steps = 0;
+  }
+  return id;
+}
+
+FrameId frameOf(const State& state, BodyId body) {
+  return state[rigidOf(body)].anchor;
+}
+
+std::size_t memberIndex(const Collection& collection, BodyId body) {
+  const auto at = std::lower_bound(collection.members.begin(), collection.members.end(), body);
+  return static_cast<std::size_t>(at - collection.members.begin());
+}
+
+void absorbContacts(State& state) {
+  std::vector<RigidId> touched;
+  dropContacts(state, [&](const Contact& contact) {
+    const RigidId ra = state[contact.key.a].rigid, rb = state[contact.key.b].rigid;
+    const bool a_in = state.isCollection(ra), b_in = state.isCollection(rb);
+    const bool inside = ra == rb;
+    const bool with_frame =
+        a_in != b_in && !state[ra].floating() && state[ra].anchor == state[rb].anchor;
+    if (!inside && !with_frame) return false;
+    if (contact.count == 0) return true;
+    const RigidId id = a_in ? ra : rb;
+    Collection& c = state.collection(id);
+    if (!c.stale) saveForces(c);
+    c.stale = true;
+
+    InternalContact inner;
+    inner.contact = contact;
+    const Pose from_a = state[id].frame().inverse() * state.pose(contact.key.a);
+    inner.contact.normal = from_a.rotation * contact.normal;
+    for (int i = 0; i < contact.count; ++i) {
+      ContactPoint& p = inner.contact.points[static_cast<std::size_t>(i)];
+      p.position = from_a * p.position;
+      inner.active[i] = p.lambda_n > 0.0;
+    }
+    c.contacts.push_back(inner);
+    return true;
+  });
+}
+
+void saveForces(Collection& c) {
+  for (std::size_t i = 0; i < c.blocks.size(); ++i) {
+    const ContactBlock& k = c.blocks[i];
+    Contact& contact = c.contacts[c.block_contact[i]].contact;
+    for (int p = 0; p < k.count; ++p) {
+      contact.points[static_cast<std::size_t>(p)].lambda_n = k.lambda_n[p];
+      contact.points[static_cast<std::size_t>(p)].lambda_t = k.lambda_t[p];
+    }
+  }
+}
+
+void followAnchors(State& state) {
+  for (const Collection& c : state.collections) {
+    if (c.id == kNoCollection) continue;
+    Rigid& r = state[c.rigid];
+    if (r.floating() || r.anchor == kWorldFrame) continue;
+    const Rigid& anchor = state[rigidOf(c.anchor)];
+    r.x = anchor.x;
+    r.angle = anchor.angle;
+    r.rotation = anchor.rotation;
+    r.previous_rotation = anchor.previous_rotation;
+    r.v = anchor.v;
+    r.omega = anchor.omega;
+  }
+}
+
+}  // namespace merge2d

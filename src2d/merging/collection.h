@@ -1,0 +1,61 @@
+#pragma once
+/// Collections: bodies simulated as one (Section 4). Forming them, taking them apart, and keeping
+/// the contacts inside them.
+///
+/// Deviation: pinned and scripted bodies are never members. A collection welded to one is fixed to
+/// its frame ("anchored"), so that two piles on one floor stay two collections, which split and
+/// sleep on their own. Guarded by Collection.TwoPilesOnOneFloorStayTwo.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Eqs. (10)-(14): `c` takes over mass, inertia and momentum of `b`; its frame stays where it is.
+void addMotion(Rigid& c, const Rigid& b);
+
+/// Joins two floating or anchored rigid things, of which at least one floats or which share a
+/// frame; the larger part keeps its id. Returns the collection.
+RigidId mergeRigids(State& state, RigidId a, RigidId b);
+
+/// Fixes a rigid thing to the frame of the pinned or scripted body `anchor`.
+RigidId anchorRigid(State& state, RigidId id, BodyId anchor);
+
+/// Takes all contacts between bodies of one collection, or of one with its frame, out of the
+/// contact table into that collection.
+void absorbContacts(State& state);
+
+/// Mass, centre, inertia and bounds of a collection from its members; momentum is not touched.
+void gatherMass(State& state, RigidId id);
+
+/// Lays out what changed: welds, blocks and boxes of all collections whose contacts changed.
+void layOutCollections(State& state);
+
+/// Computes anew what the inner forces do to each member.
+void layOutPush(const State& state, Collection& collection);
+
+/// Takes the collection apart: `part[i]` is the part of its i-th member, `anchored[p]` says whether
+/// part p is still welded to the frame. The largest part keeps id and frame; contacts between the
+/// parts return to the contact table with their impulses. Momentum is conserved to rounding.
+/// Returns the rigid things that came out, the largest first.
+std::vector<RigidId> splitCollection(State& state, RigidId id,
+                                     const std::vector<std::uint32_t>& part,
+                                     const std::vector<std::uint8_t>& anchored);
+
+/// Copies the impulses of the blocks back to the contacts.
+void saveForces(Collection& collection);
+
+/// Brings anchored collections to their frame's pose and velocity.
+void followAnchors(State& state);
+
+/// A new, empty collection that has neither place nor members yet.
+RigidId newCollection(State& state);
+/// Gives the slot back; its rigid thing must have left the broadphase.
+void freeCollection(State& state, RigidId id);
+
+/// The frame that a pinned or scripted body belongs to.
+FrameId frameOf(const State& state, BodyId body);
+
+/// The i-th member's index in `members`.
+std::size_t memberIndex(const Collection& collection, BodyId body);
+
+}  // namespace merge2d

@@ -1,0 +1,195 @@
+/// The derived data of a collection: mass, boxes, welds and the blocks of its sweep.
+
+#include <algorithm>
+#include <bit>
+
+#include "src2d/merging/collection.h"
+
+namespace merge2d {
+namespace {
+
+Aabb memberBounds(const State& state, BodyId b) {
+  const Body& body = state[b];
+  Aabb box;
+  for (const Vec2& corner :
+       {body.bounds.lower, body.bounds.upper, Vec2(body.bounds.lower.x(), body.bounds.upper.y()),
+        Vec2(body.bounds.upper.x(), body.bounds.lower.y())}) {
+    box.include(Pose{body.local, body.local_rotation} * corner);
+  }
+  return box;
+}
+
+}  // namespace
+
+void gatherMass(State& state, RigidId id) {
+  Rigid& r = state[id];
+  const Collection& c = state.collection(id);
+  const Pose frame = r.frame();
+  r.mass = 0.0;
+  Vec2 first = Vec2::Zero();
+  r.bounds = {};
+  for (const BodyId b : c.members) {
+    r.mass += state[b].mass;
+    first += state[b].mass * state[b].local;
+    r.bounds.include(memberBounds(state, b));
+  }
+  const Vec2 center = first / r.mass;
+  r.inertia = 0.0;
+  for (const BodyId b : c.members) {
+    r.inertia += state[b].inertia + state[b].mass * (state[b].local - center).squaredNorm();
+  }
+  if (r.floating()) {
+    r.center = center;
+    r.x = frame * center;
+    r.inv_mass = 1.0 / r.mass;
+    r.inv_inertia = 1.0 / r.inertia;
+  }
+}
+
+namespace {
+
+/// The oriented box of all members (Section 5.2).
+void fitBox(State& state, RigidId id) {
+  thread_local std::vector<Vec2> points;
+  points.clear();
+  for (const BodyId b : state.collection(id).members) {
+    const Body& body = state[b];
+    for (const Vec2& corner : body.box.corners()) {
+      points.push_back(Pose{body.local, body.local_rotation} * corner);
+    }
+  }
+  state[id].box = tightBox(points);
+}
+
+/// Contacts of one pair of bodies in a row form a weld.
+void layOutWelds(Collection& c) {
+  const std::vector<Weld> old = std::move(c.welds);
+  c.welds.clear();
+  std::size_t o = 0;
+  for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
+    const ContactKey& key = c.contacts[i].contact.key;
+    if (c.welds.empty() || c.welds.back().a != key.a || c.welds.back().b != key.b) {
+      Weld weld{.a = key.a, .b = key.b, .first = i};
+      while (o < old.size() && std::pair(old[o].a, old[o].b) < std::pair(key.a, key.b)) ++o;
+      if (o < old.size() && old[o].a == key.a && old[o].b == key.b) {
+        weld.loud_steps = old[o].loud_steps;
+      }
+      c.welds.push_back(weld);
+    }
+    c.welds.back().count = i + 1 - c.welds.back().first;
+  }
+}
+
+/// A body's masses as its collection's sweep sees them; its frame's bodies do not respond.
+SolverVelocity memberMasses(const State& state, const Collection& c, BodyId b) {
+  SolverVelocity u;
+  if (state[b].rigid == c.rigid) {
+    u.inv_mass = 1.0 / state[b].mass;
+    u.inv_inertia = 1.0 / state[b].inertia;
+  }
+  return u;
+}
+
+/// Deviation: contacts inside a collection are rigid rows, without bias and softness: their overlap
+/// is frozen, and would ask for a ghost velocity whenever the load changes.
+/// Guarded by Sweep.HoldsAColumnsWeightExactly.
+ContactBlock makeBlock(const State& state, const Collection& c, const Contact& contact) {
+  const auto origin = [&](BodyId b) {
+    return state[b].rigid == c.rigid ? state[b].local : Vec2(Vec2::Zero());
+  };
+  BlockGeometry g;
+  g.normal = contact.normal;
+  g.count = contact.count;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
+    g.arm_a[i] = contact.points[i].position - origin(contact.key.a);
+    g.arm_b[i] = contact.points[i].position - origin(contact.key.b);
+  }
+  ContactBlock k;
+  k.a = static_cast<std::uint32_t>(contact.key.a);
+  k.b = static_cast<std::uint32_t>(contact.key.b);
+  k.mu = contact.mu;
+  k.bilateral = state[contact.key.a].magnet_on || state[contact.key.b].magnet_on;
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];
+    k.lambda_n[i] = p.lambda_n;
+    k.lambda_t[i] = p.lambda_t;
+    k.bias[i] = std::max(0.0, p.gap) / state.h;
+  }
+  prepareBlock(k, g, memberMasses(state, c, contact.key.a), memberMasses(state, c, contact.key.b));
+  return k;
+}
+
+/// The order of an undisturbed sweep: active contacts first, by colour, so that blocks in a row
+/// share no body and need not wait for each other.
+void layOutBlocks(const State& state, Collection& c) {
+  struct Item {
+    bool dormant;
+    std::uint32_t colour, contact;
+    auto operator<=>(const Item&) const = default;
+  };
+  std::vector<Item> items;
+  std::vector<std::uint64_t> used(c.members.size(), 0);
+  const auto colours = [&](BodyId b) -> std::uint64_t* {
+    return state[b].rigid == c.rigid ? &used[memberIndex(c, b)] : nullptr;
+  };
+  for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
+    const InternalContact& inner = c.contacts[i];
+    std::uint64_t *a = colours(inner.contact.key.a), *b = colours(inner.contact.key.b);
+    const std::uint64_t taken = (a ? *a : 0) | (b ? *b : 0);
+    const auto colour = static_cast<std::uint32_t>(std::min(std::countr_one(taken), 63));
+    if (a) *a |= std::uint64_t{1} << colour;
+    if (b) *b |= std::uint64_t{1} << colour;
+    items.push_back({!inner.active[0] && !inner.active[1], colour, i});
+  }
+  std::sort(items.begin(), items.end());
+
+  c.blocks.clear();
+  c.block_contact.clear();
+  c.active_blocks = 0;
+  for (const Item& item : items) {
+    c.blocks.push_back(makeBlock(state, c, c.contacts[item.contact].contact));
+    c.block_contact.push_back(item.contact);
+    if (!item.dormant) ++c.active_blocks;
+  }
+}
+
+}  // namespace
+
+// The push is the start of the next sweep, so that no pass over the rows is needed for a warm start.
+void layOutPush(const State& state, Collection& c) {
+  c.push.assign(c.members.size(), {});
+  const auto add = [&](BodyId b, double sign, const Vec2& impulse, double moment) {
+    if (state[b].rigid != c.rigid) return;
+    Twist& push = c.push[memberIndex(c, b)];
+    push.vx += sign * impulse.x() / state[b].mass;
+    push.vy += sign * impulse.y() / state[b].mass;
+    push.omega += sign * moment / state[b].inertia;
+  };
+  for (const ContactBlock& k : c.blocks) {
+    const Vec2 n(k.nx, k.ny), t = perpendicular(n);
+    for (int i = 0; i < k.count; ++i) {
+      const Vec2 impulse = k.lambda_n[i] * n + k.lambda_t[i] * t;
+      add(BodyId{k.a}, -1.0, impulse, k.arm_an[i] * k.lambda_n[i] + k.arm_at[i] * k.lambda_t[i]);
+      add(BodyId{k.b}, 1.0, impulse, k.arm_bn[i] * k.lambda_n[i] + k.arm_bt[i] * k.lambda_t[i]);
+    }
+  }
+}
+
+void layOutCollections(State& state) {
+  for (Collection& c : state.collections) {
+    if (c.id == kNoCollection || !c.stale) continue;
+    std::sort(c.contacts.begin(), c.contacts.end(),
+              [](const InternalContact& x, const InternalContact& y) {
+                return x.contact.key < y.contact.key;
+              });
+    if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
+    fitBox(state, c.rigid);
+    layOutWelds(c);
+    layOutBlocks(state, c);
+    layOutPush(state, c);
+    c.stale = false;
+    c.settled = false;
+  }
+}
+
+}  // namespace merge2d

@@ -1,0 +1,46 @@
+#include "src2d/merging/ordering.h"
+
+namespace merge2d {
+
+std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const GraphEdge> edges,
+                                        std::span<const std::uint32_t> seeds,
+                                        std::span<const std::uint8_t> passable) {
+  // Edges at each node, in the order given.
+  std::vector<std::uint32_t> first(nodes + 1, 0);
+  for (const GraphEdge& e : edges) ++first[e.a + 1], ++first[e.b + 1];
+  for (std::uint32_t n = 0; n < nodes; ++n) first[n + 1] += first[n];
+  std::vector<std::uint32_t> at(first.begin(), first.end() - 1), incident(first.back());
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    incident[at[edges[i].a]++] = i;
+    incident[at[edges[i].b]++] = i;
+  }
+
+  // The walk.
+  std::vector<std::uint8_t> reached(nodes, 0), placed(edges.size(), 0);
+  std::vector<std::uint32_t> queue, order;
+  order.reserve(edges.size());
+  const auto reach = [&](std::uint32_t node) {
+    if (reached[node] || !passable[node]) return;
+    reached[node] = 1;
+    queue.push_back(node);
+  };
+  for (const std::uint32_t seed : seeds) reach(seed);
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const std::uint32_t node = queue[head];
+    for (std::uint32_t i = first[node]; i < first[node + 1]; ++i) {
+      const std::uint32_t edge = incident[i];
+      if (placed[edge]) continue;
+      placed[edge] = 1;
+      order.push_back(edge);
+      reach(edges[edge].a == node ? edges[edge].b : edges[edge].a);
+    }
+  }
+
+  // What the walk does not reach.
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    if (!placed[i]) order.push_back(i);
+  }
+  return order;
+}
+
+}  // namespace merge2d

@@ -1,0 +1,23 @@
+#pragma once
+/// ContactOrdering (Section 6.2): the sweep starts at what is new and walks the contact graph from
+/// there, breadth first from all places at once.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace merge2d {
+
+/// An edge of the contact graph; a body that does not respond to forces is never walked through.
+struct GraphEdge {
+  std::uint32_t a = 0, b = 0;
+};
+
+/// The edges in breadth-first order from the seed nodes: first those at a seed, in the order given,
+/// then those at the nodes reached by these, and so on; the rest in the order given. `passable[n]`:
+/// the walk goes on at node n. Each index of `edges` appears once.
+std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const GraphEdge> edges,
+                                        std::span<const std::uint32_t> seeds,
+                                        std::span<const std::uint8_t> passable);
+
+}  // namespace merge2d

@@ -1,0 +1,108 @@
+#include "src2d/merging/sleep.h"
+
+#include <algorithm>
+
+namespace merge2d {
+namespace {
+
+bool canSleep(const Rigid& r, const State& state, std::size_t i) {
+  return r.present() && (r.floating() || i >= state.bodies.size());
+}
+
+/// Sum of the loads on each body that has any.
+void sumLoads(State& state, const Scratch& scratch) {
+  for (const Load& load : scratch.loads) state[load.body].load.setZero();
+  for (const Load& load : scratch.loads) state[load.body].load += load.force;
+}
+
+/// Rigid things that something keeps or makes awake: kicks, changed loads, moving scripted bodies.
+void markRestless(State& state, Scratch& scratch, std::vector<std::uint8_t>& restless) {
+  restless.assign(state.rigids.size(), 0);
+  const auto mark = [&](BodyId b) { restless[index(state[b].rigid)] = 1; };
+  for (const Kick& kick : scratch.kicks) mark(kick.body);
+  for (const BodyId b : scratch.woken) mark(b);
+  for (const Load& load : scratch.loads) {
+    const Body& body = state[load.body];
+    const double change = (body.load - body.load_asleep).norm();
+    if (change > 1e-6 * (1.0 + body.load.norm()) && state.rigid(load.body).asleep) mark(load.body);
+  }
+  for (const BodyPair& pair : scratch.pairs) {
+    const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
+    const auto stirs = [](const Rigid& r) {
+      return r.anchor > kWorldFrame && (r.v.squaredNorm() > 0.0 || r.omega != 0.0);
+    };
+    if (stirs(a)) mark(pair.b);
+    if (stirs(b)) mark(pair.a);
+  }
+}
+
+void fallAsleep(State& state, Scratch& scratch, std::size_t i) {
+  Rigid& r = state.rigids[i];
+  r.asleep = true;
+  r.v.setZero();
+  r.omega = 0.0;
+  const bool collection = i >= state.bodies.size();
+  const Collection* c = collection ? &state.collections[i - state.bodies.size()] : nullptr;
+  const BodyId first = c ? c->members.front() : BodyId{static_cast<std::uint32_t>(i)};
+  if (c) {
+    for (const BodyId b : c->members) state[b].load_asleep = state[b].load;
+  } else {
+    state[first].load_asleep = state[first].load;
+  }
+  scratch.events.push_back(
+      {EventType::Sleep, first, first, c ? c->id : kNoCollection, EventReason::None});
+}
+
+void wakeUp(State& state, Scratch& scratch, std::size_t i) {
+  Rigid& r = state.rigids[i];
+  r.asleep = false;
+  r.quiet_steps = 0;
+  const bool collection = i >= state.bodies.size();
+  const Collection* c = collection ? &state.collections[i - state.bodies.size()] : nullptr;
+  const BodyId first = c ? c->members.front() : BodyId{static_cast<std::uint32_t>(i)};
+  scratch.events.push_back(
+      {EventType::Wake, first, first, c ? c->id : kNoCollection, EventReason::None});
+}
+
+bool ready(const State& state, std::size_t i, bool restless) {
+  const Rigid& r = state.rigids[i];
+  if (restless) return false;
+  if (r.asleep) return true;
+  const bool collection = i >= state.bodies.size();
+  if (collection && !state.collections[i - state.bodies.size()].settled) return false;
+  return r.quiet_steps >= state.settings.sleeping.steps;
+}
+
+}  // namespace
+
+void sleepAndWake(State& state, Scratch& scratch) {
+  if (!sleeps(state.mode)) return;
+  sumLoads(state, scratch);
+  auto& restless = scratch.restless;
+  markRestless(state, scratch, restless);
+
+  // Islands over everything that can sleep, sleeping or not.
+  auto& sets = scratch.sets;
+  sets.reset(state.rigids.size());
+  for (const BodyPair& pair : scratch.pairs) {
+    const auto a = index(state[pair.a].rigid), b = index(state[pair.b].rigid);
+    if (canSleep(state.rigids[a], state, a) && canSleep(state.rigids[b], state, b)) {
+      sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    }
+  }
+  auto& awake = scratch.island_awake;
+  awake.assign(state.rigids.size(), 0);
+  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
+    if (!canSleep(state.rigids[i], state, i) || ready(state, i, restless[i] != 0)) continue;
+    awake[sets.find(static_cast<std::uint32_t>(i))] = 1;
+  }
+  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
+    if (!canSleep(state.rigids[i], state, i)) continue;
+    const bool stays_awake = awake[sets.find(static_cast<std::uint32_t>(i))] != 0;
+    if (state.rigids[i].asleep && stays_awake) wakeUp(state, scratch, i);
+    if (!state.rigids[i].asleep && !stays_awake) fallAsleep(state, scratch, i);
+  }
+  scratch.woken.clear();
+}
+
+}  // namespace merge2d

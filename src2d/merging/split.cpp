@@ -1,0 +1,148 @@
+/// Taking a collection apart (Section 4, "in reverse").
+
+#include <algorithm>
+
+#include "src2d/contact/broadphase.h"
+#include "src2d/contact/detection.h"
+#include "src2d/merging/collection.h"
+
+namespace merge2d {
+namespace {
+
+/// The members of each part, ascending.
+std::vector<std::vector<BodyId>> membersOfParts(const Collection& c,
+                                                const std::vector<std::uint32_t>& part,
+                                                std::size_t parts) {
+  std::vector<std::vector<BodyId>> members(parts);
+  for (std::size_t i = 0; i < c.members.size(); ++i) members[part[i]].push_back(c.members[i]);
+  return members;
+}
+
+/// A member goes its own way, with the velocity that its collection has where it is.
+RigidId freeBody(State& state, BodyId b, const Rigid& whole) {
+  const Pose pose = state.pose(b);
+  const double angle = state.angle(b);
+  Rigid& r = state[rigidOf(b)];
+  r.x = pose.position;
+  r.angle = angle;
+  r.rotation = Rotation::of(angle);
+  r.previous_rotation = r.rotation;
+  r.v = whole.velocityAt(r.x);
+  r.omega = whole.omega;
+  r.quiet_steps = 0;
+  r.asleep = false;
+  state[b].rigid = rigidOf(b);
+  insertRigid(state, rigidOf(b));
+  return rigidOf(b);
+}
+
+/// Makes a rigid thing that has the whole's frame move as the whole did, floating or anchored.
+void inheritMotion(State& state, RigidId id, const Rigid& whole, bool anchored) {
+  Rigid& r = state[id];
+  if (!anchored) r.anchor = kFloating;
+  gatherMass(state, id);
+  r.v = whole.velocityAt(r.x);
+  r.omega = whole.omega;
+}
+
+RigidId newPart(State& state, const std::vector<BodyId>& members, const Rigid& whole,
+                BodyId anchor, bool anchored) {
+  const RigidId id = newCollection(state);
+  Collection& c = state.collection(id);
+  c.members = members;
+  c.anchor = anchor;
+  c.stale = true;
+  Rigid& r = state[id];
+  r = whole;
+  r.leaf = -1;
+  r.quiet_steps = 0;
+  r.asleep = false;
+  for (const BodyId b : members) state[b].rigid = id;
+  inheritMotion(state, id, whole, anchored);
+  addShapes(state, id, members);
+  insertRigid(state, id);
+  return id;
+}
+
+/// Contacts between the parts return to the table with their impulses and today's geometry.
+void releaseContacts(State& state, std::vector<InternalContact>& released) {
+  std::vector<ContactKey> keys;
+  for (const InternalContact& inner : released) keys.push_back(inner.contact.key);
+  std::sort(keys.begin(), keys.end());
+  addContacts(state, keys);
+  for (const InternalContact& inner : released) {
+    const auto& order = state.contacts.order;
+    const auto at = std::lower_bound(
+        order.begin(), order.end(), inner.contact.key,
+        [](const ContactTable::Entry& e, const ContactKey& key) { return e.key < key; });
+    Contact& contact = state.contacts[*at];
+    contact = inner.contact;
+    contact.quiet_steps = 0;
+    updateManifold(state, contact);
+  }
+}
+
+}  // namespace
+
+std::vector<RigidId> splitCollection(State& state, RigidId id,
+                                     const std::vector<std::uint32_t>& part,
+                                     const std::vector<std::uint8_t>& anchored) {
+  saveForces(state.collection(id));
+  const Rigid whole = state[id];
+  const BodyId anchor = state.collection(id).anchor;
+  const auto members = membersOfParts(state.collection(id), part, anchored.size());
+  std::size_t largest = 0;
+  for (std::size_t p = 1; p < members.size(); ++p) {
+    if (members[p].size() > members[largest].size()) largest = p;
+  }
+
+  // Contacts first, while membership can still be asked.
+  std::vector<std::vector<InternalContact>> kept(members.size());
+  std::vector<InternalContact> released;
+  {
+    const Collection& c = state.collection(id);
+    const auto partOf = [&](BodyId b) { return part[memberIndex(c, b)]; };
+    for (const InternalContact& inner : c.contacts) {
+      const BodyId a = inner.contact.key.a, b = inner.contact.key.b;
+      const bool a_in = state[a].rigid == id, b_in = state[b].rigid == id;
+      const std::uint32_t p = partOf(a_in ? a : b), q = partOf(b_in ? b : a);
+      const bool stays = p == q && ((a_in && b_in) || anchored[p]);
+      (stays ? kept[p] : released).push_back(inner);
+    }
+  }
+
+  // The other parts leave …
+  std::vector<RigidId> result{id};
+  for (std::size_t p = 0; p < members.size(); ++p) {
+    if (p == largest) continue;
+    removeShapes(state, id, members[p]);
+    if (members[p].size() == 1 && !anchored[p]) {
+      result.push_back(freeBody(state, members[p].front(), whole));
+    } else {
+      const RigidId made = newPart(state, members[p], whole, anchor, anchored[p] != 0);
+      state.collection(made).contacts = std::move(kept[p]);
+      result.push_back(made);
+    }
+  }
+
+  // … and the largest stays, unless it is a single body that nothing holds.
+  if (members[largest].size() == 1 && !anchored[largest]) {
+    removeRigid(state, id);
+    result.front() = freeBody(state, members[largest].front(), whole);
+    freeCollection(state, id);
+  } else {
+    Collection& c = state.collection(id);
+    c.members = members[largest];
+    c.contacts = std::move(kept[largest]);
+    c.blocks.clear();
+    c.block_contact.clear();
+    c.stale = true;
+    inheritMotion(state, id, whole, anchored[largest] != 0);
+    state[id].resized = true;
+    state[id].quiet_steps = 0;
+  }
+  releaseContacts(state, released);
+  return result;
+}
+
+}  // namespace merge2d

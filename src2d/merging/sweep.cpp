@@ -1,0 +1,295 @@
+#include "src2d/merging/sweep.h"
+
+#include <algorithm>
+
+#include "src2d/dynamics/solver.h"
+#include "src2d/merging/collection.h"
+#include "src2d/merging/ordering.h"
+
+namespace merge2d {
+namespace {
+
+/// A contact that closes slower than this disturbs nobody [m/s].
+constexpr double kGentle = 1e-3;
+
+bool isMember(const State& state, BodyId b) { return state.isCollection(state[b].rigid); }
+
+/// A contact that was open in the last step and closes in this one.
+bool closesAnew(const State& state, const Contact& contact) {
+  const Pose pose_a = state.pose(contact.key.a);
+  const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
+    if (!point.fresh) continue;
+    const Vec2 p = pose_a * point.position;
+    const double w_n = (pose_a.rotation * contact.normal).dot(b.velocityAt(p) - a.velocityAt(p));
+    if (w_n + std::max(0.0, point.gap) / state.h < -kGentle) return true;
+  }
+  return false;
+}
+
+/// Velocity of a member before the last position update: Deviation from the start with today's
+/// velocity, which would miss the force that keeps the member on its circle.
+/// Guarded by Sweep.HoldsASpinningMemberOnItsCircle.
+void startMembers(const State& state, const Collection& c, Scratch& scratch) {
+  const Rigid& r = state[c.rigid];
+  const Rotation before = r.previous_rotation;
+  for (std::size_t i = 0; i < c.members.size(); ++i) {
+    const Body& body = state[c.members[i]];
+    const Vec2 arm = before * (body.local - r.center);
+    const Twist& push = c.push[i];
+    const Vec2 pushed = r.rotation * Vec2(push.vx, push.vy);
+    SolverVelocity& u = scratch.sweep_u[index(c.members[i])];
+    u.vx = r.v.x() - r.omega * arm.y() + state.h * state.gravity.x() + pushed.x();
+    u.vy = r.v.y() + r.omega * arm.x() + state.h * state.gravity.y() + pushed.y();
+    u.omega = r.omega + push.omega;
+    u.inv_mass = 1.0 / body.mass;
+    u.inv_inertia = 1.0 / body.inertia;
+  }
+}
+
+/// Free bodies, and those that do not respond to forces.
+void startOthers(const State& state, Scratch& scratch) {
+  for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
+    const BodyId b{i};
+    if (isMember(state, b) || !state[b].alive) continue;
+    const Rigid& r = state[rigidOf(b)];
+    const bool free = r.floating() && !r.asleep;
+    SolverVelocity& u = scratch.sweep_u[i];
+    u = {r.v.x(), r.v.y(), r.omega, free ? r.inv_mass : 0.0, free ? r.inv_inertia : 0.0};
+    if (!free) continue;
+    u.vx += state.h * state.gravity.x();
+    u.vy += state.h * state.gravity.y();
+  }
+}
+
+void addLoads(const State& state, Scratch& scratch) {
+  for (const Load& load : scratch.loads) {
+    SolverVelocity& u = scratch.sweep_u[index(load.body)];
+    u.vx += state.h * u.inv_mass * load.force.x();
+    u.vy += state.h * u.inv_mass * load.force.y();
+    u.omega += state.h * u.inv_inertia * load.torque;
+  }
+  for (const Kick& kick : scratch.kicks) {
+    SolverVelocity& u = scratch.sweep_u[index(kick.body)];
+    u.vx += u.inv_mass * kick.impulse.x();
+    u.vy += u.inv_mass * kick.impulse.y();
+    u.omega += u.inv_inertia * cross(kick.at - state.pose(kick.body).position, kick.impulse);
+  }
+}
+
+/// The rows of a contact outside collections, with the bodies' own masses.
+void addOuterContact(const State& state, const Contact& contact, std::uint32_t slot,
+                     Scratch& scratch) {
+  const BodyId a = contact.key.a, b = contact.key.b;
+  const SolverVelocity &ua = scratch.sweep_u[index(a)], &ub = scratch.sweep_u[index(b)];
+  if (ua.inv_mass == 0.0 && ub.inv_mass == 0.0) return;
+  const Pose pose_a = state.pose(a);
+  const Vec2 x_b = state.pose(b).position;
+  const SolverSettings& settings = state.settings.solver;
+  BlockGeometry g;
+  g.normal = pose_a.rotation * contact.normal;
+  g.count = contact.count;
+  g.softness = contactSoftness(settings, ua.inv_mass, ub.inv_mass);
+  SweepContact outer{.slot = slot, .block = {}};
+  ContactBlock& k = outer.block;
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
+    const Vec2 p = pose_a * point.position;
+    g.arm_a[i] = p - pose_a.position;
+    g.arm_b[i] = p - x_b;
+    k.lambda_n[i] = point.lambda_n;
+    k.lambda_t[i] = point.lambda_t;
+    k.bias[i] = contactBias(settings, state.h, point.gap);
+  }
+  k.a = static_cast<std::uint32_t>(a);
+  k.b = static_cast<std::uint32_t>(b);
+  k.mu = contact.mu;
+  k.bilateral = state[a].magnet_on || state[b].magnet_on;
+  prepareBlock(k, g, ua, ub);
+  scratch.sweep_contacts.push_back(outer);
+}
+
+void warmStartOuter(const State& state, Scratch& scratch) {
+  scratch.sweep_contacts.clear();
+  for (const BodyPair& pair : scratch.pairs) {
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      const ContactTable::Entry& entry = state.contacts.order[i];
+      const Contact& contact = state.contacts[entry];
+      if (contact.count > 0) addOuterContact(state, contact, entry.slot, scratch);
+    }
+  }
+  auto& u = scratch.sweep_u;
+  for (const SweepContact& outer : scratch.sweep_contacts) {
+    const ContactBlock& k = outer.block;
+    for (int i = 0; i < k.count; ++i) {
+      applyImpulse(k, i, k.nx, k.ny, k.lambda_n[i], k.lambda_t[i], u[k.a], u[k.b]);
+    }
+  }
+}
+
+void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocity>& u,
+                SolverMethod method) {
+  const double nx = turn.c * k.nx - turn.s * k.ny, ny = turn.s * k.nx + turn.c * k.ny;
+  if (method == SolverMethod::Pgs) {
+    solveRows(k, nx, ny, u[k.a], u[k.b]);
+  } else {
+    solveBlock(k, nx, ny, u[k.a], u[k.b]);
+  }
+}
+
+/// Contacts in the order of a disturbed step: outside ones and those inside disturbed collections.
+struct SweepItem {
+  ContactBlock* block;
+  Rotation turn;
+};
+
+std::vector<SweepItem> disturbedOrder(State& state, Scratch& scratch) {
+  std::vector<SweepItem> items;
+  std::vector<GraphEdge> edges;
+  const auto add = [&](ContactBlock& k, const Rotation& turn) {
+    items.push_back({&k, turn});
+    edges.push_back({k.a, k.b});
+  };
+  for (SweepContact& outer : scratch.sweep_contacts) add(outer.block, {});
+  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
+    Collection& c = state.collections[slot];
+    if (!scratch.disturbed[slot]) continue;
+    for (ContactBlock& k : c.blocks) add(k, state[c.rigid].rotation);
+  }
+  std::vector<std::uint8_t> passable(state.bodies.size());
+  for (std::size_t i = 0; i < passable.size(); ++i) {
+    passable[i] = scratch.sweep_u[i].inv_mass > 0.0;
+  }
+  const auto order = breadthFirst(static_cast<std::uint32_t>(state.bodies.size()), edges,
+                                  scratch.seeds, passable);
+  std::vector<SweepItem> ordered;
+  ordered.reserve(order.size());
+  for (const std::uint32_t i : order) ordered.push_back(items[i]);
+  return ordered;
+}
+
+/// One sweep over the active contacts of a collection that nothing disturbs. What it changes is
+/// added to each member's push; `settled` when it changed next to nothing.
+void sweepUndisturbed(const State& state, Collection& c, Scratch& scratch) {
+  auto& u = scratch.sweep_u;
+  auto& before = scratch.sweep_before;
+  const std::size_t n = c.members.size();
+  before.resize(std::max(before.size(), n));
+  for (std::size_t i = 0; i < n; ++i) {
+    const SolverVelocity& m = u[index(c.members[i])];
+    before[i] = {m.vx, m.vy, m.omega};
+  }
+  const Rotation turn = state[c.rigid].rotation;
+  for (int s = 0; s < state.settings.unmerging.sweeps; ++s) {
+    for (std::uint32_t i = 0; i < c.active_blocks; ++i) {
+      sweepBlock(c.blocks[i], turn, u, state.settings.solver.method);
+    }
+  }
+  const Rotation back = turn.inverse();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const SolverVelocity& m = u[index(c.members[i])];
+    const Vec2 change = back * Vec2(m.vx - before[i].vx, m.vy - before[i].vy);
+    c.push[i].vx += change.x();
+    c.push[i].vy += change.y();
+    c.push[i].omega += m.omega - before[i].omega;
+    largest = std::max(largest, change.squaredNorm());
+  }
+  const double still = state.settings.sleeping.velocity;
+  c.settled = largest <= still * still;
+}
+
+/// Breadth first from what is new, over contacts inside and outside.
+void sweepDisturbed(State& state, Scratch& scratch) {
+  const auto order = disturbedOrder(state, scratch);
+  const UnmergingSettings& settings = state.settings.unmerging;
+  const int sweeps =
+      settings.rule == Rule::Paper ? settings.sweeps : settings.disturbed_sweeps;
+  for (int s = 0; s < sweeps; ++s) {
+    for (const SweepItem& item : order) {
+      sweepBlock(*item.block, item.turn, scratch.sweep_u, state.settings.solver.method);
+    }
+  }
+  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
+    Collection& c = state.collections[slot];
+    if (!scratch.disturbed[slot]) continue;
+    layOutPush(state, c);
+    c.settled = false;
+  }
+}
+
+}  // namespace
+
+bool isSwept(const State& state, const Collection& c) {
+  return c.id != kNoCollection && !state[c.rigid].asleep;
+}
+
+void orderContacts(const State& state, Scratch& scratch) {
+  scratch.seeds.clear();
+  scratch.disturbed.assign(state.collections.size(), 0);
+  if (!state.settings.unmerging.ordering) return;
+  const auto seed = [&](BodyId b) {
+    scratch.seeds.push_back(static_cast<std::uint32_t>(b));
+    const RigidId id = state[b].rigid;
+    if (state.isCollection(id)) {
+      scratch.disturbed[index(id) - state.bodies.size()] = 1;
+    }
+  };
+  for (const Kick& kick : scratch.kicks) seed(kick.body);
+  for (const BodyPair& pair : scratch.pairs) {
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      const Contact& contact = state.contacts[state.contacts.order[i]];
+      if (!closesAnew(state, contact)) continue;
+      seed(pair.a);
+      seed(pair.b);
+      break;
+    }
+  }
+}
+
+void warmStartSweep(State& state, Scratch& scratch) {
+  scratch.sweep_contacts.clear();
+  const bool any = std::any_of(state.collections.begin(), state.collections.end(),
+                               [&](const Collection& c) { return isSwept(state, c); });
+  scratch.sweeping = any;
+  if (!any) return;
+  scratch.sweep_u.resize(state.bodies.size());
+  startOthers(state, scratch);
+  for (const Collection& c : state.collections) {
+    if (isSwept(state, c)) startMembers(state, c, scratch);
+  }
+  addLoads(state, scratch);
+  warmStartOuter(state, scratch);
+}
+
+void sweepCollections(State& state, Scratch& scratch) {
+  if (!scratch.sweeping) return;
+  const bool disturbed = std::any_of(scratch.disturbed.begin(), scratch.disturbed.end(),
+                                     [](std::uint8_t d) { return d != 0; });
+  if (disturbed) {
+    sweepDisturbed(state, scratch);
+  } else {
+    for (SweepContact& outer : scratch.sweep_contacts) {
+      sweepBlock(outer.block, {}, scratch.sweep_u, state.settings.solver.method);
+    }
+  }
+  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
+    Collection& c = state.collections[slot];
+    if (isSwept(state, c) && !scratch.disturbed[slot]) sweepUndisturbed(state, c, scratch);
+  }
+}
+
+void sweepAgain(State& state, Scratch& scratch, Collection& c) {
+  const SolverMethod method = state.settings.solver.method;
+  const Rotation turn = state[c.rigid].rotation;
+  for (int s = 0; s < state.settings.unmerging.disturbed_sweeps; ++s) {
+    for (SweepContact& outer : scratch.sweep_contacts) {
+      sweepBlock(outer.block, {}, scratch.sweep_u, method);
+    }
+    for (ContactBlock& k : c.blocks) sweepBlock(k, turn, scratch.sweep_u, method);
+  }
+  layOutPush(state, c);
+}
+
+}  // namespace merge2d

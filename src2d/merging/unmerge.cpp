@@ -1,0 +1,296 @@
+#include "src2d/merging/unmerge.h"
+
+#include <algorithm>
+
+#include "src2d/contact/detection.h"
+#include "src2d/merging/collection.h"
+#include "src2d/merging/cycles.h"
+#include "src2d/merging/metric.h"
+#include "src2d/merging/sweep.h"
+
+namespace merge2d {
+namespace {
+
+/// A tangential impulse this near to its limit is on the edge of the cone, Eq. (20).
+constexpr double kOnEdge = 1.0 - 1e-9;
+
+bool broken(const ContactBlock& k, int i) { return k.lambda_n[i] <= 0.0 && !k.bilateral; }
+bool onEdge(const ContactBlock& k, int i) {
+  return !k.bilateral && std::abs(k.lambda_t[i]) >= kOnEdge * k.mu * k.lambda_n[i];
+}
+
+/// Records one decision if somebody asks.
+void record(const Scratch& scratch, const Weld& weld, const char* criterion, const char* equation,
+            double value, double threshold, int count, int needed, bool cut) {
+  if (!scratch.decisions) return;
+  scratch.decisions->push_back({weld.a, weld.b, "Unmerge", criterion, equation, value, threshold,
+                                count, needed, cut ? "unmerge" : "keep"});
+}
+
+class WeldTest {
+ public:
+  WeldTest(const State& state, Scratch& scratch, Collection& c)
+      : state_(state), scratch_(scratch), c_(c), turn_(state[c.rigid].rotation) {}
+
+  /// Adds this step's evidence to what was summed, and cuts the welds whose sum is too large.
+  void testAll() {
+    for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) testContacts(i);
+    for (Weld& weld : c_.welds) testMotion(weld);
+  }
+
+  /// Looks again after more sweeps. What was summed may have come from a sweep that had not
+  /// converged: it is replaced by today's velocity, as if it had been the same in all those steps.
+  void confirmAll() {
+    confirming_ = true;
+    for (Weld& weld : c_.welds) weld.cut = false;
+    testAll();
+  }
+
+ private:
+  /// Broken (Section 6.3) and on edge (Eqs. (19), (20)).
+  void testContacts(std::uint32_t b) {
+    ContactBlock& k = c_.blocks[b];
+    InternalContact& inner = c_.contacts[c_.block_contact[b]];
+    for (int i = 0; i < k.count; ++i) {
+      const bool lost = broken(k, i), edge = !lost && onEdge(k, i);
+      if (!lost) inner.active[i] = true;
+      if (!lost) inner.opening[i] = {};
+      if (!edge) inner.slip[i] = {};
+      if (!scratch_.decisions && !lost && !edge) continue;
+      const double nx = turn_.c * k.nx - turn_.s * k.ny, ny = turn_.s * k.nx + turn_.c * k.ny;
+      const ContactVelocity w =
+          contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
+      ContactPoint& point = inner.contact.points[static_cast<std::size_t>(i)];
+      point.w_n = w.n;
+      point.w_t = w.t;
+      Weld& weld = weldOf(inner.contact.key);
+      if (lost && inner.active[i]) testBroken(weld, inner.opening[i], w.n);
+      if (!lost) testSliding(weld, inner.slip[i], w.t, edge);
+    }
+  }
+
+  void add(Drift& drift, double w) const {
+    if (confirming_) {
+      drift.sum = w * drift.steps;
+    } else {
+      drift.sum += w;
+      drift.steps += 1;
+    }
+  }
+
+  void testBroken(Weld& weld, Drift& opening, double w_n) {
+    const bool literal = rule() == Rule::Paper;
+    add(opening, std::max(0.0, w_n));
+    const double threshold = literal ? 0.0 : kOpening;
+    const bool cut = literal || opening.sum > threshold;
+    record(scratch_, weld, "broken", "Section 6.3", opening.sum, threshold, opening.steps, 0, cut);
+    if (cut) cutWeld(weld, EventReason::Broken);
+  }
+
+  void testSliding(Weld& weld, Drift& slip, double w_t, bool edge) {
+    const double threshold = state_.settings.unmerging.sliding;
+    if (rule() == Rule::Paper) slip = {};
+    if (edge) add(slip, w_t);
+    const double value = std::abs(slip.sum);
+    const bool cut = edge && value > threshold;
+    record(scratch_, weld, "sliding", "(19), (20)", value, threshold, slip.steps, 0, cut);
+    if (cut) cutWeld(weld, EventReason::Sliding);
+  }
+
+  /// Relative motion (Section 6.4): only pairs with fewer than two contacts can turn in 2D.
+  void testMotion(Weld& weld) {
+    if (activeContacts(c_, weld) >= 2 || weld.cut) {
+      weld.loud_steps = 0;
+      return;
+    }
+    const UnmergingSettings& settings = state_.settings.unmerging;
+    const double value = relativeMotion(weld);
+    weld.loud_steps = value > settings.velocity ? weld.loud_steps + (confirming_ ? 0 : 1) : 0;
+    const bool cut = weld.loud_steps >= settings.steps;
+    record(scratch_, weld, "relative-motion", "(17)", value, settings.velocity, weld.loud_steps,
+           settings.steps, cut);
+    if (cut) cutWeld(weld, EventReason::RelativeMotion);
+  }
+
+  double relativeMotion(const Weld& weld) const {
+    const auto field = [&](BodyId b) {
+      const SolverVelocity& u = scratch_.sweep_u[index(b)];
+      return VelocityField{state_.pose(b).position, {u.vx, u.vy}, u.omega};
+    };
+    const VelocityField a = field(weld.a), b = field(weld.b);
+    double fastest = 0.0;
+    for (const BodyId id : {weld.a, weld.b}) {
+      if (state_[id].rigid != c_.rigid) continue;  // only the box of the body that can move
+      OrientedBox box = state_[id].box;
+      box.frame = state_.pose(id) * box.frame;
+      fastest = std::max(fastest, fastestCorner(box, a, b));
+    }
+    return fastest;
+  }
+
+  void cutWeld(Weld& weld, EventReason reason) {
+    if (weld.cut) return;
+    weld.cut = true;
+    weld.reason = reason;
+  }
+
+  Weld& weldOf(const ContactKey& key) {
+    return *std::lower_bound(c_.welds.begin(), c_.welds.end(), std::pair(key.a, key.b),
+                             [](const Weld& w, const std::pair<BodyId, BodyId>& pair) {
+                               return std::pair(w.a, w.b) < pair;
+                             });
+  }
+
+  Rule rule() const { return state_.settings.unmerging.rule; }
+
+  /// A broken contact must open by this much, summed over steps, before it counts [m/s].
+  static constexpr double kOpening = 1e-3;
+
+  const State& state_;
+  Scratch& scratch_;
+  Collection& c_;
+  Rotation turn_;
+  bool confirming_ = false;
+
+ public:
+  static int activeContacts(const Collection& c, const Weld& weld) {
+    int active = 0;
+    for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+      const InternalContact& inner = c.contacts[i];
+      for (int p = 0; p < inner.contact.count; ++p) active += inner.active[p] ? 1 : 0;
+    }
+    return active;
+  }
+};
+
+/// What still hangs together without the cut welds. Node 0 is the frame; it holds bodies in place
+/// but does not join them into one collection.
+struct Parts {
+  std::vector<std::uint32_t> part;     ///< per member
+  std::vector<std::uint8_t> anchored;  ///< per part
+};
+
+Parts partsWithoutCuts(const State& state, const Collection& c) {
+  const auto node = [&](BodyId b) {
+    return state[b].rigid == c.rigid ? static_cast<std::uint32_t>(memberIndex(c, b)) + 1 : 0u;
+  };
+  std::vector<ContactEdge> edges;
+  for (const Weld& weld : c.welds) {
+    const int contacts = WeldTest::activeContacts(c, weld);
+    if (!weld.cut && contacts > 0) edges.push_back({node(weld.a), node(weld.b), contacts});
+  }
+  const auto nodes = static_cast<std::uint32_t>(c.members.size() + 1);
+  const CycleCriterion criterion = state.settings.unmerging.rule == Rule::Paper
+                                       ? CycleCriterion::Off
+                                       : state.settings.merging.cycles;
+  const auto group = rigidGroups(nodes, edges, criterion);
+
+  // Bodies of one rigid group that touch each other, not only the frame, stay one part.
+  DisjointSets parts;
+  parts.reset(nodes);
+  for (const ContactEdge& e : edges) {
+    if (e.a != 0 && e.b != 0 && group[e.a] == group[e.b]) parts.unite(e.a, e.b);
+  }
+  Parts result;
+  std::vector<std::uint32_t> number(nodes, ~0u);
+  for (std::uint32_t n = 1; n < nodes; ++n) {
+    std::uint32_t& p = number[parts.find(n)];
+    if (p == ~0u) {
+      p = static_cast<std::uint32_t>(result.anchored.size());
+      result.anchored.push_back(0);
+    }
+    result.part.push_back(p);
+    if (group[n] == group[0]) result.anchored[p] = 1;
+  }
+  return result;
+}
+
+/// One event per weld that ends.
+void reportCuts(const State& state, const Collection& before, Scratch& scratch) {
+  for (const Weld& weld : before.welds) {
+    const bool together = state[weld.a].rigid == state[weld.b].rigid;
+    const bool on_frame = !state.rigid(weld.a).floating() &&
+                          state.rigid(weld.a).anchor == state.rigid(weld.b).anchor;
+    if (together || on_frame) continue;
+    scratch.events.push_back({EventType::Unmerge, weld.a, weld.b, before.id,
+                              weld.cut ? weld.reason : EventReason::Cycle});
+  }
+}
+
+void splitAtCuts(State& state, Scratch& scratch, RigidId id) {
+  const Parts parts = partsWithoutCuts(state, state.collection(id));
+  const bool whole = parts.anchored.size() == 1 &&
+                     (parts.anchored[0] != 0) == !state[id].floating();
+  if (whole) return;
+  Collection before;
+  before.id = state.collection(id).id;
+  before.welds = state.collection(id).welds;
+  splitCollection(state, id, parts.part, parts.anchored);
+  reportCuts(state, before, scratch);
+  scratch.split = true;
+}
+
+/// Some weld is cut that was not in the last step.
+bool newCut(const Collection& c, const Scratch& scratch) {
+  for (std::size_t i = 0; i < c.welds.size(); ++i) {
+    if (c.welds[i].cut && !scratch.cuts_before[i]) return true;
+  }
+  return false;
+}
+
+void finishSplits(State& state, Scratch& scratch) {
+  if (!scratch.split) return;
+  scratch.split = false;
+  layOutCollections(state);
+  collectPairs(state, scratch);
+}
+
+}  // namespace
+
+int activeContacts(const Collection& c, const Weld& weld) {
+  return WeldTest::activeContacts(c, weld);
+}
+
+void unmerge(State& state, Scratch& scratch) {
+  if (!scratch.sweeping) return;
+  const std::size_t slots = state.collections.size();
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    if (!isSwept(state, state.collections[slot])) continue;
+    Collection& c = state.collections[slot];
+    scratch.cuts_before.clear();
+    for (Weld& weld : c.welds) {
+      scratch.cuts_before.push_back(weld.cut);
+      weld.cut = false;
+    }
+    WeldTest test(state, scratch, c);
+    test.testAll();
+    // Broken welds that do not part the graph are found again in each step: look anew only when
+    // there is one more.
+    if (!newCut(c, scratch)) continue;
+    if (state.settings.unmerging.rule == Rule::Default) {
+      sweepAgain(state, scratch, c);
+      test.confirmAll();
+      if (!newCut(c, scratch)) continue;
+    }
+    splitAtCuts(state, scratch, c.rigid);
+  }
+  finishSplits(state, scratch);
+}
+
+void releaseBody(State& state, Scratch& scratch, BodyId body) {
+  const std::size_t slots = state.collections.size();
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    Collection& c = state.collections[slot];
+    if (c.id == kNoCollection) continue;
+    bool any = false;
+    for (Weld& weld : c.welds) {
+      if (weld.a != body && weld.b != body) continue;
+      weld.cut = any = true;
+      weld.reason = EventReason::User;
+    }
+    if (any) splitAtCuts(state, scratch, c.rigid);
+  }
+  finishSplits(state, scratch);
+}
+
+}  // namespace merge2d

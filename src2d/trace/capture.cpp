@@ -1,0 +1,222 @@
+#include "src2d/trace/capture.h"
+
+#include <algorithm>
+
+#include "src2d/merging/collection.h"
+
+namespace merge2d {
+namespace {
+
+ContactState stateOf(double lambda_n, double lambda_t, double mu) {
+  if (lambda_n <= 0.0) return ContactState::Broken;
+  return std::abs(lambda_t) >= (1.0 - 1e-9) * mu * lambda_n ? ContactState::Sliding
+                                                            : ContactState::Sticking;
+}
+
+Vec2 velocityOf(const State& state, BodyId b) {
+  return state.rigid(b).velocityAt(state.pose(b).position);
+}
+
+void captureBodies(const State& state, Snapshot& out) {
+  out.bodies.clear();
+  for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
+    const BodyId id{i};
+    const Body& body = state[id];
+    if (!body.alive) continue;
+    const Rigid& r = state.rigid(id);
+    BodyState seen;
+    seen.id = id;
+    seen.x = state.pose(id).position;
+    seen.angle = state.angle(id);
+    seen.v = velocityOf(state, id);
+    seen.omega = r.omega;
+    if (state.isCollection(body.rigid)) seen.collection = state.collection(body.rigid).id;
+    seen.asleep = r.asleep;
+    seen.pinned = state[rigidOf(id)].anchor == kWorldFrame && !state.isCollection(body.rigid);
+    seen.magnet_on = body.magnet_on;
+    out.bodies.push_back(seen);
+  }
+}
+
+ContactView view(const Contact& contact, const ContactPoint& p, const Pose& frame) {
+  ContactView seen;
+  seen.a = contact.key.a;
+  seen.b = contact.key.b;
+  seen.feature = p.feature;
+  seen.x = frame * p.position;
+  seen.normal = frame.rotation * contact.normal;
+  seen.gap = p.gap;
+  seen.lambda_n = p.lambda_n;
+  seen.lambda_t = p.lambda_t;
+  seen.w_n = p.w_n;
+  seen.w_t = p.w_t;
+  seen.mu = contact.mu;
+  seen.state = stateOf(p.lambda_n, p.lambda_t, contact.mu);
+  seen.fresh = p.fresh;
+  return seen;
+}
+
+void captureContacts(const State& state, Snapshot& out) {
+  out.contacts.clear();
+  for (const ContactTable::Entry& entry : state.contacts.order) {
+    const Contact& contact = state.contacts[entry];
+    for (int i = 0; i < contact.count; ++i) {
+      out.contacts.push_back(view(contact, contact.points[static_cast<std::size_t>(i)],
+                                  state.pose(contact.key.a)));
+    }
+  }
+  for (const Collection& c : state.collections) {
+    if (c.id == kNoCollection) continue;
+    const Pose frame = state[c.rigid].frame();
+    for (std::size_t b = 0; b < c.blocks.size(); ++b) {
+      const ContactBlock& k = c.blocks[b];
+      const Contact& contact = c.contacts[c.block_contact[b]].contact;
+      for (int i = 0; i < k.count; ++i) {
+        ContactPoint p = contact.points[static_cast<std::size_t>(i)];
+        p.lambda_n = k.lambda_n[i];
+        p.lambda_t = k.lambda_t[i];
+        p.fresh = false;
+        out.contacts.push_back(view(contact, p, frame));
+        out.contacts.back().internal = true;
+      }
+    }
+  }
+  std::stable_sort(out.contacts.begin(), out.contacts.end(),
+                   [](const ContactView& x, const ContactView& y) {
+                     return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+                   });
+}
+
+/// Of an anchored collection centre and inertia are those of its members.
+CollectionView view(const State& state, const Collection& c) {
+  const Rigid& r = state[c.rigid];
+  CollectionView seen;
+  seen.id = c.id;
+  seen.bodies = c.members;
+  seen.anchored = !r.floating();
+  seen.anchor = c.anchor;
+  for (const BodyId b : c.members) {
+    seen.mass += state[b].mass;
+    seen.x += state[b].mass * state.pose(b).position;
+  }
+  seen.x /= seen.mass;
+  for (const BodyId b : c.members) {
+    seen.inertia += state[b].inertia +
+                    state[b].mass * (state.pose(b).position - seen.x).squaredNorm();
+  }
+  seen.v = r.velocityAt(seen.x);
+  seen.omega = r.omega;
+  seen.box = r.box;
+  seen.box.frame = r.frame() * r.box.frame;
+  seen.asleep = r.asleep;
+  return seen;
+}
+
+void captureCollections(const State& state, Snapshot& out) {
+  out.collections.clear();
+  out.welds.clear();
+  for (const Collection& c : state.collections) {
+    if (c.id == kNoCollection) continue;
+    out.collections.push_back(view(state, c));
+    for (const Weld& weld : c.welds) {
+      int contacts = 0;
+      for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+        contacts += c.contacts[i].contact.count;
+      }
+      out.welds.push_back({weld.a, weld.b, contacts});
+    }
+  }
+  std::sort(out.collections.begin(), out.collections.end(),
+            [](const CollectionView& x, const CollectionView& y) { return x.id < y.id; });
+  std::sort(out.welds.begin(), out.welds.end(), [](const WeldView& x, const WeldView& y) {
+    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+  });
+}
+
+/// Momentum and energy of the bodies that respond to forces.
+void measure(const State& state, const Actions& actions, const Snapshot& seen, Stats& stats) {
+  stats.kinetic_energy = stats.potential_energy = stats.angular_momentum = 0.0;
+  stats.momentum.setZero();
+  for (const BodyState& b : seen.bodies) {
+    if (state[rigidOf(b.id)].anchor != kFloating && !state.isCollection(state[b.id].rigid)) continue;
+    const Body& body = state[b.id];
+    stats.kinetic_energy +=
+        0.5 * (body.mass * b.v.squaredNorm() + body.inertia * b.omega * b.omega);
+    stats.potential_energy -= body.mass * state.gravity.dot(b.x);
+    stats.momentum += body.mass * b.v;
+    stats.angular_momentum += body.inertia * b.omega + body.mass * cross(b.x, b.v);
+  }
+  stats.potential_energy += springEnergy(state, actions);
+  stats.max_penetration = 0.0;
+  for (const ContactView& c : seen.contacts) {
+    stats.max_penetration = std::max(stats.max_penetration, -c.gap);
+  }
+}
+
+template <class T>
+std::size_t bytes(const std::vector<T>& v) {
+  return v.capacity() * sizeof(T);
+}
+
+}  // namespace
+
+void captureState(const State& state, const Actions& actions, const Scratch& scratch,
+                  Snapshot& out) {
+  out.step = state.step;
+  out.time = state.time;
+  captureBodies(state, out);
+  captureContacts(state, out);
+  captureCollections(state, out);
+  out.springs = scratch.springs;
+  out.events = scratch.events;
+  out.stats = scratch.stats;
+  measure(state, actions, out, out.stats);
+}
+
+void countBodies(const State& state, Scratch& scratch) {
+  Stats& stats = scratch.stats;
+  stats.bodies = stats.active_bodies = stats.collections = stats.asleep = 0;
+  stats.internal_contacts = stats.contacts = 0;
+  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
+    const Rigid& r = state.rigids[i];
+    if (!r.present()) continue;
+    if (i < state.bodies.size()) {
+      if (!r.floating()) continue;
+      stats.bodies += 1;
+      stats.asleep += r.asleep ? 1 : 0;
+      stats.active_bodies += r.asleep ? 0 : 1;
+    } else {
+      const Collection& c = state.collections[i - state.bodies.size()];
+      const int members = static_cast<int>(c.members.size());
+      stats.bodies += members;
+      stats.collections += 1;
+      stats.asleep += r.asleep ? members : 0;
+      stats.active_bodies += r.asleep ? 0 : 1;
+      if (r.asleep) continue;
+      for (const ContactBlock& k : c.blocks) stats.internal_contacts += k.count;
+    }
+  }
+  for (const ContactBlock& k : scratch.blocks) stats.contacts += k.count;
+}
+
+std::size_t memoryBytes(const State& state, const Scratch& scratch) {
+  std::size_t total = bytes(state.colliders) + bytes(state.shape_body) +
+                      bytes(state.shape_bounds) + bytes(state.bodies) + bytes(state.rigids) +
+                      bytes(state.contacts.slots) + bytes(state.contacts.order) +
+                      bytes(state.broadphase.near) + bytes(state.broadphase.shape_leaves);
+  for (const Collection& c : state.collections) {
+    total += sizeof(Collection) + bytes(c.members) + bytes(c.contacts) + bytes(c.blocks) +
+             bytes(c.block_contact) + bytes(c.welds) + bytes(c.push);
+  }
+  total += bytes(scratch.u) + bytes(scratch.blocks) + bytes(scratch.sorted_blocks) +
+           bytes(scratch.row_points) + bytes(scratch.sorted_points) + bytes(scratch.before) +
+           bytes(scratch.direction) + bytes(scratch.u_before) + bytes(scratch.u_direction) +
+           bytes(scratch.block_order) + bytes(scratch.sweep_u) + bytes(scratch.sweep_contacts) +
+           bytes(scratch.sweep_before) + bytes(scratch.pairs);
+  // Two nodes per leaf of each tree.
+  constexpr std::size_t kNode = 2 * 48;
+  total += kNode * (state.rigids.size() + state.colliders.size());
+  return total;
+}
+
+}  // namespace merge2d

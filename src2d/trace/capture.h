@@ -1,0 +1,19 @@
+#pragma once
+/// From the state to what can be seen of it.
+
+#include "src2d/dynamics/forces.h"
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Fills `out` with everything but the decisions; energies and momenta are computed here.
+void captureState(const State& state, const Actions& actions, const Scratch& scratch,
+                  Snapshot& out);
+
+/// The cheap part of the statistics: counts of the step that just ended.
+void countBodies(const State& state, Scratch& scratch);
+
+/// Bytes held by the tables of a simulation.
+std::size_t memoryBytes(const State& state, const Scratch& scratch);
+
+}  // namespace merge2d

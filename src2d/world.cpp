@@ -1,0 +1,111 @@
+#include "src2d/world.h"
+
+#include <chrono>
+
+#include "src2d/begin_step.h"
+#include "src2d/contact/detection.h"
+#include "src2d/dynamics/integrate.h"
+#include "src2d/dynamics/setup.h"
+#include "src2d/dynamics/solver.h"
+#include "src2d/merging/collection.h"
+#include "src2d/merging/merge.h"
+#include "src2d/merging/sleep.h"
+#include "src2d/merging/sweep.h"
+#include "src2d/merging/unmerge.h"
+#include "src2d/trace/capture.h"
+
+namespace merge2d {
+
+struct World::Impl {
+  Impl(const Scene& of, const WorldOptions& with) : scene(of), options(with) {
+    setUp(scene, options.mode, setup);
+    countBodies(setup.state, scratch);
+  }
+
+  Scene scene;
+  WorldOptions options;
+  Setup setup;
+  Scratch scratch;
+  Observer* observer = nullptr;
+  std::vector<Decision> decisions;
+
+  void step();
+
+  /// The one place for timings, the observer and checks: nothing of these stands between the lines
+  /// of the algorithm.
+  template <class Work>
+  void run(Stage stage, Work&& work) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = options.timings ? Clock::now() : Clock::time_point{};
+    work();
+    if (options.timings) {
+      const std::chrono::duration<double> spent = Clock::now() - begin;
+      scratch.stats.seconds[static_cast<std::size_t>(stage)] = spent.count();
+    }
+    if (stage == Stage::AdvanceVelocities || stage == Stage::AdvancePositions) {
+      checkFinite(setup.state, setup.bodies, stage);
+    }
+    if (observer) observer->afterStage(stage, setup.state, scratch);
+  }
+};
+
+/// Algorithm 1.
+void World::Impl::step() {
+  State& state = setup.state;
+  Scratch& s = scratch;
+  decisions.clear();
+  s.decisions = options.decisions ? &decisions : nullptr;
+  beginStep(state, setup.actions, s);
+
+  run(Stage::ContactDetection, [&] { detectContacts(state, s); });
+  run(Stage::ContactOrdering, [&] { orderContacts(state, s); });
+  run(Stage::SleepAndWake, [&] { sleepAndWake(state, s); });
+  run(Stage::WarmStart, [&] { warmStartSweep(state, s); });
+  run(Stage::SingleIterationPGS, [&] { sweepCollections(state, s); });
+  run(Stage::Unmerge, [&] { unmerge(state, s); });
+  run(Stage::SolveLCP, [&] { solveContacts(state, s); });
+  run(Stage::AdvanceVelocities, [&] { advanceVelocities(state, s); });
+  run(Stage::AccumulateRelativeMotion, [&] { accumulateRelativeMotion(state, s); });
+  run(Stage::AdvancePositions, [&] { advancePositions(state); });
+  run(Stage::Merge, [&] { merge(state, s); });
+
+  state.step += 1;
+  state.time = static_cast<double>(state.step) * state.h;
+  followAnchors(state);
+  countBodies(state, s);
+}
+
+World::World(const Scene& scene, const WorldOptions& options)
+    : impl_(std::make_unique<Impl>(scene, options)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::step() { impl_->step(); }
+std::int64_t World::steps() const { return impl_->setup.state.step; }
+double World::time() const { return impl_->setup.state.time; }
+const Scene& World::scene() const { return impl_->scene; }
+Mode World::mode() const { return impl_->options.mode; }
+const std::vector<BodyInfo>& World::bodies() const { return impl_->setup.bodies; }
+const Stats& World::stats() const { return impl_->scratch.stats; }
+const std::vector<Event>& World::events() const { return impl_->scratch.events; }
+void World::observe(Observer* observer) { impl_->observer = observer; }
+
+std::size_t World::memoryBytes() const { return merge2d::memoryBytes(impl_->setup.state, impl_->scratch); }
+
+void World::capture(Snapshot& out) const {
+  captureState(impl_->setup.state, impl_->setup.actions, impl_->scratch, out);
+  out.decisions = impl_->decisions;
+}
+
+Snapshot World::capture() const {
+  Snapshot snapshot;
+  capture(snapshot);
+  return snapshot;
+}
+
+void World::applyImpulse(BodyId body, const Vec2& at, const Vec2& impulse) {
+  impl_->setup.actions.user_kicks.push_back({body, at, impulse});
+}
+
+}  // namespace merge2d
