@@ -50,6 +50,10 @@ Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, 
     const Aabb part = huge ? intersection(box, near) : box;
     if (!part.empty() && part.lower.y() <= part.upper.y()) shown.include(part);
   }
+  for (const SpringView& spring : snapshot.springs) {
+    shown.include(spring.from);
+    shown.include(spring.to);
+  }
   const Vec2 extent = shown.extent();
   const double needed = (1.0 + 2.0 * kMargin) * extent.y();
   const double height = std::max({needed, (1.0 + 2.0 * kMargin) * extent.x() / aspect, kSmallest});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "render/context.h"
 #include "render/shaders.h"
 #include "src2d/core/error.h"
 
@@ -89,11 +90,20 @@ void unpremultiply(std::vector<std::uint8_t>& rgba) {
 }  // namespace
 
 Canvas::Canvas(int width, int height)
-    : width_(checkedSide(width)), height_(checkedSide(height)), gl_(&context_.makeCurrent()) {
+    : width_(checkedSide(width)),
+      height_(checkedSide(height)),
+      context_(std::make_unique<Context>()),
+      gl_(&context_->makeCurrent()) {
   makeTarget();
   makePrograms();
   describeInstances();
 }
+
+Canvas::~Canvas() = default;
+Canvas::Canvas(Canvas&&) noexcept = default;
+Canvas& Canvas::operator=(Canvas&&) noexcept = default;
+
+std::string Canvas::description() { return context_->description(); }
 
 void Canvas::makeTarget() {
   // The default framebuffer's pixels differ by up to 2/255 between machines; our own do not.
@@ -168,7 +178,7 @@ void Canvas::describeInstances() {
 }
 
 Image Canvas::draw(const Drawing& drawing) {
-  gl_ = &context_.makeCurrent();
+  gl_ = &context_->makeCurrent();
   const Color c = drawing.background;
   const float alpha = static_cast<float>(c.a) / 255.0F;
   const auto channel = [&](std::uint8_t x) { return alpha * static_cast<float>(x) / 255.0F; };
@@ -178,7 +188,7 @@ Image Canvas::draw(const Drawing& drawing) {
   uploadEdges(drawing.edges);
   uploadAtlas();
   for (const Layer& layer : drawing.layers) drawLayer(layer);
-  return read();
+  return read(drawing.background.a == 255);
 }
 
 void Canvas::uploadEdges(const std::vector<Edge>& edges) {
@@ -227,10 +237,10 @@ void Canvas::drawInstances(Kind kind, const std::vector<Instance>& instances) {
   gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
 }
 
-Image Canvas::read() {
+Image Canvas::read(bool opaque) {
   Image image(width_, height_);
   gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  unpremultiply(image.rgba);
+  if (!opaque) unpremultiply(image.rgba);
   if (const GLenum error = gl_->GetError(); error != GL_NO_ERROR) {
     throw IoError(fmt::format("OpenGL error 0x{:04x} while drawing", error));
   }

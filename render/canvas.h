@@ -3,14 +3,17 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 
-#include "render/context.h"
 #include "render/drawing.h"
 #include "render/image.h"
 #include "render/text.h"
 
 namespace merge2d {
+
+class Context;
+struct Gl;
 
 /// A picture-sized framebuffer with the three programs that draw on it. Belongs to one thread at a
 /// time; each thread that draws has a canvas of its own.
@@ -20,12 +23,16 @@ class Canvas {
 
   /// Throws IoError when there is no OpenGL, no font, or the size is out of range.
   Canvas(int width, int height);
+  ~Canvas();
+  Canvas(Canvas&&) noexcept;
+  Canvas& operator=(Canvas&&) noexcept;
 
   int width() const { return width_; }
   int height() const { return height_; }
   /// Sets the text of the drawings for this canvas: it owns their glyphs.
   Text& text() { return text_; }
-  std::string description() { return context_.description(); }
+  /// What draws: "4.5 (Core Profile) Mesa 22.3.6, llvmpipe (…)".
+  std::string description();
 
   Image draw(const Drawing& drawing);
 
@@ -40,10 +47,10 @@ class Canvas {
   void drawLayer(const Layer& layer);
   template <class Instance>
   void drawInstances(Kind kind, const std::vector<Instance>& instances);
-  Image read();
+  Image read(bool opaque);
 
   int width_, height_;
-  Context context_;
+  std::unique_ptr<Context> context_;
   const Gl* gl_;
   Text text_;
   std::uint64_t atlas_version_ = 0;

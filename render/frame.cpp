@@ -1,5 +1,7 @@
 #include "render/frame.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "render/frame_parts.h"
@@ -25,6 +27,18 @@ Drawing composeFrame(Text& text, const Snapshot& snapshot, const std::vector<Bod
   drawCaption(painter, scene);
   drawFooter(painter, scene);
   return drawing;
+}
+
+std::string describe(const Snapshot& snapshot, const FrameStyle& style) {
+  std::string out = fmt::format("{}. Step {}, t = {:.2f} s, {}:", style.title, snapshot.step,
+                                snapshot.time, name(style.mode));
+  const char* separator = " ";
+  for (const Count& count : countsOf(snapshot, style.mode)) {
+    out +=
+        fmt::format("{}{} {}", separator, count.number, count.number == 1 ? count.one : count.many);
+    separator = ", ";
+  }
+  return out + ".";
 }
 
 FrameDrawer::FrameDrawer(const std::vector<BodyInfo>& bodies, FrameStyle style)

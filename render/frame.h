@@ -1,6 +1,7 @@
 #pragma once
 /// A snapshot as a picture.
 
+#include <string>
 #include <vector>
 
 #include "render/canvas.h"
@@ -13,6 +14,10 @@ namespace merge2d {
 /// What is to be drawn; `text` sets the letters and must belong to the canvas that draws them.
 Drawing composeFrame(Text& text, const Snapshot& snapshot, const std::vector<BodyInfo>& bodies,
                      const BodyLooks& looks, const FrameStyle& style, const CollectionSlots& slots);
+
+/// What the picture shows, for those who cannot see it: "A tower. Step 123, t = 1.23 s,
+/// merge+sleep: 320 bodies, 5 active |B|, …".
+std::string describe(const Snapshot& snapshot, const FrameStyle& style);
 
 /// Draws the pictures of one run, one after the other, with colours that stay.
 class FrameDrawer {

@@ -58,6 +58,15 @@ void drawBrokenMark(Painter& painter, const FrameScene& scene, Pixel at, float r
 /// Names of bodies and labels of collections.
 void drawLabels(Painter& painter, const FrameScene& scene);
 
+/// A number and what it counts.
+struct Count {
+  int number;
+  const char* one;
+  const char* many;
+};
+/// What a frame's caption counts; the same entries in all frames of a mode.
+std::vector<Count> countsOf(const Snapshot& snapshot, Mode mode);
+
 /// Title and numbers above the world; legend and scale bar below it.
 void drawCaption(Painter& painter, const FrameScene& scene);
 void drawFooter(Painter& painter, const FrameScene& scene);

@@ -15,40 +15,30 @@ namespace {
 
 constexpr float kMargin = 20.0F;  // between text and the picture's edge [design px]
 
-struct Count {
-  long long number;
-  long long largest;  ///< it can become, which says how much room it needs
-  const char* meaning;
-};
-
-std::vector<Count> countsOf(const FrameScene& scene) {
-  const Stats& s = scene.snapshot.stats;
-  const long long n = std::max<long long>(s.bodies, static_cast<long long>(scene.bodies.size()));
-  std::vector<Count> counts = {{s.bodies, n, "bodies"}, {s.active_bodies, n, "active |B|"}};
-  if (merges(scene.style.mode)) counts.push_back({s.collections, n / 2, "collections"});
-  if (sleeps(scene.style.mode)) counts.push_back({s.asleep, n, "asleep"});
-  counts.push_back({s.contacts, 4 * n, "contacts"});
-  if (merges(scene.style.mode)) counts.push_back({s.internal_contacts, 4 * n, "merged contacts"});
-  return counts;
+/// The most a count may become, which says how much room it needs.
+long long largestCount(const FrameScene& scene) {
+  return 4LL * std::max<long long>(scene.snapshot.stats.bodies,
+                                   static_cast<long long>(scene.bodies.size()));
 }
 
 /// Numbers in columns that keep their places from frame to frame, as many as fit.
 void drawCounts(Painter& painter, const FrameScene& scene, float baseline, float right) {
   const Font font = scene.font(13.0F);
-  float x = scene.px(kMargin);
-  for (const Count& count : countsOf(scene)) {
-    const std::string room(std::to_string(count.largest).size(), '0');
-    const float number_end = x + painter.text().width(room, font);
-    const float meaning = number_end + scene.px(5.0F);
-    const float end = meaning + painter.text().width(count.meaning, font);
+  const std::string room(std::to_string(largestCount(scene)).size(), '0');
+  const float digits = painter.text().width(room, font), gap = scene.px(5.0F);
+  float end = 0.0F;
+  for (const Count& count : countsOf(scene.snapshot, scene.style.mode)) {
+    // The first one stands at the margin, under the title; the others end where they always end.
+    const bool first = end == 0.0F;
+    const std::string number = std::to_string(count.number);
+    const float left =
+        first ? scene.px(kMargin) : end + digits - painter.text().width(number, font);
+    const float meaning = left + painter.text().width(number, font) + gap;
+    end = meaning + painter.text().width(count.many, font) + scene.px(12.0F);
     if (end > right) return;
-    const bool first = x == scene.px(kMargin);  // stands at the margin, under the title
-    const Pixel at{first ? x : number_end, baseline};
-    const float written = painter.write(std::to_string(count.number), font, at, scene.theme().ink,
-                                        first ? Align::Left : Align::Right);
-    painter.write(count.meaning, font, {(first ? written : number_end) + scene.px(5.0F), baseline},
+    painter.write(number, font, {left, baseline}, scene.theme().ink);
+    painter.write(count.number == 1 ? count.one : count.many, font, {meaning, baseline},
                   scene.theme().ink_soft);
-    x = end + scene.px(18.0F);
   }
 }
 
@@ -181,6 +171,19 @@ float drawScale(Painter& painter, const FrameScene& scene) {
 }
 
 }  // namespace
+
+std::vector<Count> countsOf(const Snapshot& snapshot, Mode mode) {
+  const Stats& s = snapshot.stats;
+  std::vector<Count> counts = {{s.bodies, "body", "bodies"},
+                               {s.active_bodies, "active |B|", "active |B|"}};
+  if (merges(mode)) counts.push_back({s.collections, "collection", "collections"});
+  if (sleeps(mode)) counts.push_back({s.asleep, "asleep", "asleep"});
+  counts.push_back({s.contacts, "contact", "contacts"});
+  if (merges(mode)) {
+    counts.push_back({s.internal_contacts, "merged contact", "merged contacts"});
+  }
+  return counts;
+}
 
 void drawCaption(Painter& painter, const FrameScene& scene) {
   if (!scene.shows(Overlay::Hud)) return;

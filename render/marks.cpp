@@ -127,26 +127,30 @@ ArrowPaint arrowPaint(const FrameScene& scene, Color color) {
 }
 
 /// An arrow of the vector `v` [m] from `from`; too short ones are left out, too long ones cut.
+/// It starts `gap` pixels further on.
 void drawVector(Painter& painter, const FrameScene& scene, const Vec2& from, const Vec2& v,
-                Color color) {
+                Color color, float gap = 0.0F) {
   const double length = v.norm() * scene.view.scale;
   if (length < double{scene.px(3.0F)}) return;
   const double longest = 0.4 * double{scene.view.panel.height};
   const Vec2 shown = length > longest ? Vec2(v * (longest / length)) : v;
-  painter.arrow(scene.view(from), scene.view(from + shown), arrowPaint(scene, color));
+  const Pixel aside = View::direction(v.normalized()) * gap;
+  painter.arrow(scene.view(from) + aside, scene.view(from + shown) + aside,
+                arrowPaint(scene, color));
 }
 
 /// The forces on b; a gets the opposite ones.
 void drawForces(Painter& painter, const FrameScene& scene) {
   const double scale = scene.style.force_scale / scene.style.step;
   const Theme& theme = scene.theme();
+  const float gap = scene.shows(Overlay::Contacts) ? markRadius(scene) : 0.0F;
   for (const ContactView& c : scene.snapshot.contacts) {
     const Vec2 normal = scale * c.lambda_n * c.normal;
     const Vec2 friction = scale * c.lambda_t * perpendicular(c.normal);
     const Color color = c.internal ? theme.internal_force : theme.normal_force;
-    drawVector(painter, scene, c.x, normal, color);
+    drawVector(painter, scene, c.x, normal, color, gap);
     drawVector(painter, scene, c.x, friction,
-               c.internal ? theme.internal_force : theme.friction_force);
+               c.internal ? theme.internal_force : theme.friction_force, gap);
   }
 }
 

@@ -130,7 +130,8 @@ struct SequenceWriter::Impl {
     const Image image =
         canvas.draw(composeFrame(canvas.text(), job.snapshot, bodies, looks, style, job.slots));
     const double draw_seconds = secondsSince(start);
-    const std::vector<std::uint8_t> png = encodePng(image, {.alpha = style.transparent});
+    const std::vector<std::uint8_t> png = encodePng(
+        image, {.alpha = style.transparent, .description = describe(job.snapshot, style)});
     writeAtomically(job.file, png);
 
     const std::lock_guard lock(mutex);

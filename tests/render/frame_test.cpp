@@ -209,6 +209,16 @@ TEST(Frame, DrawsPicturesOfAnySize) {
   }
 }
 
+TEST(Describe, SaysInWordsWhatThePictureShows) {
+  const Sample s = samples::mixture();
+  FrameStyle style = styleOf(s, "Mixed shapes", 320, 180);
+  style.mode = Mode::Reference;
+  const std::string text = describe(s.snapshot, style);
+  EXPECT_EQ(text.substr(0, 38), "Mixed shapes. Step 123, t = 1.23 s, re");
+  EXPECT_NE(text.find("10 bodies"), std::string::npos);
+  EXPECT_EQ(text.find("collections"), std::string::npos) << "nothing merges in this mode";
+}
+
 /// The places of all letters of a drawing, by layer.
 TEST(Frame, LettersOfOneLayerNeverOverlap) {
   const Sample s = samples::mixture();
