@@ -5,6 +5,7 @@
 
 namespace merge2d {
 struct TomlAssertion {};
+[[noreturn]] void throwTomlAssertion();
 }  // namespace merge2d
 
 #pragma push_macro("NDEBUG")
@@ -14,6 +15,6 @@ struct TomlAssertion {};
 #define TOML_HEADER_ONLY 0
 #define TOML_SHARED_LIB 0
 #define TOML_ASSERT(condition) \
-  ((condition) ? static_cast<void>(0) : throw ::merge2d::TomlAssertion())
+  ((condition) ? static_cast<void>(0) : ::merge2d::throwTomlAssertion())
 #include <toml++/toml.h>
 #pragma pop_macro("NDEBUG")

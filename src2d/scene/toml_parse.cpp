@@ -16,6 +16,7 @@
 namespace merge2d {
 namespace {
 
+constexpr std::string_view kStray = "stray character";
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
 /// The byte at which character `column` (from 1) of a line starts.
@@ -36,10 +37,11 @@ bool endsWord(char c) {
 /// One syntax error, looked at from several sides.
 class SyntaxError {
  public:
-  SyntaxError(const SourceText& source, const toml::parse_error& error)
+  SyntaxError(const SourceText& source, const toml::source_position& place,
+              std::string_view description)
       : source_(source),
-        description_(error.description()),
-        place_(error.source().begin),
+        description_(description),
+        place_(place),
         line_(source.line(place_.line)),
         scan_(scanToml(source.text(), place_, kUnlimited)) {
     findWord();
@@ -73,6 +75,7 @@ class SyntaxError {
   }
 
   std::string explain() {
+    if (says(kStray)) return stray();
     if (says("escape sequence")) return "write \\\\ for a backslash, or put the text in '…'";
     if (says("control character") && !says("string")) return "a control character is not allowed";
     if (scan_.unclosed_quote) return unclosedQuote();
@@ -94,6 +97,16 @@ class SyntaxError {
     const std::size_t colon = description_.find(": ");
     const std::size_t begin = colon == std::string::npos ? 0 : colon + 2;
     return "this is not TOML: " + description_.substr(begin);
+  }
+
+  std::string stray() {
+    if (word_.starts_with("“") || word_.starts_with("„")) return "use plain quotes: \"…\"";
+    const auto first = static_cast<unsigned char>(word_.empty() ? ' ' : word_.front());
+    if (std::isdigit(first) != 0 || first == '-' || first == '+') {
+      moveToWord();
+      return fmt::format("'{}' is not a number (numbers have no units)", word_);
+    }
+    return "letters beyond a-z stand in \"quotes\" or after a #";
   }
 
   std::string unclosedQuote() {
@@ -172,7 +185,6 @@ class SyntaxError {
     }
     const auto first = static_cast<unsigned char>(word_.front());
     if (first == '(') return "a list stands in square brackets: [1, 2]";
-    if (word_.starts_with("“") || word_.starts_with("„")) return "use plain quotes: \"…\"";
     if (std::isalpha(first) != 0 || first == '/' || first == '_') {
       return fmt::format("a text needs quotes: \"{}\"", word_);
     }
@@ -203,15 +215,20 @@ toml::table parseToml(const SourceText& source) {
         *scan.too_deep,
         fmt::format("lists and tables nest deeper than {} levels", SceneLimits::kNesting)));
   }
+  // The parser does not always survive strange characters outside of texts, so it sees none.
+  const auto text = source.text().substr(0, scan.stray ? scan.stray->byte : std::string_view::npos);
   try {
-    return toml::parse(source.text(), std::string_view(source.name()));
+    toml::table table = toml::parse(text, std::string_view(source.name()));
+    if (!scan.stray) return table;
   } catch (const toml::parse_error& error) {
-    SyntaxError(source, error).report();
+    const toml::source_position place = error.source().begin;
+    const bool earlier = !scan.stray || place.line < scan.stray->place.line;
+    if (earlier) SyntaxError(source, place, error.description()).report();
   } catch (const TomlAssertion&) {
-    const auto missing = scanToml(source.text(), kEnd, kUnlimited).missing_value;
-    if (!missing) throw InputError(source.name() + ": this is not TOML");
-    throw InputError(source.message(*missing, "the value after '=' is missing"));
+    if (!scan.missing_value) throw InputError(source.name() + ": this is not TOML");
+    throw InputError(source.message(*scan.missing_value, "the value after '=' is missing"));
   }
+  SyntaxError(source, scan.stray->place, kStray).report();
 }
 
 }  // namespace merge2d

@@ -9,6 +9,7 @@ class Scanner {
       : text_(text), end_(end), limit_(limit) {}
 
   TomlScan run() {
+    if (sees("\xEF\xBB\xBF")) next_ += 3;  // a byte order mark takes no column
     while (!atEnd() && !result_.too_deep && !result_.unclosed_quote) readToken();
     return result_;
   }
@@ -32,6 +33,7 @@ class Scanner {
     const char c = text_[next_];
     if (c == '"' || c == '\'') return readString(c);
     if (c == '#') return skipComment();
+    if (!result_.stray && startsCharacterBeyondAscii()) result_.stray = {next_, place_};
     if (c == '[' || c == '{') result_.open.push_back({c, place_});
     if ((c == ']' || c == '}') && !result_.open.empty()) result_.open.pop_back();
     if (c == '.') ++dots_;
@@ -45,6 +47,19 @@ class Scanner {
     const std::size_t value = text_.find_first_not_of(" \t", next_ + 1);
     return value != std::string_view::npos &&
            std::string_view(",]}#\r\n").find(text_[value]) == std::string_view::npos;
+  }
+
+  /// A whole one; broken ones are left to the parser.
+  bool startsCharacterBeyondAscii() const {
+    const auto byte = [this](std::size_t i) {
+      return next_ + i < text_.size() ? static_cast<unsigned char>(text_[next_ + i]) : 0u;
+    };
+    const std::size_t length = byte(0) >= 0xF0u ? 4 : byte(0) >= 0xE0u ? 3 : 2;
+    if (byte(0) < 0xC0u || byte(0) >= 0xF8u) return false;
+    for (std::size_t i = 1; i < length; ++i) {
+      if ((byte(i) & 0xC0u) != 0x80u) return false;
+    }
+    return true;
   }
 
   void skipComment() {
@@ -66,6 +81,8 @@ class Scanner {
       result_.unclosed_quote = opened;
     } else {
       for (std::size_t i = 0; i < closing.size(); ++i) advance();
+      // Up to two quotes before the closing three belong to the text.
+      for (int i = 0; several_lines && i < 2 && !atEnd() && text_[next_] == quote; ++i) advance();
     }
   }
 

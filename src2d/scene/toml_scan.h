@@ -15,10 +15,17 @@ struct TomlScan {
     char opening = '[';
     toml::source_position place;
   };
-  std::vector<Bracket> open;  ///< outermost first
-  std::optional<toml::source_position> unclosed_quote;
-  std::optional<toml::source_position> missing_value;  ///< after an '=' where none follows
-  std::optional<toml::source_position> too_deep;       ///< where nesting passes the limit
+  struct Stray {
+    std::size_t byte = 0;
+    toml::source_position place;
+  };
+  using Place = std::optional<toml::source_position>;
+
+  std::vector<Bracket> open;   ///< outermost first
+  Place unclosed_quote;        ///< where the text begins that has no end
+  Place missing_value;         ///< an '=' that nothing follows
+  Place too_deep;              ///< where nesting passes the limit
+  std::optional<Stray> stray;  ///< a character beyond ASCII outside of texts and comments
 };
 
 /// Reads up to line and column `end`, or until the nesting passes `limit`. Dots in keys nest too.

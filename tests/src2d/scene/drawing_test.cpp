@@ -1,0 +1,399 @@
+/// Drawn scenes: the pictures are drawn here, letter by letter.
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "src2d/scene/ink.h"
+#include "tests/src2d/scene/png_testing.h"
+#include "tests/src2d/scene/scene_testing.h"
+
+namespace merge2d {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+using Rows = std::vector<std::string>;
+
+/// ' ' white, '#' black, 'g' grey, 'b' blue, 'e' green, 'r' red, 'm' magenta, 'y' yellow, 'c' cyan,
+/// 'w' almost white, 'q' nearly red, 't' transparent black, 'h' half transparent black.
+const std::map<char, Image::Pixel> kColors = {
+    {' ', {255, 255, 255, 255}}, {'#', {0, 0, 0, 255}},     {'g', {127, 127, 127, 255}},
+    {'b', {0, 0, 255, 255}},     {'e', {0, 200, 0, 255}},   {'r', {255, 0, 0, 255}},
+    {'m', {255, 0, 255, 255}},   {'y', {255, 255, 0, 255}}, {'c', {0, 255, 255, 255}},
+    {'w', {246, 246, 246, 255}}, {'q', {237, 28, 36, 255}}, {'t', {0, 0, 0, 0}},
+    {'h', {0, 0, 0, 128}},
+};
+
+std::string bits(unsigned value, int count) {
+  std::string result;
+  for (int i = count - 1; i >= 0; --i)
+    result += ((value >> static_cast<unsigned>(i)) & 1u) != 0 ? '1' : '0';
+  return result;
+}
+
+/// The PNG file of these pixels.
+std::string encode(const Rows& rows, bool interlaced = false) {
+  const auto sample = [&](std::uint32_t x, std::uint32_t y) {
+    const Image::Pixel p = kColors.at(rows[y][x]);
+    return bits(p.r, 8) + bits(p.g, 8) + bits(p.b, 8) + bits(p.a, 8);
+  };
+  return encodePng(static_cast<std::uint32_t>(rows[0].size()),
+                   static_cast<std::uint32_t>(rows.size()), {.interlaced = interlaced}, sample);
+}
+
+Scene draw(const Rows& rows, const Overrides& overrides = {}) {
+  const TemporaryFile file("drawn.png", encode(rows));
+  return loadScene(file.path().string(), overrides);
+}
+
+/// The InputError of a file with these bytes; its name is shortened.
+std::string drawingError(const std::string& bytes) {
+  const TemporaryFile file("bad.png", bytes);
+  try {
+    loadScene(file.path().string());
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    const std::string path = file.path().string();
+    return what.starts_with(path) ? "bad.png" + what.substr(path.size()) : what;
+  }
+  return "no error";
+}
+
+/// The smallest box around a body, in the world.
+std::pair<Vec2, Vec2> extent(const BodyDesc& body) {
+  Vec2 lower = Vec2::Constant(1e9);
+  Vec2 upper = Vec2::Constant(-1e9);
+  for (const ConvexShape& shape : body.shapes) {
+    for (const Vec2& v : std::get<Polygon>(shape).vertices) {
+      lower = lower.cwiseMin(body.at + v);
+      upper = upper.cwiseMax(body.at + v);
+    }
+  }
+  return {lower, upper};
+}
+
+TEST(Drawing, APatchIsABodyWithYUpAndATenthOfAMetreAPixel) {
+  const Scene scene = draw({"     ",  //
+                            " ### ",  //
+                            "     ",  //
+                            "     "});
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  const BodyDesc& body = scene.bodies[0];
+  EXPECT_EQ(body.name, "body1");
+  EXPECT_EQ(body.motion, Motion::Dynamic);
+  ASSERT_EQ(body.shapes.size(), 1u);
+  const auto [lower, upper] = extent(body);
+  EXPECT_NEAR((lower - Vec2(0.1, 0.2)).norm(), 0, 1e-12);
+  EXPECT_NEAR((upper - Vec2(0.4, 0.3)).norm(), 0, 1e-12);
+  EXPECT_DOUBLE_EQ(body.mass.value(), 3 * 0.01) << "black weighs 1 kg per square metre";
+  EXPECT_EQ(scene.name, "drawn");
+  EXPECT_EQ(scene.duration, 20);
+  EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(Drawing, TheCameraSeesThePicture) {
+  const Scene scene = draw({"#   ", "    "});
+  ASSERT_TRUE(scene.camera.has_value());
+  EXPECT_NEAR(scene.camera->center.x(), 0.2, 1e-12);
+  EXPECT_NEAR(scene.camera->center.y(), 0.1, 1e-12);
+  EXPECT_NEAR(scene.camera->height, 0.4 * 9 / 16 * 1.05, 1e-9);
+}
+
+TEST(Drawing, PixelsThatTouchAtACornerAreOneBody) {
+  const Scene scene = draw({"#   #",  //
+                            " #   ",  //
+                            "  #  "});
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  EXPECT_EQ(scene.bodies[0].shapes.size(), 3u);
+  EXPECT_EQ(scene.bodies[1].shapes.size(), 1u);
+}
+
+TEST(Drawing, BodiesAreNumberedFromTheTopLeftByTheirRole) {
+  const Scene scene = draw({"  #  b",  //
+                            "b     ",  //
+                            "#    #"});
+  std::vector<std::string> names;
+  for (const BodyDesc& body : scene.bodies) names.push_back(body.name);
+  EXPECT_THAT(names, ElementsAre("body1", "pinned1", "body2", "body3"));
+}
+
+TEST(Drawing, ABodyIsPinnedWhenAllOfItIsBlue) {
+  const Scene scene = draw({"bb bb",  //
+                            "bb b#"});
+  EXPECT_EQ(scene.bodies[0].motion, Motion::Pinned);
+  EXPECT_EQ(scene.bodies[1].motion, Motion::Dynamic);
+}
+
+TEST(Drawing, AnyGreenPixelPinsForAWhile) {
+  const Scene scene = draw({"#e# #"});
+  EXPECT_EQ(scene.bodies[0].motion, Motion::Dynamic);
+  EXPECT_EQ(scene.bodies[0].pinned_until, 2.0);
+  EXPECT_EQ(scene.bodies[1].pinned_until, 0.0);
+  EXPECT_EQ(draw({"#e# #"}, {{"drawing.pinned_until", "5"}}).bodies[0].pinned_until, 5.0);
+}
+
+TEST(Drawing, DarkerIsDenser) {
+  const Scene scene = draw({"# g"});
+  EXPECT_NEAR(scene.bodies[0].mass.value(), 0.01, 1e-9);
+  EXPECT_NEAR(scene.bodies[1].mass.value(), 0.01 * (1 - 127.0 / 255), 1e-9);
+}
+
+TEST(Drawing, YellowJoinsWithoutMatter) {
+  const Scene scene = draw({"#yy#"});
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  EXPECT_EQ(scene.bodies[0].shapes.size(), 2u);
+  EXPECT_NEAR(areaProperties(scene.bodies[0].shapes).area, 0.02, 1e-12);
+  EXPECT_NEAR(scene.bodies[0].mass.value(), 0.02, 1e-12);
+}
+
+TEST(Drawing, BlueHeldTogetherByYellowIsPinned) {
+  EXPECT_EQ(draw({"byb"}).bodies[0].motion, Motion::Pinned);
+}
+
+TEST(Drawing, YellowAloneIsLeftOut) {
+  const Scene scene = draw({"yy #"});
+  EXPECT_EQ(scene.bodies.size(), 1u);
+  EXPECT_THAT(
+      scene.warnings,
+      ElementsAre(HasSubstr("the yellow patch at pixel (0, 0) joins nothing and is left out")));
+}
+
+TEST(Drawing, ARedPixelIsASpringToWhereItWasDrawn) {
+  const Scene scene = draw({"     ",  //
+                            " r## "});
+  ASSERT_EQ(scene.springs.size(), 1u);
+  const SpringDesc& spring = scene.springs[0];
+  EXPECT_NEAR((spring.to - Vec2(0.15, 0.05)).norm(), 0, 1e-12);
+  EXPECT_NEAR((scene.bodies[0].at + spring.anchor - spring.to).norm(), 0, 1e-12);
+  EXPECT_EQ(spring.rest_length, 0);
+  EXPECT_THAT(scene.magnets, IsEmpty());
+}
+
+TEST(Drawing, SpringsSagByAPixelUnderTheWeightOfTheirBody) {
+  const Scene scene = draw({"r##r"});
+  ASSERT_EQ(scene.springs.size(), 2u);
+  const double mass = scene.bodies[0].mass.value();
+  const double stiffness = scene.springs[0].stiffness + scene.springs[1].stiffness;
+  EXPECT_NEAR(mass * 9.81 / stiffness, 0.1, 1e-6);
+  const double damping = scene.springs[0].damping + scene.springs[1].damping;
+  const double ratio = damping / (2 * std::sqrt(stiffness * mass));
+  EXPECT_GT(ratio, 0.1);
+  EXPECT_LT(ratio, 0.2);
+}
+
+TEST(Drawing, SpringsCanBeChosen) {
+  const Scene scene = draw({"r##r"}, {{"drawing.stiffness", "7"}, {"drawing.damping", "3"}});
+  EXPECT_EQ(scene.springs[0].stiffness, 7);
+  EXPECT_EQ(scene.springs[0].damping, 3);
+}
+
+TEST(Drawing, AMagentaPixelIsASpringAndMakesAMagnet) {
+  const Scene scene = draw({"#  #m"});
+  EXPECT_EQ(scene.springs.size(), 1u);
+  ASSERT_EQ(scene.magnets.size(), 1u);
+  EXPECT_EQ(scene.magnets[0].body, 1u);
+  EXPECT_EQ(scene.magnets[0].on[0].until, kForever);
+  EXPECT_EQ(scene.bodies[1].name, "magnet1");
+}
+
+TEST(Drawing, TwoLoneCyanPixelsSpanTheGround) {
+  const Scene scene = draw({" #    ",  //
+                            "     c",  //
+                            "c     "});
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  const BodyDesc& ground = scene.bodies[0];
+  EXPECT_EQ(ground.name, "ground");
+  EXPECT_EQ(ground.motion, Motion::Pinned);
+  EXPECT_NEAR(ground.angle, std::atan2(1, 5), 1e-12);
+  // Both pixels' centres are on its upper side.
+  const Pose pose = Pose::at(ground.at, ground.angle);
+  const double top = std::get<Polygon>(ground.shapes[0]).vertices[2].y();
+  EXPECT_NEAR(pose.toLocal({0.05, 0.05}).y(), top, 1e-9);
+  EXPECT_NEAR(pose.toLocal({0.55, 0.15}).y(), top, 1e-9);
+  EXPECT_GE(areaProperties(ground.shapes).area, 10.0);
+}
+
+TEST(Drawing, OtherCyanPixelsAreMatterWithAWarning) {
+  const Scene scene = draw({"c  c  c"});
+  EXPECT_EQ(scene.bodies.size(), 3u);
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("pixel (0, 0) is cyan, but the ground needs "
+                                                    "exactly two lone cyan pixels")));
+  EXPECT_EQ(draw({"c# c"}).bodies.size(), 2u);
+}
+
+TEST(Drawing, AVerticalHorizonIsAnError) {
+  EXPECT_EQ(drawingError(encode({"c #", "   ", "c  "})),
+            "bad.png: the two cyan pixels are above one another, so neither side of their line is "
+            "below it");
+}
+
+TEST(Drawing, TransparentIsEmptyAndHalfTransparentIsPaler) {
+  const Scene scene = draw({"t# h"});
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  EXPECT_NEAR(scene.bodies[1].mass.value(), 0.01 * 128 / 255, 1e-9);
+}
+
+TEST(Drawing, DoubtfulColoursAreWarnedAboutWithTheirFirstPixelAndTheirNumber) {
+  const Scene scene = draw({"#  ww",  //
+                            "    q"});
+  ASSERT_EQ(scene.warnings.size(), 2u);
+  EXPECT_THAT(
+      scene.warnings[0],
+      HasSubstr("drawn.png: pixel (3, 0) of colour #f6f6f6 is taken as empty, but is nearly "
+                "plain matter (2 such pixels)"));
+  EXPECT_THAT(
+      scene.warnings[1],
+      HasSubstr("drawn.png: pixel (4, 1) of colour #ed1c24 is taken as plain matter, but is "
+                "nearly a spring (red)"));
+}
+
+TEST(Drawing, AnEmptyPictureIsAnEmptyScene) {
+  EXPECT_THAT(draw({"  "}).warnings, ElementsAre(HasSubstr("the scene has no bodies")));
+}
+
+/// Checks that a file shows one black body of 2 × 1 pixels and a pinned one of 1 × 1.
+void expectTwoBodies(const std::string& png) {
+  const TemporaryFile file("kind.png", png);
+  const Scene scene = loadScene(file.path().string());
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  EXPECT_NEAR(scene.bodies[0].mass.value(), 0.02, 1e-9);
+  EXPECT_EQ(scene.bodies[1].motion, Motion::Pinned);
+  EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(Drawing, InterlacedAndPalettePicturesAreRead) {
+  const Rows rows = {"##  ", "   b"};
+  expectTwoBodies(encode(rows));
+  expectTwoBodies(encode(rows, true));
+  const PngKind palette{
+      .depth = 2, .color = 3, .palette = std::string("\xff\xff\xff\0\0\0\0\0\xff", 9)};
+  const auto entry = [&](std::uint32_t x, std::uint32_t y) {
+    return bits(rows[y][x] == '#' ? 1 : rows[y][x] == 'b' ? 2 : 0, 2);
+  };
+  expectTwoBodies(encodePng(4, 2, palette, entry));
+  const auto deep = [&](std::uint32_t x, std::uint32_t y) {
+    const Image::Pixel p = kColors.at(rows[y][x]);
+    return bits(p.r * 257u, 16) + bits(p.g * 257u, 16) + bits(p.b * 257u, 16);
+  };
+  expectTwoBodies(encodePng(4, 2, {.depth = 16, .color = 2}, deep));
+}
+
+TEST(Drawing, GreyPicturesOfAnyDepthAreRead) {
+  for (const int depth : {1, 2, 4, 8, 16}) {
+    const auto checker = [depth](std::uint32_t x, std::uint32_t) {
+      return std::string(static_cast<std::size_t>(depth), x % 2 == 0 ? '1' : '0');
+    };
+    const TemporaryFile file("grey.png", encodePng(5, 1, {.depth = depth, .color = 0}, checker));
+    EXPECT_EQ(loadScene(file.path().string()).bodies.size(), 2u) << depth << " bits";
+  }
+}
+
+TEST(Drawing, APaletteEntryThatIsNotThereIsNoCrash) {
+  const PngKind palette{.depth = 8, .color = 3, .palette = std::string("\xff\xff\xff", 3)};
+  const std::string file = encodePng(2, 2, palette, [](auto, auto) { return "11111111"; });
+  const std::string message = drawingError(file);
+  EXPECT_TRUE(message == "no error" || message.starts_with("bad.png: ")) << message;
+}
+
+TEST(Drawing, OverridesReachTheDrawnBodies) {
+  const Scene scene = draw({"# b"}, {{"drawing.pixel", "0.5"},
+                                     {"material.density", "2"},
+                                     {"material.friction", "0.1"},
+                                     {"body.body1.restitution", "0.5"},
+                                     {"duration", "3"}});
+  EXPECT_DOUBLE_EQ(scene.bodies[0].mass.value(), 0.5);
+  EXPECT_EQ(scene.bodies[0].friction, 0.1);
+  EXPECT_EQ(scene.bodies[0].restitution, 0.5);
+  EXPECT_EQ(scene.duration, 3);
+}
+
+TEST(Drawing, ItsTextMeansTheSame) {
+  const Scene scene = draw({"  ###   m#  ",  //
+                            "  #   e     ",  //
+                            " r##     bb ",  //
+                            "            ",  //
+                            "c          c"});
+  const Scene again = parseScene(toToml(scene), "drawn.toml");
+  EXPECT_EQ(toToml(again), toToml(scene));
+  EXPECT_EQ(again.bodies.size(), 5u);
+  EXPECT_EQ(again.springs.size(), 2u);
+}
+
+TEST(Drawing, WrongOverridesAreNamed) {
+  EXPECT_THROW(draw({"#"}, {{"drawing.pixle", "1"}}), InputError);
+  EXPECT_THROW(draw({"#"}, {{"body.body2.mass", "1"}}), InputError);
+}
+
+TEST(Drawing, ATooLargePictureIsRefusedBeforeItIsRead) {
+  const std::string header =
+      bigEndian(50'000) + bigEndian(50'000) + std::string("\x08\x06\0\0\0", 5);
+  const std::string file = "\x89PNG\r\n\x1a\n" + pngChunk("IHDR", header) +
+                           pngChunk("IDAT", zipped("")) + pngChunk("IEND", "");
+  EXPECT_EQ(drawingError(file),
+            "bad.png: a drawing has at most 4194304 pixels, this one has 50000 x 50000");
+}
+
+TEST(Drawing, TooManyBodiesAreRefused) {
+  Rows rows(700, std::string(700, ' '));
+  for (std::size_t y = 0; y < 700; y += 2) {
+    for (std::size_t x = 0; x < 700; x += 2) rows[y][x] = '#';
+  }
+  EXPECT_EQ(drawingError(encode(rows)),
+            "bad.png: a scene has at most 100000 bodies, this drawing has 122500");
+}
+
+TEST(Drawing, ABodyOfTooManyPiecesIsRefused) {
+  Rows rows(300, std::string(300, ' '));
+  for (std::size_t y = 0; y < 300; ++y) {
+    for (std::size_t x = y % 2; x < 300; x += 2) rows[y][x] = '#';
+  }
+  EXPECT_EQ(drawingError(encode(rows)),
+            "bad.png: the body at pixel (0, 0) needs 45000 rectangles, "
+            "at most 10000 are allowed");
+}
+
+TEST(Drawing, WhatIsNotAPngIsOneError) {
+  EXPECT_THAT(drawingError(""), StartsWith("bad.png: not a whole PNG picture ("));
+  EXPECT_THAT(drawingError("GIF89a"), StartsWith("bad.png: not a whole PNG picture ("));
+  EXPECT_THAT(drawingError(encode({"#"}).substr(0, 40)), StartsWith("bad.png: "));
+}
+
+TEST(Drawing, ATruncatedOrDamagedFileNeverCrashes) {
+  const std::string whole = encode({"##  r", "#e# b", "  yym"});
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const std::string message = drawingError(whole.substr(0, length));
+    EXPECT_TRUE(message.starts_with("bad.png: ") || message == "no error") << message;
+  }
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
+      std::string damaged = whole;
+      damaged[i] = static_cast<char>(static_cast<unsigned char>(damaged[i]) ^ flip);
+      const std::string message = drawingError(damaged);
+      EXPECT_TRUE(message.starts_with("bad.png: ") || message == "no error") << message;
+    }
+  }
+}
+
+TEST(Ink, ColoursAreComparedWithATolerance) {
+  EXPECT_EQ(inkOf({255, 10, 10, 255}), Ink::Spring);
+  EXPECT_EQ(inkOf({255, 30, 30, 255}), Ink::Matter);
+  EXPECT_EQ(inkOf({0, 0, 163, 255}), Ink::Pinned);
+  EXPECT_EQ(inkOf({165, 243, 165, 255}), Ink::Held);
+  EXPECT_EQ(inkOf({185, 122, 87, 255}), Ink::Matter);
+  EXPECT_EQ(inkOf({250, 250, 250, 255}), Ink::Empty);
+  EXPECT_EQ(inkOf({240, 240, 240, 255}), Ink::Matter);
+}
+
+TEST(Ink, PlainColoursAreNotDoubtful) {
+  for (const auto& [letter, pixel] : kColors) {
+    const bool doubtful = letter == 'w' || letter == 'q';
+    EXPECT_EQ(doubtfulInk(pixel).has_value(), doubtful) << letter;
+  }
+}
+
+}  // namespace
+}  // namespace merge2d

@@ -1,0 +1,362 @@
+/// What text scenes say when they are wrong: the place, what is wrong, and what to do.
+
+#include <fmt/format.h>
+
+#include "tests/src2d/scene/scene_testing.h"
+
+namespace merge2d {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Case {
+  std::string_view toml;
+  std::string_view message;
+};
+
+/// Each text as the only content of a scene, and the first line of its error.
+void expectErrors(std::initializer_list<Case> cases) {
+  for (const Case& c : cases) {
+    EXPECT_EQ(firstLineOf(c.toml), fmt::format("s.toml:{}", c.message)) << "in\n" << c.toml;
+  }
+}
+
+/// A [[body]] with these lines from line 3 on, after a shape.
+std::string body(std::string_view lines) {
+  return fmt::format("[[body]]\ncircle = 1\n{}\n", lines);
+}
+
+/// Bodies "d" (dynamic), "p" (pinned) and "s" (scripted), and these lines from line 13 on.
+std::string withBodies(std::string_view lines) {
+  return fmt::format(R"([[body]]
+name = "d"
+circle = 1
+[[body]]
+name = "p"
+motion = "pinned"
+circle = 1
+[[body]]
+name = "s"
+motion = "scripted"
+script = {{ spin = 1 }}
+circle = 1
+{})",
+                     lines);
+}
+
+TEST(Errors, AnUnknownKeyIsShownWithItsLineACaretAndASuggestion) {
+  EXPECT_EQ(errorOf("format = 1\n[[body]]\nbox = [1, 1]\n  frction = 0.5 # µ\n"),
+            "s.toml:4:3: unknown key 'frction' in [[body]] (did you mean 'friction'?)\n"
+            "    4 |   frction = 0.5 # µ\n"
+            "      |   ^");
+}
+
+TEST(Errors, UnknownKeysAndTablesAreErrors) {
+  expectErrors({
+      {"gravty = [0, 0]", "1:1: unknown key 'gravty' in the scene (did you mean 'gravity'?)"},
+      {"[mergin]\nvelocity = 1",
+       "1:2: unknown key 'mergin' in the scene (did you mean 'merging'?)"},
+      {"[[joint]]\nkind = \"weld\"", "1:3: unknown key 'joint' in the scene"},
+      {"[merging]\nvelocty = 1",
+       "2:1: unknown key 'velocty' in [merging] (did you mean 'velocity'?)"},
+      {body("script = { priod = 1 }"),
+       "3:12: unknown key 'priod' in 'script' of [[body]] (did you "
+       "mean 'period'?)"},
+      {"[[body]]\nshapes = [{ bx = [1, 1] }]",
+       "2:13: unknown key 'bx' in 'shapes[0]' of [[body]] (did you mean 'box'?)"},
+  });
+}
+
+TEST(Errors, AKeyInTheWrongTableIsSentHome) {
+  expectErrors({
+      {"[camera]\nduration = 3",
+       "2:1: unknown key 'duration' in [camera] (it belongs at the top, before the first [table])"},
+      {"[merging]\niterations = 3",
+       "2:1: unknown key 'iterations' in [merging] (it belongs in [solver])"},
+      {"[solver]\nvelocity = 3",
+       "2:1: unknown key 'velocity' in [solver] (it belongs in [merging] or [unmerging] or "
+       "[sleeping])"},
+  });
+}
+
+TEST(Errors, TheFirstUnknownKeyOfATableIsReported) {
+  EXPECT_EQ(firstLineOf("[[body]]\nzzz = 1\naaa = 2\n"),
+            "s.toml:2:1: unknown key 'zzz' in [[body]]");
+}
+
+TEST(Errors, WordsMustBeOfTheirList) {
+  expectErrors({
+      {"[merging]\ncycles = \"triangel\"",
+       "2:10: 'cycles' in [merging] must be one of \"off\", \"triangle\", \"rigid\", but is "
+       "\"triangel\" (did you mean 'triangle'?)"},
+      {"[solver]\nmethod = \"gauss\"",
+       "2:10: 'method' in [solver] must be one of \"nncg\", \"block\", \"pgs\", but is \"gauss\""},
+      {body("motion = \"Pinned\""),
+       "3:10: 'motion' in [[body]] must be one of \"dynamic\", \"pinned\", \"scripted\", but is "
+       "\"Pinned\" (did you mean 'pinned'?)"},
+  });
+}
+
+TEST(Errors, TypesMustBeRight) {
+  expectErrors({
+      {body("mass = \"3\""), "3:8: 'mass' in [[body]] must be a number, but is the text \"3\""},
+      {body("name = 3"), "3:8: 'name' in [[body]] must be a text in quotes, but is 3"},
+      {body("at = 3"), "3:6: 'at' in [[body]] must be [x, y], but is 3"},
+      {body("at = [1, 2, 3]"), "3:6: 'at' in [[body]] must be [x, y], but is a list of 3"},
+      {body("at = [1, \"2\"]"),
+       "3:10: 'at[1]' in [[body]] must be a number, but is the text \"2\""},
+      {body("script = 3"), "3:10: 'script' in [[body]] must be a table { … }, but is 3"},
+      {"[solver]\niterations = 10.0",
+       "2:14: 'iterations' in [solver] must be a whole number, but is 10.0"},
+      {"[unmerging]\nordering = 1",
+       "2:12: 'ordering' in [unmerging] must be true or false, but is 1"},
+      {"gravity = true", "1:11: 'gravity' in the scene must be [x, y], but is true"},
+      {"gravity = 2020-01-01",
+       "1:11: 'gravity' in the scene must be [x, y], but is a date or time"},
+      {"solver = 3", "1:10: [solver] must be one table, written [solver]"},
+      {"[[solver]]\nerp = 1", "1:1: [solver] must be one table, written [solver]"},
+      {"[body]\ncircle = 1", "1:1: each body must be a table of its own, written [[body]]"},
+      {"body = [1]", "1:8: each body must be a table of its own, written [[body]]"},
+      {"format = 2",
+       "1:10: 'format' in the scene must be 1, the only format there is so far, but "
+       "is 2"},
+  });
+}
+
+TEST(Errors, NumbersMustBeWithinTheirLimits) {
+  expectErrors({
+      {"step = nan",
+       "1:8: 'step' in the scene must be a finite number below 1e12 in size, but is "
+       "nan"},
+      {"gravity = [0, -inf]",
+       "1:15: 'gravity[1]' in the scene must be a finite number below 1e12 "
+       "in size, but is -inf"},
+      {"duration = 1e300",
+       "1:12: 'duration' in the scene must be a finite number below 1e12 in "
+       "size, but is 1e+300"},
+      {"step = 0", "1:8: 'step' in the scene must be between 1e-6 and 1 s, but is 0"},
+      {"duration = -1", "1:12: 'duration' in the scene must be between 1e-6 and 1e6 s, but is -1"},
+      {"seed = -1", "1:8: 'seed' in the scene must be 0 or more, but is -1"},
+      {body("mass = 0"), "3:8: 'mass' in [[body]] must be positive, but is 0"},
+      {body("density = -1.5"), "3:11: 'density' in [[body]] must be positive, but is -1.5"},
+      {body("friction = -0.1"), "3:12: 'friction' in [[body]] must be 0 or more, but is -0.1"},
+      {body("restitution = 1.1"),
+       "3:15: 'restitution' in [[body]] must be between 0 and 1, but is 1.1"},
+      {body("at = [2e6, 0]"),
+       "3:7: 'at[0]' in [[body]] must be between -1e6 and 1e6 m, but is 2000000.0"},
+      {"[[body]]\nbox = [1, 0]",
+       "2:11: 'box[1]' in [[body]] must be a positive length (1e-4 to 1e6 m), but is 0"},
+      {"[[body]]\ncircle = -1",
+       "2:10: 'circle' in [[body]] must be a positive length (1e-4 to 1e6 m), but is -1"},
+      {"[solver]\niterations = 0", "2:14: 'iterations' in [solver] must be 1 or more, but is 0"},
+      {"[material]\nfriction = -1", "2:12: 'friction' in [material] must be 0 or more, but is -1"},
+  });
+}
+
+TEST(Errors, ABodyNeedsExactlyOneShape) {
+  expectErrors({
+      {"[[body]]\nname = \"x\"", "1:1: [[body]] needs a shape: box, circle, polygon or shapes"},
+      {"[[body]]\nshapes = []", "1:1: [[body]] needs a shape: box, circle, polygon or shapes"},
+      {"[[body]]\nbox = [1, 1]\ncircle = 1",
+       "3:10: [[body]] has both 'box' and 'circle'; for several shapes write shapes = [{ … }, { … "
+       "}]"},
+      {"[[body]]\nbox = [1, 1]\nshapes = [{ circle = 1 }]",
+       "3:10: 'shapes' stands alone, without box, circle or polygon"},
+      {"[[body]]\nshapes = [{ at = [1, 1] }]", "2:11: a shape needs box, circle or polygon"},
+      {"[[body]]\nshapes = [3]", "2:11: 'shapes[0]' in [[body]] must be a table { … }, but is 3"},
+  });
+}
+
+TEST(Errors, APolygonMustBeSimple) {
+  EXPECT_THAT(firstLineOf("[[body]]\npolygon = [[0, 0], [1, 1], [1, 0], [0, 1]]"),
+              StartsWith("s.toml:2:11: "));
+  EXPECT_THAT(firstLineOf("[[body]]\npolygon = [[0, 0], [1, 1]]"), StartsWith("s.toml:2:11: "));
+  std::string corners;
+  for (int i = 0; i < 1001; ++i) corners += fmt::format("[{}, {}],", i, i * i);
+  EXPECT_EQ(firstLineOf("[[body]]\npolygon = [" + corners + "]"),
+            "s.toml:2:11: a polygon has at most 1000 corners, this one has 1001");
+}
+
+TEST(Errors, MotionMustFitTheOtherKeys) {
+  expectErrors({
+      {body("motion = \"scripted\""), "3:10: a scripted body needs a script: script = { … }"},
+      {body("script = { spin = 1 }"), "3:10: a script needs motion = \"scripted\""},
+      {body("motion = \"pinned\"\nvelocity = [1, 0]"), "4:12: a pinned body does not move"},
+      {body("motion = \"pinned\"\nspin = 1"), "4:8: a pinned body does not move"},
+      {body("motion = \"scripted\"\nscript = { spin = 1 }\nvelocity = [1, 0]"),
+       "5:12: a scripted body moves by its script only"},
+      {body("motion = \"pinned\"\npinned_until = 1"),
+       "4:16: only a dynamic body can be pinned for a while"},
+  });
+}
+
+TEST(Errors, ScriptsAreChecked) {
+  const auto script = [](std::string_view value) {
+    return body(fmt::format("motion = \"scripted\"\nscript = {}", value));
+  };
+  expectErrors({
+      {script("{ axis = [1, 0], period = 1 }"),
+       "4:10: 'script' of [[body]] needs the key 'amplitude'"},
+      {script("{ axis = [1, 0], amplitude = 1, period = 0 }"),
+       "4:51: 'period' in 'script' of [[body]] must be positive, but is 0"},
+      {script("{ velocity = [1, 0], period = 2 }"),
+       "4:31: unknown key 'period' in 'script' of [[body]]"},
+      {script("{ keyframes = [] }"), "4:24: a script needs at least one key frame"},
+      {script("{ keyframes = [[0, 0, 0, 0], [0, 1, 1, 0]] }"),
+       "4:39: the times of key frames must increase, but 0 follows 0"},
+      {script("{ keyframes = [[0, 0, 0]] }"),
+       "4:25: 'keyframes[0]' in 'script' of [[body]] must be [t, x, y, degrees], but is a list of "
+       "3"},
+      {script("{ keyframes = [[-1, 0, 0, 0]] }"), "4:25: key frames start at time 0 or later"},
+      {script("{ keyframes = [[0, 0, 0, 0]] }\nat = [0, 1]"),
+       "5:6: the key frames say where the body is, not 'at'"},
+      {script("{ keyframes = [[0, 0, 0, 0]] }\nangle = 1"),
+       "5:9: the key frames say the angle, not 'angle'"},
+      {script("{ keyframes = [[0, 0, 0, 0]] }\nrepeat = { count = [1, 2], spacing = [1, 1] }"),
+       "5:10: key frames are places in the world, so all copies would be in one"},
+  });
+}
+
+TEST(Errors, NamesAreUniqueAndPlain) {
+  expectErrors({
+      {"[[body]]\nname = \"a\"\ncircle = 1\n[[body]]\nname = \"a\"\ncircle = 1",
+       "4:1: two bodies are called 'a'"},
+      {body("name = \"\""), "3:8: a name must not be empty"},
+      {body("name = \"a\\nb\""), "3:8: a name is one line without control characters"},
+      {body("name = \"" + std::string(101, 'x') + "\""), "3:8: a name has at most 100 characters"},
+  });
+}
+
+TEST(Errors, RepeatIsChecked) {
+  expectErrors({
+      {body("repeat = { count = [2, 2] }"), "3:10: 'repeat' of [[body]] needs the key 'spacing'"},
+      {body("repeat = { count = 3, spacing = [1, 1] }"),
+       "3:20: 'count' in 'repeat' of [[body]] must be [columns, rows], but is 3"},
+      {body("repeat = { count = [0, 2], spacing = [1, 1] }"),
+       "3:21: 'count[0]' in 'repeat' of [[body]] must be between 1 and 100000, but is 0"},
+      {body("repeat = { count = [1000, 1000], spacing = [1, 1] }"),
+       "1:1: a scene has at most 100000 bodies"},
+      {body("repeat = { count = [9223372036854775807, 1], spacing = [1, 1] }"),
+       "3:21: 'count[0]' in 'repeat' of [[body]] must be between 1 and 100000, but is "
+       "9223372036854775807"},
+      {body("repeat = { count = [1, 1000], spacing = [1, 10000] }"),
+       "1:1: 'body1[0,101]' stands further than 1e6 m from the origin"},
+  });
+}
+
+TEST(Errors, ReferencesMustExistAndMakeSense) {
+  expectErrors({
+      {withBodies("[[spring]]\nbody = \"dd\"\nto = [0, 0]\nstiffness = 1"),
+       "14:8: no body is called 'dd' (did you mean 'd'?)"},
+      {withBodies("[[spring]]\nbody = \"d\"\nto_body = \"q\"\nstiffness = 1"),
+       "15:11: no body is called 'q'"},
+      {withBodies("[[spring]]\nbdy = \"d\""),
+       "14:1: unknown key 'bdy' in [[spring]] (did you mean 'body'?)"},
+      {withBodies("[[spring]]\nto = [0, 0]"), "13:1: [[spring]] needs the key 'body'"},
+      {withBodies("[[spring]]\nbody = \"d\"\nto = [0, 0]"),
+       "13:1: [[spring]] needs the key 'stiffness'"},
+      {withBodies("[[spring]]\nbody = \"d\"\nstiffness = 1"),
+       "13:1: [[spring]] needs one other end: 'to' (a point) or 'to_body' and 'to_anchor'"},
+      {withBodies("[[spring]]\nbody = \"d\"\nto = [0, 0]\nto_anchor = [0, 0]\nstiffness = 1"),
+       "16:13: 'to_anchor' is a point of 'to_body', which is missing"},
+      {withBodies("[[spring]]\nbody = \"d\"\nto_body = \"d\"\nstiffness = 1"),
+       "15:11: both ends of the spring are on the same body"},
+      {withBodies("[[spring]]\nbody = \"p\"\nto = [0, 0]\nstiffness = 1"),
+       "14:8: a spring has no effect on 'p', which is pinned"},
+      {withBodies("[[impulse]]\nbody = \"s\"\nat = [0, 0]\nimpulse = [1, 0]"),
+       "14:8: an impulse has no effect on 's', which is scripted"},
+      {withBodies("[[impulse]]\nbody = \"d\"\nat = [0, 0]"),
+       "13:1: [[impulse]] needs the key 'impulse'"},
+      {withBodies("[[force]]\nbody = \"p\"\nforce = [1, 0]"),
+       "14:8: a force has no effect on 'p', which is pinned"},
+      {withBodies("[[force]]\nbody = \"d\"\nforce = [1, 0]\nfrom = 2\nuntil = 2"),
+       "13:1: a force must end after it begins"},
+      {withBodies("[[magnet]]\nbody = \"d\"\non = [[0, 2], [1, 3]]"),
+       "15:15: the intervals of a magnet must increase from time 0, without overlap"},
+      {withBodies("[[magnet]]\nbody = \"d\"\non = [0, 2]"),
+       "15:7: 'on[0]' in [[magnet]] must be [from, until], but is 0"},
+  });
+}
+
+TEST(Errors, ASpringMayHoldAPinnedBodyAndADynamicOne) {
+  EXPECT_EQ(errorOf(withBodies("[[spring]]\nbody = \"p\"\nto_body = \"d\"\nstiffness = 1")),
+            "no error");
+}
+
+TEST(Errors, ACopyMustBeNamed) {
+  EXPECT_EQ(firstLineOf("[[body]]\nname = \"b\"\ncircle = 1\n"
+                        "repeat = { count = [2, 2], spacing = [3, 3] }\n"
+                        "[[magnet]]\nbody = \"b\"\n"),
+            "s.toml:6:8: 'b' is repeated: say which copy, such as 'b[0,0]'");
+}
+
+TEST(Errors, AnEmitterNeedsAnEndAndARoom) {
+  const auto emitter = [](std::string_view lines) {
+    return fmt::format("[[emitter]]\nname = \"e\"\nevery = 1\ncircle = 1\n{}\n", lines);
+  };
+  expectErrors({
+      {emitter(""), "1:1: an emitter needs an end: 'count' or 'until'"},
+      {emitter("start = 3\nuntil = 2"),
+       "6:9: the emitter ends before it starts: 'until' must exceed 'start'"},
+      {emitter("count = 0"), "5:9: 'count' in [[emitter]] must be between 1 and 100000, but is 0"},
+      {emitter("until = 1e9"), "1:1: a scene has at most 100000 bodies, the emitted ones included"},
+      {emitter("count = 3\nmotion = \"pinned\""), "6:10: an emitter's bodies are dynamic"},
+      {emitter("count = 3\nspread = [-1, 0]"),
+       "6:11: 'spread[0]' in [[emitter]] must be 0 or more, but is -1"},
+      {emitter("count = 3\nrepeat = {}"), "6:1: unknown key 'repeat' in [[emitter]]"},
+      {"[[emitter]]\ncount = 3\ncircle = 1", "1:1: [[emitter]] needs the key 'every'"},
+      {emitter("count = 3\n[[body]]\nname = \"e[1]\"\ncircle = 1"),
+       "1:1: the emitter's bodies 'e[0]', … clash with 'e[1]'"},
+  });
+}
+
+TEST(Errors, LongLinesAreCutAndControlCharactersHidden) {
+  const std::string text = "x = \"" + std::string(300, 'a') + "\x1b[31m\"\n";
+  const std::string message = errorOf(text);
+  EXPECT_EQ(message.find('\x1b'), std::string::npos);
+  EXPECT_LT(message.size(), 300u);
+}
+
+TEST(Errors, NestingIsLimited) {
+  EXPECT_EQ(firstLineOf("x = " + std::string(17, '[')),
+            "s.toml:1:21: lists and tables nest deeper than 16 levels");
+  EXPECT_EQ(firstLineOf("a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q.r.s = 1"),
+            "s.toml:1:34: lists and tables nest deeper than 16 levels");
+}
+
+TEST(Errors, SyntaxErrorsSayWhatToDo) {
+  expectErrors({
+      {"title = tower", "1:9: a text needs quotes: \"tower\""},
+      {"title = \"tower\nstep = 1", "1:9: the quote that ends this text is missing"},
+      {"gravity = [0 1]", "1:14: a comma is missing here, or the ] before it"},
+      {"gravity = [0, 1\nstep = 1",
+       "2:1: the list that begins in line 1 misses a comma or its ] before here"},
+      {"[body\nx = 1", "1:6: this heading should read [body]"},
+      {"[[body]\nx = 1", "1:8: this heading should read [[body]]"},
+      {"step 3", "1:6: '=' and a value are missing here"},
+      {"step: 3", "1:5: write '=' instead of ':'"},
+      {"step =", "1:7: the value after '=' is missing"},
+      {"step = \nseed = 1", "1:8: the value after '=' is missing"},
+      {"step = 1\nstep = 2", "2:1: 'step' is given twice"},
+      {"[merging]\n[merging]", "2:1: there are two tables [merging]"},
+      {"[[body]]\n[body]", "2:1: 'body' is a list of tables elsewhere: write [[body]] each time"},
+      {"step = 0,01", "1:9: one value only: decimals have a point, lists stand in [ ]"},
+      {"step = .5", "1:8: a number has digits on both sides of its point: 0.5, 1.0"},
+      {"step = 10ms", "1:8: '10ms' is not a number (numbers have no units)"},
+      {"step = 10 ms", "1:11: only a # comment may follow the value (numbers have no units)"},
+      {"step = 1 seed = 2", "1:10: each key stands in a line of its own"},
+      {"x = True", "1:5: write true, in small letters"},
+      {"x = yes", "1:5: write true or false"},
+      {"x = (1, 2)", "1:5: a list stands in square brackets: [1, 2]"},
+      {"x = { a = 1 b = 2 }", "1:13: a comma is missing here, or the } before it"},
+      {"x = { a = 1,\nb = 2 }", "1:13: a table in { } stands on one line: close it with }"},
+      {"x = [1, 2]]", "1:11: this ] closes nothing"},
+      {"x = \"a\\q\"", "1:8: write \\\\ for a backslash, or put the text in '…'"},
+      {"= 3", "1:1: a line is key = value, or a [heading]"},
+      {"x = \"\xff\"", "1:5: this is not a text file (or not in UTF-8)"},
+  });
+}
+
+}  // namespace
+}  // namespace merge2d

@@ -1,0 +1,49 @@
+#pragma once
+/// What the tests of scene loading share.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "src2d/core/error.h"
+#include "src2d/scene/load.h"
+
+namespace merge2d {
+
+/// The whole message of the InputError that loading `toml` as "s.toml" throws.
+inline std::string errorOf(std::string_view toml, const Overrides& overrides = {}) {
+  try {
+    parseScene(toml, "s.toml", overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// Its first line.
+inline std::string firstLineOf(std::string_view toml, const Overrides& overrides = {}) {
+  const std::string whole = errorOf(toml, overrides);
+  return whole.substr(0, whole.find('\n'));
+}
+
+/// A file in the temporary folder of the tests, which goes with it.
+class TemporaryFile {
+ public:
+  TemporaryFile(const std::string& name, std::string_view bytes)
+      : path_(std::filesystem::path(testing::TempDir()) / name) {
+    std::ofstream(path_, std::ios::binary) << bytes;
+  }
+  ~TemporaryFile() { std::filesystem::remove(path_); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace merge2d
