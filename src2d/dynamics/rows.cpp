@@ -41,6 +41,13 @@ void startVelocities(const State& state, Scratch& scratch) {
   }
 }
 
+/// Of the body itself, also inside a collection: what a contact yields must not change when one of
+/// its bodies merges, or each merge would set everything around it in motion.
+double ownInverseMass(const State& state, BodyId b) {
+  const bool responds = state[rigidOf(b)].floating() || state.isCollection(state[b].rigid);
+  return responds ? 1.0 / state[b].mass : 0.0;
+}
+
 /// A gap below this counts as touching when a bounce is due [m].
 constexpr double kTouching = 1e-4;
 
@@ -99,7 +106,8 @@ class RowBuilder {
     const SolverVelocity& a = scratch_.u[index(ra_)];
     const SolverVelocity& b = scratch_.u[index(rb_)];
     const SolverSettings& settings = state_.settings.solver;
-    geometry_.softness = contactSoftness(settings, a.inv_mass, b.inv_mass);
+    geometry_.softness = contactSoftness(settings, ownInverseMass(state_, contact_->key.a),
+                                         ownInverseMass(state_, contact_->key.b));
     ContactBlock k;
     k.a = static_cast<std::uint32_t>(ra_);
     k.b = static_cast<std::uint32_t>(rb_);

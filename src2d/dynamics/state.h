@@ -159,6 +159,7 @@ struct Drift {
 struct InternalContact {
   Contact contact;            ///< positions and normal in the collection's frame
   bool active[2] = {false, false};  ///< has carried a force, so that its loss is a break
+  bool lost[2] = {false, false};    ///< has opened since
   Drift slip[2];     ///< along the tangent, over consecutive steps on the edge of the cone
   Drift opening[2];  ///< along the normal, over consecutive steps without a force
 };

@@ -35,7 +35,10 @@ class WeldTest {
   /// Adds this step's evidence to what was summed, and cuts the welds whose sum is too large.
   void testAll() {
     for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) testContacts(i);
-    for (Weld& weld : c_.welds) testMotion(weld);
+    for (Weld& weld : c_.welds) {
+      testLost(weld);
+      testMotion(weld);
+    }
   }
 
   /// Looks again after more sweeps. What was summed may have come from a sweep that had not
@@ -53,8 +56,11 @@ class WeldTest {
     InternalContact& inner = c_.contacts[c_.block_contact[b]];
     for (int i = 0; i < k.count; ++i) {
       const bool lost = broken(k, i), edge = !lost && onEdge(k, i);
-      if (!lost) inner.active[i] = true;
-      if (!lost) inner.opening[i] = {};
+      if (!lost) {
+        inner.active[i] = true;
+        inner.lost[i] = false;
+        inner.opening[i] = {};
+      }
       if (!edge) inner.slip[i] = {};
       if (!scratch_.decisions && !lost && !edge) continue;
       const double nx = turn_.c * k.nx - turn_.s * k.ny, ny = turn_.s * k.nx + turn_.c * k.ny;
@@ -64,7 +70,7 @@ class WeldTest {
       point.w_n = w.n;
       point.w_t = w.t;
       Weld& weld = weldOf(inner.contact.key);
-      if (lost && inner.active[i]) testBroken(weld, inner.opening[i], w.n);
+      if (lost && inner.active[i]) inner.lost[i] = testBroken(weld, inner.opening[i], w.n);
       if (!lost) testSliding(weld, inner.slip[i], w.t, edge);
     }
   }
@@ -78,13 +84,26 @@ class WeldTest {
     }
   }
 
-  void testBroken(Weld& weld, Drift& opening, double w_n) {
-    const bool literal = rule() == Rule::Paper;
+  /// True when the contact has opened.
+  bool testBroken(Weld& weld, Drift& opening, double w_n) {
     add(opening, std::max(0.0, w_n));
-    const double threshold = literal ? 0.0 : kOpening;
-    const bool cut = literal || opening.sum > threshold;
-    record(scratch_, weld, "broken", "Section 6.3", opening.sum, threshold, opening.steps, 0, cut);
-    if (cut) cutWeld(weld, EventReason::Broken);
+    const double threshold = state_.settings.unmerging.sliding;
+    const bool lost = rule() == Rule::Paper || opening.sum > threshold;
+    record(scratch_, weld, "broken", "Section 6.3", opening.sum, threshold, opening.steps, 0, lost);
+    if (lost && rule() == Rule::Paper) cutWeld(weld, EventReason::Broken);
+    return lost;
+  }
+
+  /// A weld all of whose contacts have opened is broken; one that keeps a single contact is a pivot.
+  void testLost(Weld& weld) {
+    if (activeContacts(c_, weld) == 0 && hadContact(weld)) cutWeld(weld, EventReason::Broken);
+  }
+
+  bool hadContact(const Weld& weld) const {
+    for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+      if (c_.contacts[i].active[0] || c_.contacts[i].active[1]) return true;
+    }
+    return false;
   }
 
   void testSliding(Weld& weld, Drift& slip, double w_t, bool edge) {
@@ -143,9 +162,6 @@ class WeldTest {
 
   Rule rule() const { return state_.settings.unmerging.rule; }
 
-  /// A broken contact must open by this much, summed over steps, before it counts [m/s].
-  static constexpr double kOpening = 1e-3;
-
   const State& state_;
   Scratch& scratch_;
   Collection& c_;
@@ -157,7 +173,7 @@ class WeldTest {
     int active = 0;
     for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
       const InternalContact& inner = c.contacts[i];
-      for (int p = 0; p < inner.contact.count; ++p) active += inner.active[p] ? 1 : 0;
+      for (int p = 0; p < inner.contact.count; ++p) active += inner.active[p] && !inner.lost[p] ? 1 : 0;
     }
     return active;
   }

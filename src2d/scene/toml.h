@@ -16,5 +16,11 @@ struct TomlAssertion {};
 #define TOML_SHARED_LIB 0
 #define TOML_ASSERT(condition) \
   ((condition) ? static_cast<void>(0) : ::merge2d::throwTomlAssertion())
+#include <toml++/impl/preprocessor.h>
+#if TOML_LIB_MAJOR == 3 && TOML_LIB_MINOR <= 3
+// Its tests for white space reach the unreachable for characters such as 'µ', where "no" is meant.
+#undef TOML_UNREACHABLE
+#define TOML_UNREACHABLE return {}
+#endif
 #include <toml++/toml.h>
 #pragma pop_macro("NDEBUG")
