@@ -26,9 +26,9 @@ void letGo(State& state, Actions& actions, Scratch& scratch) {
   for (Actions::Launch& launch : actions.launches) {
     if (launch.done || !reached(state, state[launch.body].pinned_until)) continue;
     launch.done = true;
+    state[rigidOf(launch.body)].anchor = kFloating;
     releaseBody(state, scratch, launch.body);
     Rigid& r = state[rigidOf(launch.body)];
-    r.anchor = kFloating;
     r.inv_mass = 1.0 / r.mass;
     r.inv_inertia = 1.0 / r.inertia;
     r.v = launch.v;

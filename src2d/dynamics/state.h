@@ -182,12 +182,16 @@ struct Collection {
   std::vector<InternalContact> contacts;  ///< ascending by key
   std::vector<ContactBlock> blocks;       ///< one per contact, in the order of an undisturbed sweep
   std::vector<std::uint32_t> block_contact;  ///< which contact a block is
+  std::vector<std::uint32_t> block_weld;     ///< which weld it belongs to
+  std::vector<std::uint8_t> watched;         ///< per block: was at its limit in the last step
+  std::vector<std::uint32_t> pivots;         ///< welds with fewer than two contacts that hold
+  std::vector<std::uint32_t> cut_welds;      ///< in the last step
+  bool pivots_stale = true;
   std::uint32_t active_blocks = 0;  ///< the first ones; the others are swept in disturbed steps
   std::vector<Weld> welds;          ///< ascending by pair
   std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
   bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
   bool settled = false;             ///< inner forces did not change in the last sweep
-  bool any_cut = false;             ///< some weld was cut in the last step
 };
 
 struct TimedSpring {
@@ -283,6 +287,12 @@ struct BlockOrder {
 /// Normal and tangential impulses of a block's two points.
 using Impulses = std::array<double, 4>;
 
+/// Memory of the conjugate gradient (dynamics/nncg.h), kept between calls.
+struct NncgBuffers {
+  std::vector<Impulses> before, direction;   ///< per block
+  std::vector<Twist> u_before, u_direction;  ///< per body
+};
+
 /// Lives for one step; its memory is kept.
 struct Scratch {
   std::vector<Load> loads;
@@ -316,7 +326,7 @@ struct Scratch {
 
   // Unmerge
   bool split = false;                      ///< some collection was taken apart
-  std::vector<std::uint8_t> cuts_before;   ///< per weld of the collection at hand
+  std::vector<std::uint32_t> cuts_before;  ///< welds of the collection at hand
 
   // SolveLCP
   std::vector<SolverVelocity> u;           ///< per rigid
@@ -330,8 +340,7 @@ struct Scratch {
   std::vector<BlockOrder> block_order;
   std::vector<ContactBlock> sorted_blocks;
   std::vector<RowPoints> sorted_points;
-  std::vector<Impulses> before, direction; ///< per block
-  std::vector<Twist> u_before, u_direction;  ///< per body of an island
+  NncgBuffers nncg;
 };
 
 }  // namespace merge2d

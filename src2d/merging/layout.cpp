@@ -143,12 +143,21 @@ void layOutBlocks(const State& state, Collection& c) {
   }
   std::sort(items.begin(), items.end());
 
+  std::vector<std::uint32_t> weld_of(c.contacts.size());
+  for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
+    std::fill_n(weld_of.begin() + c.welds[w].first, c.welds[w].count, w);
+  }
   c.blocks.clear();
   c.block_contact.clear();
+  c.block_weld.clear();
+  c.watched.assign(c.contacts.size(), 1);
+  c.cut_welds.clear();
+  c.pivots_stale = true;
   c.active_blocks = 0;
   for (const Item& item : items) {
     c.blocks.push_back(makeBlock(state, c, c.contacts[item.contact].contact));
     c.block_contact.push_back(item.contact);
+    c.block_weld.push_back(weld_of[item.contact]);
     if (!item.dormant) ++c.active_blocks;
   }
 }

@@ -106,7 +106,8 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
       const BodyId a = inner.contact.key.a, b = inner.contact.key.b;
       const bool a_in = state[a].rigid == id, b_in = state[b].rigid == id;
       const std::uint32_t p = partOf(a_in ? a : b), q = partOf(b_in ? b : a);
-      const bool stays = p == q && ((a_in && b_in) || anchored[p]);
+      const bool on_frame = frameOf(state, a_in ? b : a) == whole.anchor;
+      const bool stays = p == q && ((a_in && b_in) || (anchored[p] && on_frame));
       (stays ? kept[p] : released).push_back(inner);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src2d/dynamics/nncg.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/ordering.h"
@@ -200,17 +201,36 @@ void sweepUndisturbed(const State& state, Collection& c, Scratch& scratch) {
   c.settled = largest <= still * still;
 }
 
-/// Breadth first from what is new, over contacts inside and outside.
-void sweepDisturbed(State& state, Scratch& scratch) {
-  const auto order = disturbedOrder(state, scratch);
+/// Several sweeps in the order given, accelerated as in the full solve.
+void sweepConverging(const State& state, Scratch& scratch, const std::vector<SweepItem>& items) {
   const UnmergingSettings& settings = state.settings.unmerging;
-  const int sweeps =
-      settings.rule == Rule::Paper ? settings.sweeps : settings.disturbed_sweeps;
-  for (int s = 0; s < sweeps; ++s) {
-    for (const SweepItem& item : order) {
-      sweepBlock(*item.block, item.turn, scratch.sweep_u, state.settings.solver.method);
+  const SolverMethod method = state.settings.solver.method;
+  std::vector<std::uint32_t> bodies;
+  for (const SweepItem& item : items) {
+    for (const std::uint32_t b : {item.block->a, item.block->b}) {
+      if (scratch.sweep_u[b].inv_mass > 0.0) bodies.push_back(b);
     }
   }
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  Nncg iteration(
+      items.size(), [&](std::size_t i) -> ContactBlock& { return *items[i].block; },
+      bodies.size(),
+      [&](std::size_t i) -> SolverVelocity& { return scratch.sweep_u[bodies[i]]; },
+      [&] {
+        for (const SweepItem& item : items) {
+          sweepBlock(*item.block, item.turn, scratch.sweep_u, method);
+        }
+      },
+      scratch.nncg);
+  const bool paper = settings.rule == Rule::Paper;
+  iteration.run(paper ? settings.sweeps : settings.disturbed_sweeps,
+                method == SolverMethod::Nncg && !paper);
+}
+
+/// Breadth first from what is new, over contacts inside and outside.
+void sweepDisturbed(State& state, Scratch& scratch) {
+  sweepConverging(state, scratch, disturbedOrder(state, scratch));
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
@@ -281,14 +301,10 @@ void sweepCollections(State& state, Scratch& scratch) {
 }
 
 void sweepAgain(State& state, Scratch& scratch, Collection& c) {
-  const SolverMethod method = state.settings.solver.method;
-  const Rotation turn = state[c.rigid].rotation;
-  for (int s = 0; s < state.settings.unmerging.disturbed_sweeps; ++s) {
-    for (SweepContact& outer : scratch.sweep_contacts) {
-      sweepBlock(outer.block, {}, scratch.sweep_u, method);
-    }
-    for (ContactBlock& k : c.blocks) sweepBlock(k, turn, scratch.sweep_u, method);
-  }
+  std::vector<SweepItem> items;
+  for (SweepContact& outer : scratch.sweep_contacts) items.push_back({&outer.block, {}});
+  for (ContactBlock& k : c.blocks) items.push_back({&k, state[c.rigid].rotation});
+  sweepConverging(state, scratch, items);
   layOutPush(state, c);
 }
 

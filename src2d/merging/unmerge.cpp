@@ -29,68 +29,101 @@ void record(const Scratch& scratch, const Weld& weld, const char* criterion, con
 
 class WeldTest {
  public:
-  WeldTest(const State& state, Scratch& scratch, Collection& c)
-      : state_(state), scratch_(scratch), c_(c), turn_(state[c.rigid].rotation) {}
+  WeldTest(const State& state, Scratch& scratch, Collection& c, bool disturbed)
+      : state_(state),
+        scratch_(scratch),
+        c_(c),
+        turn_(state[c.rigid].rotation),
+        whole_(disturbed) {}
 
-  /// Adds this step's evidence to what was summed, and cuts the welds whose sum is too large.
+  /// Adds this step's evidence to what was summed, and cuts the welds whose sum is too large. Only
+  /// contacts at their limit, or watched since they were, need more than a look at their impulses.
   void testAll() {
-    for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) testContacts(i);
-    for (Weld& weld : c_.welds) {
-      testLost(weld);
-      testMotion(weld);
+    const std::size_t blocks = whole_ ? c_.blocks.size() : c_.active_blocks;
+    for (std::uint32_t i = 0; i < blocks; ++i) {
+      if (c_.watched[i] || scratch_.decisions || atLimit(c_.blocks[i])) testContacts(i);
+    }
+    if (c_.pivots_stale) listPivots(c_);
+    for (const std::uint32_t pivot : c_.pivots) {
+      testLost(c_.welds[pivot]);
+      testMotion(c_.welds[pivot]);
     }
   }
 
   /// Looks again after more sweeps. What was summed may have come from a sweep that had not
   /// converged: it is replaced by today's velocity, as if it had been the same in all those steps.
   void confirmAll() {
-    confirming_ = true;
-    for (Weld& weld : c_.welds) weld.cut = false;
+    confirming_ = whole_ = true;
+    for (const std::uint32_t weld : c_.cut_welds) c_.welds[weld].cut = false;
+    c_.cut_welds.clear();
     testAll();
   }
 
  private:
+  static bool atLimit(const ContactBlock& k) {
+    for (int i = 0; i < k.count; ++i) {
+      if (broken(k, i) || onEdge(k, i)) return true;
+    }
+    return false;
+  }
+
   /// Broken (Section 6.3) and on edge (Eqs. (19), (20)).
   void testContacts(std::uint32_t b) {
-    ContactBlock& k = c_.blocks[b];
+    const ContactBlock& k = c_.blocks[b];
     InternalContact& inner = c_.contacts[c_.block_contact[b]];
+    const std::uint32_t weld = c_.block_weld[b];
+    c_.watched[b] = 0;
     for (int i = 0; i < k.count; ++i) {
-      const bool lost = broken(k, i), edge = !lost && onEdge(k, i);
-      if (!lost) {
+      const bool pressed = !broken(k, i), edge = pressed && onEdge(k, i);
+      const bool was_lost = inner.lost[i], was_active = inner.active[i];
+      if (pressed) {
         inner.active[i] = true;
         inner.lost[i] = false;
         inner.opening[i] = {};
       }
       if (!edge) inner.slip[i] = {};
-      if (!scratch_.decisions && !lost && !edge) continue;
-      const double nx = turn_.c * k.nx - turn_.s * k.ny, ny = turn_.s * k.nx + turn_.c * k.ny;
-      const ContactVelocity w =
-          contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
-      ContactPoint& point = inner.contact.points[static_cast<std::size_t>(i)];
-      point.w_n = w.n;
-      point.w_t = w.t;
-      Weld& weld = weldOf(inner.contact.key);
-      if (lost && inner.active[i]) inner.lost[i] = testBroken(weld, inner.opening[i], w.n);
-      if (!lost) testSliding(weld, inner.slip[i], w.t, edge);
+      if (edge || !pressed || scratch_.decisions) {
+        const double w_n = lookAtPoint(k, inner.contact, i);
+        const double w_t = inner.contact.points[static_cast<std::size_t>(i)].w_t;
+        if (!pressed && inner.active[i]) inner.lost[i] = testBroken(weld, inner.opening[i], w_n);
+        if (pressed) testSliding(weld, inner.slip[i], w_t, edge);
+      }
+      c_.watched[b] |= edge || !pressed;
+      c_.pivots_stale |= was_lost != inner.lost[i] || was_active != inner.active[i];
     }
   }
 
-  void add(Drift& drift, double w) const {
+  /// Velocity at a point after the sweep; returns that along the normal.
+  double lookAtPoint(const ContactBlock& k, Contact& contact, int i) {
+    const double nx = turn_.c * k.nx - turn_.s * k.ny, ny = turn_.s * k.nx + turn_.c * k.ny;
+    const ContactVelocity w =
+        contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
+    contact.points[static_cast<std::size_t>(i)].w_n = w.n;
+    contact.points[static_cast<std::size_t>(i)].w_t = w.t;
+    return w.n;
+  }
+
+  /// True when the drift is too large. Evidence that more sweeps do not confirm is forgotten.
+  bool exceeds(Drift& drift, double w, double threshold) const {
     if (confirming_) {
       drift.sum = w * drift.steps;
-    } else {
-      drift.sum += w;
-      drift.steps += 1;
+      if (std::abs(drift.sum) > threshold) return true;
+      drift = {};
+      return false;
     }
+    drift.sum += w;
+    drift.steps += 1;
+    return std::abs(drift.sum) > threshold;
   }
 
   /// True when the contact has opened.
-  bool testBroken(Weld& weld, Drift& opening, double w_n) {
-    add(opening, std::max(0.0, w_n));
-    const double threshold = state_.settings.unmerging.sliding;
-    const bool lost = rule() == Rule::Paper || opening.sum > threshold;
-    record(scratch_, weld, "broken", "Section 6.3", opening.sum, threshold, opening.steps, 0, lost);
-    if (lost && rule() == Rule::Paper) cutWeld(weld, EventReason::Broken);
+  bool testBroken(std::uint32_t weld, Drift& opening, double w_n) {
+    const bool literal = rule() == Rule::Paper;
+    const double threshold = literal ? 0.0 : state_.settings.unmerging.sliding;
+    const bool lost = exceeds(opening, std::max(0.0, w_n), threshold) || literal;
+    record(scratch_, c_.welds[weld], "broken", "Section 6.3", opening.sum, threshold,
+           opening.steps, 0, lost);
+    if (lost && literal) cutWeld(c_.welds[weld], EventReason::Broken);
     return lost;
   }
 
@@ -106,22 +139,18 @@ class WeldTest {
     return false;
   }
 
-  void testSliding(Weld& weld, Drift& slip, double w_t, bool edge) {
+  void testSliding(std::uint32_t weld, Drift& slip, double w_t, bool edge) {
     const double threshold = state_.settings.unmerging.sliding;
     if (rule() == Rule::Paper) slip = {};
-    if (edge) add(slip, w_t);
-    const double value = std::abs(slip.sum);
-    const bool cut = edge && value > threshold;
-    record(scratch_, weld, "sliding", "(19), (20)", value, threshold, slip.steps, 0, cut);
-    if (cut) cutWeld(weld, EventReason::Sliding);
+    const bool cut = edge && exceeds(slip, w_t, threshold);
+    record(scratch_, c_.welds[weld], "sliding", "(19), (20)", std::abs(slip.sum), threshold,
+           slip.steps, 0, cut);
+    if (cut) cutWeld(c_.welds[weld], EventReason::Sliding);
   }
 
   /// Relative motion (Section 6.4): only pairs with fewer than two contacts can turn in 2D.
   void testMotion(Weld& weld) {
-    if (activeContacts(c_, weld) >= 2 || weld.cut) {
-      weld.loud_steps = 0;
-      return;
-    }
+    if (weld.cut || !hadContact(weld)) return;
     const UnmergingSettings& settings = state_.settings.unmerging;
     const double value = relativeMotion(weld);
     weld.loud_steps = value > settings.velocity ? weld.loud_steps + (confirming_ ? 0 : 1) : 0;
@@ -151,13 +180,7 @@ class WeldTest {
     if (weld.cut) return;
     weld.cut = true;
     weld.reason = reason;
-  }
-
-  Weld& weldOf(const ContactKey& key) {
-    return *std::lower_bound(c_.welds.begin(), c_.welds.end(), std::pair(key.a, key.b),
-                             [](const Weld& w, const std::pair<BodyId, BodyId>& pair) {
-                               return std::pair(w.a, w.b) < pair;
-                             });
+    c_.cut_welds.push_back(static_cast<std::uint32_t>(&weld - c_.welds.data()));
   }
 
   Rule rule() const { return state_.settings.unmerging.rule; }
@@ -167,16 +190,8 @@ class WeldTest {
   Collection& c_;
   Rotation turn_;
   bool confirming_ = false;
+  bool whole_ = false;  ///< dormant contacts were swept too
 
- public:
-  static int activeContacts(const Collection& c, const Weld& weld) {
-    int active = 0;
-    for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-      const InternalContact& inner = c.contacts[i];
-      for (int p = 0; p < inner.contact.count; ++p) active += inner.active[p] && !inner.lost[p] ? 1 : 0;
-    }
-    return active;
-  }
 };
 
 /// What still hangs together without the cut welds. Node 0 is the frame; it holds bodies in place
@@ -192,7 +207,7 @@ Parts partsWithoutCuts(const State& state, const Collection& c) {
   };
   std::vector<ContactEdge> edges;
   for (const Weld& weld : c.welds) {
-    const int contacts = WeldTest::activeContacts(c, weld);
+    const int contacts = activeContacts(c, weld);
     if (!weld.cut && contacts > 0) edges.push_back({node(weld.a), node(weld.b), contacts});
   }
   const auto nodes = static_cast<std::uint32_t>(c.members.size() + 1);
@@ -233,11 +248,11 @@ void reportCuts(const State& state, const Collection& before, Scratch& scratch) 
   }
 }
 
-void splitAtCuts(State& state, Scratch& scratch, RigidId id) {
-  const Parts parts = partsWithoutCuts(state, state.collection(id));
-  const bool whole = parts.anchored.size() == 1 &&
-                     (parts.anchored[0] != 0) == !state[id].floating();
-  if (whole) return;
+bool fallsApart(const State& state, const Collection& c, const Parts& parts) {
+  return parts.anchored.size() > 1 || (parts.anchored[0] != 0) != !state[c.rigid].floating();
+}
+
+void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts) {
   Collection before;
   before.id = state.collection(id).id;
   before.welds = state.collection(id).welds;
@@ -248,10 +263,10 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id) {
 
 /// Some weld is cut that was not in the last step.
 bool newCut(const Collection& c, const Scratch& scratch) {
-  for (std::size_t i = 0; i < c.welds.size(); ++i) {
-    if (c.welds[i].cut && !scratch.cuts_before[i]) return true;
-  }
-  return false;
+  return std::any_of(c.cut_welds.begin(), c.cut_welds.end(), [&](std::uint32_t weld) {
+    const auto& before = scratch.cuts_before;
+    return std::find(before.begin(), before.end(), weld) == before.end();
+  });
 }
 
 void finishSplits(State& state, Scratch& scratch) {
@@ -264,7 +279,20 @@ void finishSplits(State& state, Scratch& scratch) {
 }  // namespace
 
 int activeContacts(const Collection& c, const Weld& weld) {
-  return WeldTest::activeContacts(c, weld);
+  int active = 0;
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    const InternalContact& inner = c.contacts[i];
+    for (int p = 0; p < inner.contact.count; ++p) active += inner.active[p] && !inner.lost[p];
+  }
+  return active;
+}
+
+void listPivots(Collection& c) {
+  c.pivots.clear();
+  c.pivots_stale = false;
+  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
+    if (activeContacts(c, c.welds[i]) < 2) c.pivots.push_back(i);
+  }
 }
 
 void unmerge(State& state, Scratch& scratch) {
@@ -273,22 +301,24 @@ void unmerge(State& state, Scratch& scratch) {
   for (std::size_t slot = 0; slot < slots; ++slot) {
     if (!isSwept(state, state.collections[slot])) continue;
     Collection& c = state.collections[slot];
-    scratch.cuts_before.clear();
-    for (Weld& weld : c.welds) {
-      scratch.cuts_before.push_back(weld.cut);
-      weld.cut = false;
-    }
-    WeldTest test(state, scratch, c);
+    scratch.cuts_before.assign(c.cut_welds.begin(), c.cut_welds.end());
+    for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
+    c.cut_welds.clear();
+    WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
     test.testAll();
     // Broken welds that do not part the graph are found again in each step: look anew only when
     // there is one more.
     if (!newCut(c, scratch)) continue;
+    Parts parts = partsWithoutCuts(state, c);
+    if (!fallsApart(state, c, parts)) continue;
     if (state.settings.unmerging.rule == Rule::Default) {
+      // One sweep may not have converged: before anything parts, look again after more.
       sweepAgain(state, scratch, c);
       test.confirmAll();
-      if (!newCut(c, scratch)) continue;
+      parts = partsWithoutCuts(state, c);
+      if (!fallsApart(state, c, parts)) continue;
     }
-    splitAtCuts(state, scratch, c.rigid);
+    splitAtCuts(state, scratch, c.rigid, parts);
   }
   finishSplits(state, scratch);
 }
@@ -304,7 +334,7 @@ void releaseBody(State& state, Scratch& scratch, BodyId body) {
       weld.cut = any = true;
       weld.reason = EventReason::User;
     }
-    if (any) splitAtCuts(state, scratch, c.rigid);
+    if (any) splitAtCuts(state, scratch, c.rigid, partsWithoutCuts(state, c));
   }
   finishSplits(state, scratch);
 }

@@ -209,8 +209,9 @@ std::size_t memoryBytes(const State& state, const Scratch& scratch) {
              bytes(c.block_contact) + bytes(c.welds) + bytes(c.push);
   }
   total += bytes(scratch.u) + bytes(scratch.blocks) + bytes(scratch.sorted_blocks) +
-           bytes(scratch.row_points) + bytes(scratch.sorted_points) + bytes(scratch.before) +
-           bytes(scratch.direction) + bytes(scratch.u_before) + bytes(scratch.u_direction) +
+           bytes(scratch.row_points) + bytes(scratch.sorted_points) + bytes(scratch.nncg.before) +
+           bytes(scratch.nncg.direction) + bytes(scratch.nncg.u_before) +
+           bytes(scratch.nncg.u_direction) +
            bytes(scratch.block_order) + bytes(scratch.sweep_u) + bytes(scratch.sweep_contacts) +
            bytes(scratch.sweep_before) + bytes(scratch.pairs);
   // Two nodes per leaf of each tree.

@@ -1,0 +1,114 @@
+#pragma once
+/// Nonsmooth nonlinear conjugate gradient around sweeps of PGS.
+///
+/// Source: Silcowitz-Hansen, Niebe, Erleben 2010. With g = λ₋ − λ the (negated) change that a sweep
+/// made and ρ = |g|²/|g₋|², a step λ += ρp follows each sweep but the last, with p = ρp − g; a
+/// growing change (ρ > 1) drops p. Beside p its effect on the velocities M⁻¹Jᵀp is kept, so that a
+/// step along it needs no pass over the Jacobians.
+
+#include <algorithm>
+#include <vector>
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// The change of all impulses in the last sweep, squared, beside the impulses themselves [N² s²].
+struct SweepChange {
+  double squared = 0.0;
+  double total = 0.0;
+};
+
+inline Impulses impulsesOf(const ContactBlock& k) {
+  return {k.lambda_n[0], k.lambda_n[1], k.lambda_t[0], k.lambda_t[1]};
+}
+
+/// `block(i)` for i < `blocks` are the rows, `velocity(i)` for i < `bodies` what they act on, each
+/// once; `sweep()` solves every block once and changes both. With `accelerate` off: plain sweeps.
+template <class BlockAt, class VelocityAt, class Sweep>
+class Nncg {
+ public:
+  Nncg(std::size_t blocks, BlockAt block, std::size_t bodies, VelocityAt velocity, Sweep sweep,
+       NncgBuffers& buffers)
+      : blocks_(blocks), bodies_(bodies), block_(block), velocity_(velocity), sweep_(sweep),
+        m_(buffers) {
+    m_.before.resize(std::max(m_.before.size(), blocks));
+    m_.u_before.resize(std::max(m_.u_before.size(), bodies));
+    m_.direction.resize(m_.before.size());
+    m_.u_direction.resize(m_.u_before.size());
+    std::fill_n(m_.direction.begin(), blocks, Impulses{});
+    std::fill_n(m_.u_direction.begin(), bodies, Twist{});
+  }
+
+  SweepChange run(int sweeps, bool accelerate) {
+    SweepChange change;
+    double previous = 0.0;
+    for (int k = 0; k < sweeps; ++k) {
+      const bool last = k + 1 == sweeps;
+      if (accelerate || last) remember();
+      sweep_();
+      if (!accelerate && !last) continue;
+      change = changeSince();
+      if (last || change.squared == 0.0) break;
+      step(k == 0 ? 0.0 : change.squared / previous);
+      previous = change.squared;
+    }
+    return change;
+  }
+
+ private:
+  void remember() {
+    for (std::size_t i = 0; i < blocks_; ++i) m_.before[i] = impulsesOf(block_(i));
+    for (std::size_t i = 0; i < bodies_; ++i) {
+      const SolverVelocity& u = velocity_(i);
+      m_.u_before[i] = {u.vx, u.vy, u.omega};
+    }
+  }
+
+  SweepChange changeSince() const {
+    SweepChange change;
+    for (std::size_t i = 0; i < blocks_; ++i) {
+      const Impulses now = impulsesOf(block_(i));
+      for (std::size_t r = 0; r < now.size(); ++r) {
+        const double d = now[r] - m_.before[i][r];
+        change.squared += d * d;
+        change.total += now[r] * now[r];
+      }
+    }
+    return change;
+  }
+
+  void step(double rho) {
+    const double keep = rho > 1.0 ? 0.0 : 1.0;
+    if (rho > 1.0) rho = 0.0;
+    for (std::size_t i = 0; i < blocks_; ++i) {
+      ContactBlock& k = block_(i);
+      Impulses& p = m_.direction[i];
+      const Impulses swept = impulsesOf(k);
+      for (std::size_t r = 0; r < p.size(); ++r) {
+        const double along = rho * p[r];
+        p[r] = along + keep * (swept[r] - m_.before[i][r]);
+        (r < 2 ? k.lambda_n[r] : k.lambda_t[r - 2]) += along;
+      }
+    }
+    for (std::size_t i = 0; i < bodies_; ++i) {
+      SolverVelocity& u = velocity_(i);
+      Twist& p = m_.u_direction[i];
+      const Twist& before = m_.u_before[i];
+      const Twist along{rho * p.vx, rho * p.vy, rho * p.omega};
+      p = {along.vx + keep * (u.vx - before.vx), along.vy + keep * (u.vy - before.vy),
+           along.omega + keep * (u.omega - before.omega)};
+      u.vx += along.vx;
+      u.vy += along.vy;
+      u.omega += along.omega;
+    }
+  }
+
+  std::size_t blocks_, bodies_;
+  BlockAt block_;
+  VelocityAt velocity_;
+  Sweep sweep_;
+  NncgBuffers& m_;
+};
+
+}  // namespace merge2d
