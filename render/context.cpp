@@ -9,19 +9,30 @@
 
 #include "src2d/core/error.h"
 
+#ifdef __SANITIZE_ADDRESS__
+// OSMesa keeps a few bytes of each context when it is destroyed.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so"; }
+#endif
+
 namespace merge2d {
 namespace {
 
 constexpr int kSide = 16;  // of the default framebuffer [px]
 
-/// One context per thread draws faster than one context with many threads, so the driver is told
-/// to make none of its own. It reads the variable when the first context is created.
-void keepDriverSingleThreaded() {
-  static std::once_flag once;
-  std::call_once(once, [] { setenv("LP_NUM_THREADS", "0", 0); });
+/// OSMesa sets itself up when the first context is made, and does not say that it may be called by
+/// several threads then. What makes, switches or destroys contexts takes turns.
+std::mutex& turn() {
+  static std::mutex mutex;
+  return mutex;
 }
 
+/// One context per thread draws faster than one context with many threads, so the driver is told
+/// to make none of its own. It reads the variable when the first context is created.
+void keepDriverSingleThreaded() { setenv("LP_NUM_THREADS", "0", 0); }
+
 OSMesaContext createContext() {
+  const std::lock_guard lock(turn());
   keepDriverSingleThreaded();
   // clang-format off
   constexpr std::array<int, 11> attributes = {
@@ -57,6 +68,7 @@ void requireVersion(const Gl& gl) {
 }  // namespace
 
 void Context::Release::operator()(void* handle) const {
+  const std::lock_guard lock(turn());
   OSMesaDestroyContext(static_cast<OSMesaContext>(handle));
 }
 
@@ -67,8 +79,9 @@ Context::Context() : handle_(createContext()), pixels_(4 * kSide * kSide), gl_(l
 
 const Gl& Context::makeCurrent() {
   auto* context = static_cast<OSMesaContext>(handle_.get());
-  if (OSMesaGetCurrentContext() != context &&
-      !OSMesaMakeCurrent(context, pixels_.data(), GL_UNSIGNED_BYTE, kSide, kSide)) {
+  if (OSMesaGetCurrentContext() == context) return gl_;
+  const std::lock_guard lock(turn());
+  if (!OSMesaMakeCurrent(context, pixels_.data(), GL_UNSIGNED_BYTE, kSide, kSide)) {
     throw IoError("cannot make the OSMesa context current");
   }
   return gl_;

@@ -55,6 +55,7 @@ Theme makeLight() {
   t.velocity = rgb(0x0b6e4f);
   t.graph = rgb(0x1f2328);
   t.box = rgb(0x1f2328);
+  t.lines = {t.ink, rgb(0x0072b2), rgb(0xd55e00), rgb(0x009e73)};
   t.rim = kWhite;
   return t;
 }
@@ -82,6 +83,7 @@ Theme makeDark() {
   t.velocity = rgb(0x5fe0b0);
   t.graph = rgb(0xe8ebf0);
   t.box = rgb(0xe8ebf0);
+  t.lines = {t.ink, rgb(0x56b4e9), rgb(0xe69f00), rgb(0x009e73)};
   t.rim = t.background;
   return t;
 }
@@ -98,6 +100,7 @@ Theme makePrint() {
   t.hatch = rgb(0x808080);
   t.spring = kBlack;
   t.merged_contact = t.active_contact = t.normal_force = t.graph = t.box = kBlack;
+  t.lines[0] = kBlack;
   return t;
 }
 

@@ -36,7 +36,8 @@ struct Theme {
   Color velocity;
   Color graph;  ///< of contacts and of welds
   Color box;
-  Color rim;  ///< around marks, so that they stand out from any fill
+  std::array<Color, 4> lines;  ///< of charts
+  Color rim;                   ///< around marks, so that they stand out from any fill
 };
 
 const Theme& lightTheme();  ///< white background: slides and papers

@@ -101,6 +101,15 @@ TEST_P(Themes, ForcesAreToldApartWithEveryKindOfVision) {
                  15.0);
 }
 
+TEST_P(Themes, LinesOfChartsStandOutAndAreToldApart) {
+  std::vector<std::pair<std::string, Color>> lines;
+  for (std::size_t i = 0; i < theme.lines.size(); ++i) {
+    EXPECT_GE(contrast(theme.lines[i], theme.background), 3.0) << i;
+    lines.emplace_back("line " + std::to_string(i), theme.lines[i]);
+  }
+  expectDistinct(lines, 15.0);
+}
+
 TEST(Theme, NamesAreTakenAndMistypedOnesGetASuggestion) {
   EXPECT_EQ(themeByName("dark").name, "dark");
   try {

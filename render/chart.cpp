@@ -1,0 +1,210 @@
+#include "render/chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "render/camera.h"
+#include "render/painter.h"
+#include "src2d/core/assert.h"
+
+namespace merge2d {
+namespace {
+
+struct Range {
+  double low = 1e300, high = -1e300;
+
+  void include(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  /// Never empty, never of no extent.
+  Range orElse(double from, double to) const {
+    if (low > high) return {from, to};
+    if (low == high) return {low, low + (low == 0.0 ? 1.0 : std::abs(low))};
+    return *this;
+  }
+};
+
+/// Draws one chart.
+class ChartPainter {
+ public:
+  ChartPainter(Painter& painter, const Chart& chart, const Theme& theme, float width, float height)
+      : painter_(painter), chart_(chart), theme_(theme) {
+    unit_ = std::clamp(height / 480.0F, 0.6F, 6.0F);
+    font_ = {std::max(10, static_cast<int>(std::lround(13.0F * unit_))), Weight::Regular};
+    findRanges();
+    findArea(width, height);
+  }
+
+  void draw() {
+    const Font title{std::max(11, static_cast<int>(std::lround(17.0F * unit_))), Weight::Bold};
+    painter_.write(chart_.title, title, {px(20.0F), std::round(px(30.0F))}, theme_.ink);
+    painter_.write(chart_.y_label, font_, {px(20.0F), std::round(px(54.0F))}, theme_.ink_soft);
+    painter_.write(chart_.x_label, font_, {area_.right(), std::round(area_.bottom() + px(42.0F))},
+                   theme_.ink_soft, Align::Right);
+    drawAxes();
+    for (std::size_t i = 0; i < chart_.series.size(); ++i) drawSeries(i);
+    drawNames();
+  }
+
+ private:
+  float px(float design) const { return design * unit_; }
+
+  bool usable(double y) const { return std::isfinite(y) && (!chart_.log_y || y > 0.0); }
+
+  void findRanges() {
+    for (const Series& series : chart_.series) {
+      MERGE2D_ASSERT(series.x.size() == series.y.size(), "{}: {} and {} values", series.name,
+                     series.x.size(), series.y.size());
+      for (std::size_t i = 0; i < series.x.size(); ++i) {
+        if (!usable(series.y[i])) continue;
+        x_.include(series.x[i]);
+        y_.include(series.y[i]);
+      }
+    }
+    x_ = x_.orElse(0.0, 1.0);
+    if (chart_.log_y) {
+      y_ = y_.orElse(1.0, 10.0);
+      y_ = {std::pow(10.0, std::floor(std::log10(y_.low))),
+            std::pow(10.0, std::ceil(std::log10(y_.high)))};
+    } else {
+      y_.include(0.0);  // lengths from zero can be compared by eye
+      y_ = y_.orElse(0.0, 1.0);
+      y_.high += 0.04 * (y_.high - y_.low);
+    }
+  }
+
+  void findArea(float width, float height) {
+    float names = 0.0F, numbers = 0.0F;
+    for (const Series& series : chart_.series) {
+      names = std::max(names, painter_.text().width(series.name, font_));
+    }
+    for (const double y : yTicks()) {
+      numbers = std::max(numbers, painter_.text().width(fmt::format("{:g}", y), font_));
+    }
+    const float left = std::round(px(30.0F) + numbers), top = std::round(px(72.0F));
+    const float right = width - px(36.0F) - names, bottom = std::round(height - px(56.0F));
+    area_ = {left, top, std::max(1.0F, right - left), std::max(1.0F, bottom - top)};
+  }
+
+  std::vector<double> yTicks() const {
+    if (!chart_.log_y) return ticks(y_.low, y_.high, 5);
+    std::vector<double> decades;
+    for (double y = y_.low; y <= 1.001 * y_.high; y *= 10.0) decades.push_back(y);
+    return decades;
+  }
+
+  Pixel at(double x, double y) const {
+    const double u = (x - x_.low) / (x_.high - x_.low);
+    const double v = chart_.log_y ? std::log(y / y_.low) / std::log(y_.high / y_.low)
+                                  : (y - y_.low) / (y_.high - y_.low);
+    return {area_.x + static_cast<float>(u) * area_.width,
+            area_.bottom() - static_cast<float>(v) * area_.height};
+  }
+
+  void drawAxes() {
+    const float line = std::max(1.0F, std::round(px(1.0F)));
+    const float drop = std::round(0.5F * painter_.text().capHeight(font_));
+    const Paint grid{.fill = mix(theme_.background, theme_.ink, 0.12)};
+    const Paint axis{.fill = theme_.ink};
+    for (const double y : yTicks()) {
+      const float row = std::round(at(x_.low, y).y);
+      painter_.box({area_.x, row, area_.width, line}, 0.0F, grid);
+      painter_.write(fmt::format("{:g}", y), font_, {area_.x - px(8.0F), row + drop},
+                     theme_.ink_soft, Align::Right);
+    }
+    painter_.box({area_.x, std::round(area_.bottom()), area_.width, line}, 0.0F, axis);
+    for (const double x : ticks(x_.low, x_.high, 6)) {
+      const float column = std::round(at(x, y_.low).x);
+      painter_.box({column, std::round(area_.bottom()), line, px(5.0F)}, 0.0F, axis);
+      painter_.write(fmt::format("{:g}", x), font_,
+                     {column, std::round(area_.bottom() + px(22.0F))}, theme_.ink_soft,
+                     Align::Center);
+    }
+  }
+
+  /// Of the values that share a column of pixels the first, the extremes and the last are drawn:
+  /// it looks the same as drawing all.
+  std::vector<Pixel> thinned(const Series& series) const {
+    std::vector<Pixel> out, column;
+    const auto flush = [&] {
+      if (column.empty()) return;
+      const auto [low, high] = std::ranges::minmax_element(column, {}, &Pixel::y);
+      out.insert(out.end(), {column.front(), *low, *high, column.back()});
+      column.clear();
+    };
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      if (!usable(series.y[i])) continue;
+      const Pixel p = at(series.x[i], series.y[i]);
+      if (!column.empty() && std::floor(p.x) != std::floor(column.front().x)) flush();
+      column.push_back(p);
+    }
+    flush();
+    return out;
+  }
+
+  void drawSeries(std::size_t i) {
+    const std::vector<Pixel> points = thinned(chart_.series[i]);
+    const Color color = theme_.lines[i % theme_.lines.size()];
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      if (points[k].x == points[k - 1].x && points[k].y == points[k - 1].y) continue;
+      painter_.line(points[k - 1], points[k], px(1.8F), color);
+    }
+    if (!points.empty()) ends_.emplace_back(points.back().y, i);
+  }
+
+  /// At the ends of the lines, moved apart where they would overlap.
+  void drawNames() {
+    std::ranges::sort(ends_);
+    const float height = static_cast<float>(font_.size) * 1.25F;
+    float free = area_.y - height;
+    for (auto& [y, i] : ends_) free = y = std::max(y, free + height);
+    float limit = area_.bottom() + height;
+    for (auto it = ends_.rbegin(); it != ends_.rend(); ++it) {
+      limit = it->first = std::min(it->first, limit - height);
+    }
+    const float drop = 0.5F * painter_.text().capHeight(font_);
+    for (const auto& [y, i] : ends_) {
+      const Pixel start{area_.right() + px(8.0F), std::round(y + drop)};
+      painter_.write(chart_.series[i].name, font_, start, theme_.ink);
+    }
+  }
+
+  Painter& painter_;
+  const Chart& chart_;
+  const Theme& theme_;
+  float unit_ = 1.0F;
+  Font font_;
+  Range x_, y_;
+  PixelBox area_;
+  std::vector<std::pair<float, std::size_t>> ends_;
+};
+
+}  // namespace
+
+std::vector<double> ticks(double low, double high, int wanted) {
+  std::vector<double> out;
+  const double step = roundLength((high - low) / std::max(1, wanted) * 1.5);
+  const double slack = 1e-9 * (high - low);
+  for (double k = std::ceil((low - slack) / step); k * step <= high + slack; k += 1.0) {
+    out.push_back(k * step == 0.0 ? 0.0 : k * step);
+  }
+  return out;
+}
+
+Image drawChart(Canvas& canvas, const Chart& chart, const Theme& theme) {
+  Drawing drawing;
+  drawing.background = theme.background;
+  Painter painter(drawing, canvas.text());
+  painter.beginLayer();
+  ChartPainter(painter, chart, theme, static_cast<float>(canvas.width()),
+               static_cast<float>(canvas.height()))
+      .draw();
+  return canvas.draw(drawing);
+}
+
+}  // namespace merge2d
