@@ -1,0 +1,68 @@
+#include "app/console.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <system_error>
+
+#include "src2d/core/error.h"
+
+namespace merge2d {
+namespace {
+
+bool isSet(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+bool terminal() {
+  const char* kind = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && (kind == nullptr || std::string_view(kind) != "dumb");
+}
+
+void say(std::string_view line) { fmt::print(stderr, "{}\n", line); }
+
+/// "error:" or "warning:", in colour where that can be seen (no-color.org).
+std::string heading(std::string_view word, int color) {
+  if (!terminal() || isSet("NO_COLOR")) return fmt::format("{}:", word);
+  return fmt::format("\033[1;{}m{}:\033[0m", color, word);
+}
+
+[[noreturn]] void failOutput() {
+  throw IoError(fmt::format("cannot write to the standard output: {}",
+                            std::generic_category().message(errno)));
+}
+
+}  // namespace
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) failOutput();
+}
+
+void flushOutput() {
+  if (std::fflush(stdout) != 0) failOutput();
+}
+
+void printError(std::string_view message) {
+  constexpr int kRed = 31;
+  say(fmt::format("{} {}", heading("error", kRed), message));
+}
+
+bool watchedTerminal() { return terminal() && !isSet("CI"); }
+
+void Console::note(std::string_view message) const {
+  if (!quiet_) say(message);
+}
+
+void Console::detail(std::string_view message) const {
+  if (verbose_) say(message);
+}
+
+void Console::warn(std::string_view message) const {
+  constexpr int kYellow = 33;
+  if (!quiet_) say(fmt::format("{} {}", heading("warning", kYellow), message));
+}
+
+}  // namespace merge2d

@@ -1,0 +1,41 @@
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "src2d/scene/load.h"
+
+namespace merge2d {
+namespace {
+
+void list(const MessageOptions& options) {
+  const std::vector<BuiltinScene> scenes = builtinScenes();
+  if (options.json) {
+    nlohmann::ordered_json out;
+    out["scenes"] = out["lessons"] = nlohmann::ordered_json::array();
+    for (const BuiltinScene& scene : scenes) {
+      out["scenes"].push_back({{"name", scene.name}, {"title", scene.title}});
+    }
+    print(out.dump() + "\n");
+    return;
+  }
+  std::size_t width = 0;
+  for (const BuiltinScene& scene : scenes) width = std::max(width, scene.name.size());
+  print("Scenes:\n");
+  for (const BuiltinScene& scene : scenes) {
+    print(fmt::format("  {:<{}}  {}\n", scene.name, width, scene.title));
+  }
+}
+
+}  // namespace
+
+void addListCommand(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("list", "Name the built-in scenes");
+  command->footer("Examples:\n  merge2d list\n  merge2d list --json");
+  const auto options = std::make_shared<MessageOptions>();
+  addMessageOptions(*command, *options);
+  command->callback([&action, options] { action = [options] { list(*options); }; });
+}
+
+}  // namespace merge2d

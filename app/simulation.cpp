@@ -1,0 +1,40 @@
+#include "app/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "app/interrupt.h"
+#include "src2d/core/error.h"
+
+namespace merge2d {
+
+Scene loadScene(const SceneOptions& options, const Console& console) {
+  Scene scene = loadScene(options.scene, options.overrides);
+  for (const std::string& warning : scene.warnings) console.warn(warning);
+  if (options.steps) scene.duration = static_cast<double>(*options.steps) * scene.step;
+  if (options.seconds) scene.duration = *options.seconds;
+  return scene;
+}
+
+std::int64_t stepCount(const Scene& scene) {
+  const double exact = scene.duration / scene.step;
+  if (!(exact <= static_cast<double>(kMostSteps))) {
+    throw InputError(fmt::format("{} s are more than {} steps of {} s; take fewer with --steps",
+                                 scene.duration, kMostSteps, scene.step));
+  }
+  const double rounding = std::min(0.5, 1e-9 * std::max(1.0, exact));  // 0.3 / 0.1 is 3, not 4
+  return static_cast<std::int64_t>(std::ceil(exact - rounding));
+}
+
+void Simulation::step() {
+  using Clock = std::chrono::steady_clock;
+  stopIfInterrupted();
+  const Clock::time_point start = Clock::now();
+  world_.step();
+  milliseconds_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+}
+
+}  // namespace merge2d

@@ -1,0 +1,45 @@
+#pragma once
+/// A scene that is simulated: what `run` and `render` have in common.
+
+#include <cstdint>
+#include <vector>
+
+#include "app/console.h"
+#include "app/options.h"
+#include "src2d/world.h"
+
+namespace merge2d {
+
+/// Loads the scene that was asked for and hands on its warnings. Its duration is what --steps or
+/// --seconds ask for.
+Scene loadScene(const SceneOptions& options, const Console& console);
+
+/// The longest run.
+inline constexpr std::int64_t kMostSteps = 1'000'000'000;
+
+/// How many time steps cover the scene's duration.
+std::int64_t stepCount(const Scene& scene);
+
+/// A world, the steps it is to take, and how long they took.
+class Simulation {
+ public:
+  Simulation(const Scene& scene, const WorldOptions& options)
+      : world_(scene, options), steps_(stepCount(scene)) {}
+
+  const World& world() const { return world_; }
+  std::int64_t steps() const { return steps_; }
+  bool done() const { return world_.steps() >= steps_; }
+
+  /// Takes one step. Throws SimulationError, or Interrupted.
+  void step();
+
+  /// Of each step so far [ms].
+  const std::vector<double>& milliseconds() const { return milliseconds_; }
+
+ private:
+  World world_;
+  std::int64_t steps_;
+  std::vector<double> milliseconds_;
+};
+
+}  // namespace merge2d

@@ -1,0 +1,91 @@
+#include "app/summary.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace merge2d {
+namespace {
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// How many times faster than real time.
+double realTimeFactor(const Simulation& simulation) {
+  const auto& ms = simulation.milliseconds();
+  return simulation.world().time() / (1e-3 * std::accumulate(ms.begin(), ms.end(), 0.0));
+}
+
+}  // namespace
+
+void Summary::add(const Snapshot& snapshot) {
+  for (const Event& event : snapshot.events) {
+    merges_ += event.type == EventType::Merge ? 1 : 0;
+    unmerges_ += event.type == EventType::Unmerge ? 1 : 0;
+  }
+  max_penetration_ = std::max(max_penetration_, snapshot.stats.max_penetration);
+}
+
+std::string Summary::table(const Simulation& simulation, bool timings) const {
+  const World& world = simulation.world();
+  const Stats& stats = world.stats();
+  std::string out;
+  const auto row = [&](const std::string& what, const std::string& value) {
+    out += fmt::format("{:<20}{}\n", what, value);
+  };
+  row("scene", world.scene().name);
+  row("mode", name(world.mode()));
+  row("steps", fmt::format("{} of {} s", world.steps(), world.scene().step));
+  row("time", fmt::format("{:.6g} s", world.time()));
+  row("bodies", fmt::format("{}, {} asleep", stats.bodies, stats.asleep));
+  row("active bodies", fmt::format("{}", stats.active_bodies));
+  row("collections", fmt::format("{}", stats.collections));
+  row("contacts",
+      fmt::format("{}, {} more inside collections", stats.contacts, stats.internal_contacts));
+  row("merges", fmt::format("{}", merges_));
+  row("unmerges", fmt::format("{}", unmerges_));
+  row("deepest overlap", fmt::format("{:.3g} mm", 1e3 * max_penetration_));
+  if (timings && !simulation.milliseconds().empty()) {
+    row("time per step", fmt::format("{:.3g} ms, median {:.3g} ms", mean(simulation.milliseconds()),
+                                     median(simulation.milliseconds())));
+    row("speed", fmt::format("{:.3g} x real time", realTimeFactor(simulation)));
+  }
+  return out;
+}
+
+std::string Summary::json(const Simulation& simulation, bool timings) const {
+  const World& world = simulation.world();
+  const Stats& stats = world.stats();
+  nlohmann::ordered_json out;
+  out["scene"] = world.scene().name;
+  out["mode"] = name(world.mode());
+  out["steps"] = world.steps();
+  out["time"] = world.time();
+  out["bodies"] = stats.bodies;
+  out["active_bodies"] = stats.active_bodies;
+  out["collections"] = stats.collections;
+  out["asleep"] = stats.asleep;
+  out["contacts"] = stats.contacts;
+  out["internal_contacts"] = stats.internal_contacts;
+  out["merges"] = merges_;
+  out["unmerges"] = unmerges_;
+  out["max_penetration"] = max_penetration_;
+  out["ms_per_step"] = {{"mean", nullptr}, {"median", nullptr}};
+  out["real_time_factor"] = nullptr;
+  if (timings && !simulation.milliseconds().empty()) {
+    out["ms_per_step"] = {{"mean", mean(simulation.milliseconds())},
+                          {"median", median(simulation.milliseconds())}};
+    out["real_time_factor"] = realTimeFactor(simulation);
+  }
+  return out.dump() + "\n";
+}
+
+}  // namespace merge2d
