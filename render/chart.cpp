@@ -54,6 +54,8 @@ class ChartPainter {
  private:
   float px(float design) const { return design * unit_; }
 
+  Color lineColor(std::size_t i) const { return theme_.lines[i % theme_.lines.size()]; }
+
   bool usable(double y) const { return std::isfinite(y) && (!chart_.log_y || y > 0.0); }
 
   void findRanges() {
@@ -87,7 +89,7 @@ class ChartPainter {
       numbers = std::max(numbers, painter_.text().width(fmt::format("{:g}", y), font_));
     }
     const float left = std::round(px(30.0F) + numbers), top = std::round(px(72.0F));
-    const float right = width - px(36.0F) - names, bottom = std::round(height - px(56.0F));
+    const float right = width - px(50.0F) - names, bottom = std::round(height - px(56.0F));
     area_ = {left, top, std::max(1.0F, right - left), std::max(1.0F, bottom - top)};
   }
 
@@ -149,7 +151,7 @@ class ChartPainter {
 
   void drawSeries(std::size_t i) {
     const std::vector<Pixel> points = thinned(chart_.series[i]);
-    const Color color = theme_.lines[i % theme_.lines.size()];
+    const Color color = lineColor(i);
     for (std::size_t k = 1; k < points.size(); ++k) {
       if (points[k].x == points[k - 1].x && points[k].y == points[k - 1].y) continue;
       painter_.line(points[k - 1], points[k], px(1.8F), color);
@@ -169,8 +171,10 @@ class ChartPainter {
     }
     const float drop = 0.5F * painter_.text().capHeight(font_);
     for (const auto& [y, i] : ends_) {
-      const Pixel start{area_.right() + px(8.0F), std::round(y + drop)};
-      painter_.write(chart_.series[i].name, font_, start, theme_.ink);
+      const Pixel sample{area_.right() + px(8.0F), std::round(y)};
+      painter_.line(sample, sample + Pixel{px(9.0F), 0.0F}, px(2.4F), lineColor(i));
+      painter_.write(chart_.series[i].name, font_, sample + Pixel{px(17.0F), std::round(drop)},
+                     theme_.ink);
     }
   }
 
