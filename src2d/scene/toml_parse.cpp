@@ -205,6 +205,38 @@ class SyntaxError {
   std::size_t word_begin_ = 0;
 };
 
+bool tripsParser(std::string_view text) {
+  try {
+    static_cast<void>(toml::parse(text));
+  } catch (const toml::parse_error&) {
+  } catch (const TomlAssertion&) {
+    return true;
+  }
+  return false;
+}
+
+/// The first line of a text that trips the parser: the last one of the shortest piece that does.
+toml::source_index trippingLine(std::string_view text) {
+  std::vector<std::size_t> ends;
+  for (std::size_t end = text.find('\n'); end < text.size(); end = text.find('\n', end + 1)) {
+    ends.push_back(end + 1);
+  }
+  const auto first = std::partition_point(
+      ends.begin(), ends.end(), [&](std::size_t end) { return !tripsParser(text.substr(0, end)); });
+  return static_cast<toml::source_index>(first - ends.begin() + 1);
+}
+
+/// The parser's assertions tell no place.
+[[noreturn]] void reportAssertion(const SourceText& source, std::string_view text,
+                                  const TomlScan& scan) {
+  const toml::source_position place{trippingLine(text), 1};
+  const bool no_value = scan.missing_value && scan.missing_value->line == place.line;
+  if (no_value) {
+    throw InputError(source.message(*scan.missing_value, "the value after '=' is missing"));
+  }
+  throw InputError(source.message(place, "a line is key = value, or a [heading]"));
+}
+
 }  // namespace
 
 toml::table parseToml(const SourceText& source) {
@@ -225,8 +257,7 @@ toml::table parseToml(const SourceText& source) {
     const bool earlier = !scan.stray || place.line < scan.stray->place.line;
     if (earlier) SyntaxError(source, place, error.description()).report();
   } catch (const TomlAssertion&) {
-    if (!scan.missing_value) throw InputError(source.name() + ": this is not TOML");
-    throw InputError(source.message(*scan.missing_value, "the value after '=' is missing"));
+    reportAssertion(source, text, scan);
   }
   SyntaxError(source, scan.stray->place, kStray).report();
 }
