@@ -353,7 +353,7 @@ TEST(Errors, SyntaxErrorsSayWhatToDo) {
       {"x = { a = 1,\nb = 2 }", "1:13: a table in { } stands on one line: close it with }"},
       {"x = [1, 2]]", "1:11: this ] closes nothing"},
       {"x = \"a\\q\"", "1:8: write \\\\ for a backslash, or put the text in '…'"},
-      {"step = 1\nx = { a = }", "2:9: the value after '=' is missing"},
+      {"step = 1\nx = { a = }", "2:11: the value after '=' is missing"},
       {"step = 1\n[+x]\nseed = 1", "2:1: a line is key = value, or a [heading]"},
       {"x = “abc”", "1:5: use plain quotes: \"…\""},
       {"x = 45°", "1:5: '45°' is not a number (numbers have no units)"},
