@@ -1,45 +1,160 @@
 #include <memory>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/interrupt.h"
+#include "app/output_file.h"
 #include "app/progress.h"
 #include "app/simulation.h"
 #include "app/summary.h"
+#include "app/usage_error.h"
+#include "src2d/core/error.h"
+#include "src2d/trace/csv.h"
+#include "src2d/trace/trace_writer.h"
 
 namespace merge2d {
 namespace {
 
+constexpr const char* kExamples = R"(Examples:
+  merge2d run tower-platform
+  merge2d run pile --seconds 5 --mode reference --json
+  merge2d run books --trace books.jsonl --decisions
+  merge2d run pile --set merging.velocity=0.02 --csv pile.csv
+  merge2d run spinner --trace - | head -n 2
+
+Trace and CSV files replace only files of their own kind, unless --force is given.)";
+
 struct RunOptions : SceneOptions {
+  std::string trace, csv;  ///< files, or empty
   bool no_timings = false;
+  bool decisions = false;
 };
 
-void simulate(const RunOptions& options) {
-  const Console console(options);
-  catchInterrupts();
-  Simulation simulation(loadScene(options, console),
-                        {.mode = options.mode, .timings = !options.no_timings});
-  Summary summary;
-  Snapshot snapshot;
+void check(const RunOptions& options) {
+  if (options.decisions && options.trace.empty()) {
+    throw UsageError("--decisions go into the trace; name it with --trace FILE.jsonl");
+  }
+  if (!options.trace.empty() && options.trace == options.csv) {
+    throw UsageError("--trace and --csv need two different files");
+  }
+  if (options.json && (options.trace == "-" || options.csv == "-")) {
+    throw UsageError("--json and '-' would both write to the standard output");
+  }
+}
+
+/// A trace in its file.
+struct Trace {
+  OutputFile file;
+  TraceWriter writer;
+
+  Trace(const RunOptions& options, const World& world)
+      : file(options.trace, {.everything = options.force, .ours = kTraceStart}),
+        writer(file.stream(), world.scene(), options.mode, world.bodies(),
+               {.decisions = options.decisions, .timings = !options.no_timings}) {}
+};
+
+/// A table in its file.
+struct Table {
+  OutputFile file;
+  CsvWriter writer;
+
+  explicit Table(const RunOptions& options)
+      : file(options.csv, {.everything = options.force, .ours = kCsvStart}),
+        writer(file.stream(), !options.no_timings) {}
+};
+
+/// Everything that is written down while a run goes on.
+class Record {
+ public:
+  Record(const RunOptions& options, const World& world) {
+    if (!options.trace.empty()) trace_.emplace(options, world);
+    if (!options.csv.empty()) table_.emplace(options);
+  }
+
+  void add(const Snapshot& snapshot) {
+    summary_.add(snapshot);
+    if (trace_) trace_->writer.add(snapshot), trace_->file.check();
+    if (table_) table_->writer.add(snapshot), table_->file.check();
+  }
+
+  /// The files appear.
+  void finish() {
+    if (trace_) trace_->file.finish();
+    if (table_) table_->file.finish();
+  }
+
+  const Summary& summary() const { return summary_; }
+
+ private:
+  Summary summary_;
+  std::optional<Trace> trace_;
+  std::optional<Table> table_;
+};
+
+void simulate(Simulation& simulation, Record& record, const Console& console) {
   Progress progress(console, "step", simulation.steps());
+  Snapshot snapshot;
   while (!simulation.done()) {
     simulation.step();
     simulation.world().capture(snapshot);
-    summary.add(snapshot);
+    record.add(snapshot);
     progress.update(simulation.world().steps());
   }
-  print(options.json ? summary.json(simulation, !options.no_timings)
-                     : summary.table(simulation, !options.no_timings));
+}
+
+void report(const RunOptions& options, const Simulation& simulation, const Summary& summary) {
+  const bool timings = !options.no_timings;
+  if (options.json) {
+    print(summary.json(simulation, timings));
+  } else if (options.trace == "-" || options.csv == "-") {
+    Console(options).note(summary.table(simulation, timings));
+  } else {
+    print(summary.table(simulation, timings));
+  }
+}
+
+void run(const RunOptions& options) {
+  check(options);
+  const Console console(options);
+  catchInterrupts();
+  Simulation simulation(
+      loadScene(options, console),
+      {.mode = options.mode, .timings = !options.no_timings, .decisions = options.decisions});
+  Record record(options, simulation.world());
+  const auto finish = [&] {
+    record.finish();
+    report(options, simulation, record.summary());
+  };
+  try {
+    simulate(simulation, record, console);
+  } catch (const SimulationError&) {
+    finish();  // what there is up to here helps to find out why
+    throw;
+  }
+  finish();
 }
 
 }  // namespace
 
 void addRunCommand(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("run", "Simulate a scene without pictures");
+  CLI::App* command = program.add_subcommand("run", "Simulate a scene and print a summary");
+  command->footer(kExamples);
   const auto options = std::make_shared<RunOptions>();
   addSceneOptions(*command, *options);
-  command->add_flag("--no-timings", options->no_timings, "Leave out measured seconds");
-  command->callback([&action, options] { action = [options] { simulate(*options); }; });
+  addOption(
+      *command, "--trace", "FILE.jsonl",
+      [options](const std::string& s) { options->trace = readPath("--trace", s); },
+      "Write every time step as a line of JSON; - is the standard output");
+  addOption(
+      *command, "--csv", "FILE.csv",
+      [options](const std::string& s) { options->csv = readPath("--csv", s); },
+      "Write a table with a row per time step");
+  command->add_flag("--decisions", options->decisions,
+                    "Add every merge and unmerge decision to the trace");
+  command->add_flag("--no-timings", options->no_timings,
+                    "Leave out measured seconds, so that two runs give the same bytes");
+  command->callback([&action, options] { action = [options] { run(*options); }; });
 }
 
 }  // namespace merge2d
