@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src2d/core/memory.h"
+
 namespace merge2d {
 namespace {
 
@@ -9,22 +11,7 @@ namespace {
 /// things have moved by as much against each other [m].
 constexpr double kNear = 0.05;
 
-Aabb worldBounds(const Rigid& r) {
-  const Vec2 half = 0.5 * r.bounds.extent();
-  const Vec2 center = r.frame() * r.bounds.center();
-  const double c = std::abs(r.rotation.c), s = std::abs(r.rotation.s);
-  const Vec2 extent(c * half.x() + s * half.y(), s * half.x() + c * half.y());
-  return {center - extent, center + extent};
-}
-
-/// The box around `box` as seen from another frame.
-Aabb seenFrom(const Pose& relative, const Aabb& box) {
-  const Vec2 half = 0.5 * box.extent();
-  const Vec2 center = relative * box.center();
-  const double c = std::abs(relative.rotation.c), s = std::abs(relative.rotation.s);
-  const Vec2 extent(c * half.x() + s * half.y(), s * half.x() + c * half.y());
-  return {center - extent, center + extent};
-}
+Aabb worldBounds(const Rigid& r) { return placed(r.frame(), r.bounds); }
 
 std::array<Vec2, 4> cornersSeenFrom(const Pose& relative, const Aabb& box) {
   return {relative * box.lower, relative * Vec2(box.upper.x(), box.lower.y()), relative * box.upper,
@@ -66,7 +53,7 @@ Pose shapeFrame(const State& state, RigidId id, std::uint32_t shape) {
 }
 
 Aabb shapeBounds(const State& state, RigidId id, std::uint32_t shape) {
-  return bounds(state.colliders[shape].shape(), shapeFrame(state, id, shape));
+  return placed(shapeFrame(state, id, shape), state.bounds(shape));
 }
 
 /// Follows what moved; fills `moved`.
@@ -137,11 +124,11 @@ void pairShapes(State& state, Scratch& scratch, RigidId host, RigidId guest) {
       scratch.candidates.push_back(keyOf(state, shape_host, shape_guest));
     }
   };
-  const Aabb all = seenFrom(relative, state[guest].bounds).grown(2.0 * kNear);
+  const Aabb all = placed(relative, state[guest].bounds).grown(2.0 * kNear);
   host_tree.query(all, [&](std::uint32_t shape_host) {
     if (!hasShapeTree(state, guest)) return add(shape_host, onlyShape(state, guest));
     const Aabb box =
-        seenFrom(relative.inverse(), shapeBounds(state, host, shape_host)).grown(2.0 * kNear);
+        placed(relative.inverse(), shapeBounds(state, host, shape_host)).grown(2.0 * kNear);
     state.broadphase.shape_trees[index(guest)]->query(
         box, [&](std::uint32_t shape_guest) { add(shape_host, shape_guest); });
   });
@@ -233,6 +220,8 @@ void addContacts(State& state, const std::vector<ContactKey>& keys) {
     return x.key < y.key;
   };
   const auto known = table.order.size();
+  reserveTightly(table.order, known + keys.size());
+  reserveTightly(table.slots, known + keys.size());
   for (const ContactKey& key : keys) {
     const auto end = table.order.begin() + static_cast<std::ptrdiff_t>(known);
     const auto at = std::lower_bound(table.order.begin(), end, ContactTable::Entry{key, 0}, by_key);
@@ -250,11 +239,26 @@ void addContacts(State& state, const std::vector<ContactKey>& keys) {
     contact = {};
     contact.key = key;
     contact.mu = std::sqrt(a.friction * b.friction);
-    contact.restitution = std::max(a.restitution, b.restitution);
+    contact.restitution = static_cast<float>(std::max(a.restitution, b.restitution));
     table.order.push_back({key, slot});
   }
   std::inplace_merge(table.order.begin(), table.order.begin() + static_cast<std::ptrdiff_t>(known),
                      table.order.end(), by_key);
+}
+
+void compactContacts(State& state) {
+  auto& table = state.contacts;
+  if (table.order.size() * 2 > table.slots.size()) return;
+  std::vector<Contact> slots;
+  slots.reserve(table.order.size());
+  for (ContactTable::Entry& entry : table.order) {
+    slots.push_back(table.slots[entry.slot]);
+    entry.slot = static_cast<std::uint32_t>(slots.size() - 1);
+  }
+  table.slots = std::move(slots);
+  table.free_slots.clear();
+  trim(table.free_slots);
+  trim(table.order);
 }
 
 void updateBroadphase(State& state, Scratch& scratch) {

@@ -23,6 +23,8 @@ void updateBroadphase(State& state, Scratch& scratch);
 
 /// Adds many keys at once (ascending, unique); those already there are left alone.
 void addContacts(State& state, const std::vector<ContactKey>& keys);
+/// Gives back the memory of dropped contacts when most were; slots move.
+void compactContacts(State& state);
 /// Drops all contacts for which `gone(contact)` holds.
 template <class Gone>
 void dropContacts(State& state, Gone&& gone) {

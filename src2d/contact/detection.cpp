@@ -7,20 +7,14 @@ namespace {
 
 /// Far enough apart to skip the manifold: the distance of b's box, seen from a, to a's box.
 bool boxesApart(const Aabb& a, const Aabb& b, const Pose& b_in_a, double margin) {
-  const Vec2 half = 0.5 * b.extent();
-  const Vec2 center = b_in_a * b.center();
-  const double c = std::abs(b_in_a.rotation.c), s = std::abs(b_in_a.rotation.s);
-  const double ex = c * half.x() + s * half.y() + margin, ey = s * half.x() + c * half.y() + margin;
-  return center.x() - ex > a.upper.x() || center.x() + ex < a.lower.x() ||
-         center.y() - ey > a.upper.y() || center.y() + ey < a.lower.y();
+  return !placed(b_in_a, b).grown(margin).overlaps(a);
 }
 
 /// Contacts are found ahead by the way that the two bodies can go towards each other in one step.
 double detectionMargin(const State& state, const Contact& contact) {
   const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
-  const Body &body_a = state[contact.key.a], &body_b = state[contact.key.b];
-  const double turning = std::abs(a.omega) * body_a.bounds.extent().norm() +
-                         std::abs(b.omega) * body_b.bounds.extent().norm();
+  const double turning = std::abs(a.omega) * state[rigidOf(contact.key.a)].bounds.extent().norm() +
+                         std::abs(b.omega) * state[rigidOf(contact.key.b)].bounds.extent().norm();
   const double speed = (b.v - a.v).norm() + turning;
   return std::max(state.settings.solver.margin, state.h * speed);
 }
@@ -30,7 +24,7 @@ void inherit(ContactPoint& point, const Contact& old) {
   for (int j = 0; j < old.count; ++j) {
     const ContactPoint& before = old.points[static_cast<std::size_t>(j)];
     if (before.feature != point.feature) continue;
-    point.previous_gap = before.gap;
+    point.breath = static_cast<float>(point.gap - before.gap);
     point.lambda_n = before.lambda_n;
     point.lambda_t = before.lambda_t;
     point.w_n = before.w_n;
@@ -39,7 +33,6 @@ void inherit(ContactPoint& point, const Contact& old) {
     point.fresh = before.lambda_n == 0.0;
     return;
   }
-  point.previous_gap = point.gap;
   point.fresh = true;
 }
 
@@ -50,10 +43,10 @@ bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
 void updateManifold(const State& state, Contact& contact) {
   const Pose b_in_a = state.pose(contact.key.a).inverse() * state.pose(contact.key.b);
   const double margin = detectionMargin(state, contact);
-  const Collider& a = state.colliders[contact.key.shape_a];
-  const Collider& b = state.colliders[contact.key.shape_b];
-  if (boxesApart(state.shape_bounds[contact.key.shape_a], state.shape_bounds[contact.key.shape_b],
-                 b_in_a, margin)) {
+  const Collider& a = state.collider(contact.key.shape_a);
+  const Collider& b = state.collider(contact.key.shape_b);
+  if (boxesApart(state.bounds(contact.key.shape_a), state.bounds(contact.key.shape_b), b_in_a,
+                 margin)) {
     contact.count = 0;
     return;
   }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "src2d/core/memory.h"
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
@@ -32,6 +33,8 @@ class Nncg {
        NncgBuffers& buffers)
       : blocks_(blocks), bodies_(bodies), block_(block), velocity_(velocity), sweep_(sweep),
         m_(buffers) {
+    reserveTightly(m_.before, blocks);
+    reserveTightly(m_.direction, blocks);
     m_.before.resize(std::max(m_.before.size(), blocks));
     m_.u_before.resize(std::max(m_.u_before.size(), bodies));
     m_.direction.resize(m_.before.size());

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
 #include <utility>
 
+#include "src2d/core/memory.h"
 #include "src2d/dynamics/solver.h"
 
 namespace merge2d {
@@ -57,128 +57,105 @@ constexpr double kTouching = 1e-4;
 double restitutionBias(const State& state, const Contact& contact, ContactPoint& point,
                        double normal_velocity, double bias) {
   if (contact.restitution == 0.0) return bias;
-  point.approach = normal_velocity < 0.0 ? std::max(point.approach, -normal_velocity) : 0.0;
+  const auto approach = static_cast<float>(-normal_velocity);
+  point.approach = approach > 0.0F ? std::max(point.approach, approach) : 0.0F;
   const bool fast = point.approach > state.settings.solver.restitution_velocity;
   if (!fast || point.gap > kTouching) return bias;
-  return std::min(bias, -contact.restitution * std::exchange(point.approach, 0.0));
+  return std::min<double>(bias, -contact.restitution * std::exchange(point.approach, 0.0F));
 }
 
-class RowBuilder {
- public:
-  RowBuilder(State& state, Scratch& scratch) : state_(state), scratch_(scratch) {}
-
-  /// The blocks of one pair of bodies; points with one normal share a block.
-  void addPair(const BodyPair& pair) {
-    const RigidId ra = state_[pair.a].rigid, rb = state_[pair.b].rigid;
-    const bool a_moves = simulated(state_[ra]), b_moves = simulated(state_[rb]);
-    if (!a_moves && !b_moves) return;
-    const Pose pose_a = state_.pose(pair.a);
-    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-      Contact& contact = state_.contacts[state_.contacts.order[i]];
-      const Vec2 normal = pose_a.rotation * contact.normal;
-      for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
-        addPoint(contact, contact.points[k], ra, rb, pose_a, normal);
-      }
-      }
-    finishBlock();
-  }
-
- private:
-  void addPoint(Contact& contact, ContactPoint& point, RigidId ra, RigidId rb, const Pose& pose_a,
-                const Vec2& normal) {
-    const bool joins = geometry_.count == 1 && geometry_.normal.dot(normal) > 1.0 - 1e-12;
-    if (!joins) finishBlock();
-    const Vec2 position = pose_a * point.position;
-    const auto k = static_cast<std::size_t>(geometry_.count);
-    geometry_.normal = normal;
-    geometry_.arm_a[k] = position - state_[ra].x;
-    geometry_.arm_b[k] = position - state_[rb].x;
-    geometry_.count += 1;
-    ra_ = ra;
-    rb_ = rb;
-    contact_ = &contact;
-    points_[k] = &point;
-    if (geometry_.count == 2) finishBlock();
-  }
-
-  void finishBlock() {
-    if (geometry_.count == 0) return;
-    const SolverVelocity& a = scratch_.u[index(ra_)];
-    const SolverVelocity& b = scratch_.u[index(rb_)];
-    const SolverSettings& settings = state_.settings.solver;
-    geometry_.softness = contactSoftness(settings, ownInverseMass(state_, contact_->key.a),
-                                         ownInverseMass(state_, contact_->key.b));
-    ContactBlock k;
-    k.a = static_cast<std::uint32_t>(ra_);
-    k.b = static_cast<std::uint32_t>(rb_);
-    k.mu = contact_->mu;
-    k.bilateral = state_[contact_->key.a].magnet_on || state_[contact_->key.b].magnet_on;
-    prepareBlock(k, geometry_, a, b);
-    RowPoints row;
-    for (int i = 0; i < k.count; ++i) {
-      ContactPoint& point = *points_[i];
-      const Rigid &body_a = state_[ra_], &body_b = state_[rb_];
-      const Vec2 before = body_b.v + cross(body_b.omega, geometry_.arm_b[i]) - body_a.v -
-                          cross(body_a.omega, geometry_.arm_a[i]);
-      k.bias[i] = restitutionBias(state_, *contact_, point, geometry_.normal.dot(before),
-                                  contactBias(settings, state_.h, point.gap));
-      k.lambda_n[i] = point.lambda_n;
-      k.lambda_t[i] = point.lambda_t;
-      row.point[i] = &point;
+/// The points of one pair of bodies, two to a block where they share a normal.
+void listSources(State& state, const BodyPair& pair, Scratch& scratch) {
+  const RigidId a = state[pair.a].rigid, b = state[pair.b].rigid;
+  if (!simulated(state[a]) && !simulated(state[b])) return;
+  const std::size_t first = scratch.row_sources.size();
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    Contact& contact = state.contacts[state.contacts.order[i]];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
+      const bool joins = scratch.row_sources.size() > first &&
+                         scratch.row_sources.back().count == 1 &&
+                         scratch.row_sources.back().contact->normal == contact.normal;
+      if (!joins) scratch.row_sources.push_back({a, b, &contact, {}, 0});
+      RowSource& source = scratch.row_sources.back();
+      source.points[static_cast<std::size_t>(source.count++)] = &contact.points[k];
     }
-    scratch_.blocks.push_back(k);
-    scratch_.row_points.push_back(row);
-    geometry_ = {};
   }
-
-  State& state_;
-  Scratch& scratch_;
-  BlockGeometry geometry_;
-  RigidId ra_{}, rb_{};
-  Contact* contact_ = nullptr;
-  ContactPoint* points_[2] = {nullptr, nullptr};
-};
+}
 
 /// Orders the blocks by island and, inside it, by colour: blocks of one colour share no body, so
 /// that consecutive ones need not wait for each other's results.
-void groupByIsland(const State& state, Scratch& scratch) {
+void orderBlocks(const State& state, Scratch& scratch) {
   auto& sets = scratch.sets;
   sets.reset(state.rigids.size());
-  for (const ContactBlock& k : scratch.blocks) {
-    if (scratch.u[k.a].inv_mass > 0.0 && scratch.u[k.b].inv_mass > 0.0) sets.unite(k.a, k.b);
+  const auto moves = [&](RigidId id) { return scratch.u[index(id)].inv_mass > 0.0; };
+  for (const RowSource& source : scratch.row_sources) {
+    if (moves(source.a) && moves(source.b)) {
+      sets.unite(static_cast<std::uint32_t>(source.a), static_cast<std::uint32_t>(source.b));
+    }
   }
-
-  // Greedy colours, in the order of the blocks.
+  // Greedy colours, in the order of the pairs.
   scratch.colours.assign(state.rigids.size(), 0);
-  auto& order = scratch.block_order;
-  order.resize(scratch.blocks.size());
-  for (std::uint32_t i = 0; i < scratch.blocks.size(); ++i) {
-    const ContactBlock& k = scratch.blocks[i];
-    const bool a_moves = scratch.u[k.a].inv_mass > 0.0, b_moves = scratch.u[k.b].inv_mass > 0.0;
-    const std::uint64_t used = (a_moves ? scratch.colours[k.a] : 0) |
-                               (b_moves ? scratch.colours[k.b] : 0);
+  reserveTightly(scratch.block_order, scratch.row_sources.size());
+  scratch.block_order.resize(scratch.row_sources.size());
+  for (std::uint32_t i = 0; i < scratch.row_sources.size(); ++i) {
+    const RowSource& source = scratch.row_sources[i];
+    const bool a_moves = moves(source.a), b_moves = moves(source.b);
+    std::uint64_t &a = scratch.colours[index(source.a)], &b = scratch.colours[index(source.b)];
+    const std::uint64_t used = (a_moves ? a : 0) | (b_moves ? b : 0);
     const auto colour = static_cast<std::uint32_t>(std::min(std::countr_one(used), 63));
-    const std::uint64_t bit = std::uint64_t{1} << colour;
-    if (a_moves) scratch.colours[k.a] |= bit;
-    if (b_moves) scratch.colours[k.b] |= bit;
-    order[i] = {sets.find(a_moves ? k.a : k.b), getenv("NAT")?0:colour, i};
+    if (a_moves) a |= std::uint64_t{1} << colour;
+    if (b_moves) b |= std::uint64_t{1} << colour;
+    const auto body = static_cast<std::uint32_t>(a_moves ? source.a : source.b);
+    scratch.block_order[i] = {sets.find(body), colour, i};
   }
-  std::sort(order.begin(), order.end());
+  std::sort(scratch.block_order.begin(), scratch.block_order.end());
+}
 
-  // Lay the blocks out in that order, and list the islands.
+/// The rows of one block, with the impulses of the last step as a start.
+ContactBlock makeBlock(const State& state, const Scratch& scratch, const RowSource& source) {
+  const Contact& contact = *source.contact;
+  const Pose pose_a = state.pose(contact.key.a);
+  const Rigid &a = state[source.a], &b = state[source.b];
+  const SolverSettings& settings = state.settings.solver;
+  BlockGeometry g;
+  g.normal = pose_a.rotation * contact.normal;
+  g.count = source.count;
+  g.softness = contactSoftness(settings, ownInverseMass(state, contact.key.a),
+                               ownInverseMass(state, contact.key.b));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(source.count); ++i) {
+    const Vec2 position = pose_a * source.points[i]->position;
+    g.arm_a[i] = position - a.x;
+    g.arm_b[i] = position - b.x;
+  }
+  ContactBlock k;
+  k.a = static_cast<std::uint32_t>(source.a);
+  k.b = static_cast<std::uint32_t>(source.b);
+  k.mu = contact.mu;
+  k.bilateral = state[contact.key.a].magnet_on || state[contact.key.b].magnet_on;
+  prepareBlock(k, g, scratch.u[k.a], scratch.u[k.b]);
+  for (int i = 0; i < k.count; ++i) {
+    ContactPoint& point = *source.points[static_cast<std::size_t>(i)];
+    const Vec2 before = b.v + cross(b.omega, g.arm_b[i]) - a.v - cross(a.omega, g.arm_a[i]);
+    k.bias[i] = restitutionBias(state, contact, point, g.normal.dot(before),
+                                contactBias(settings, state.h, point.gap));
+    k.lambda_n[i] = point.lambda_n;
+    k.lambda_t[i] = point.lambda_t;
+  }
+  return k;
+}
+
+void buildBlocks(const State& state, Scratch& scratch) {
   scratch.islands.clear();
-  scratch.sorted_blocks.resize(order.size());
-  scratch.sorted_points.resize(order.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    scratch.sorted_blocks[i] = scratch.blocks[order[i].block];
-    scratch.sorted_points[i] = scratch.row_points[order[i].block];
-    if (scratch.islands.empty() || scratch.islands.back().root != order[i].island) {
-      scratch.islands.push_back({order[i].island, i, i, 0, 0});
+  scratch.blocks.clear();
+  reserveTightly(scratch.blocks, scratch.block_order.size());
+  for (std::uint32_t i = 0; i < scratch.block_order.size(); ++i) {
+    const BlockOrder& order = scratch.block_order[i];
+    scratch.blocks.push_back(makeBlock(state, scratch, scratch.row_sources[order.source]));
+    if (scratch.islands.empty() || scratch.islands.back().root != order.island) {
+      scratch.islands.push_back({order.island, i, i, 0, 0});
     }
     scratch.islands.back().last = i + 1;
   }
-  scratch.blocks.swap(scratch.sorted_blocks);
-  scratch.row_points.swap(scratch.sorted_points);
 }
 
 /// The bodies of each island, so that sweeps of one island touch nothing else.
@@ -221,11 +198,11 @@ double contactSoftness(const SolverSettings& settings, double inv_mass_a, double
 
 void buildRows(State& state, Scratch& scratch) {
   startVelocities(state, scratch);
-  scratch.blocks.clear();
-  scratch.row_points.clear();
-  RowBuilder builder(state, scratch);
-  for (const BodyPair& pair : scratch.pairs) builder.addPair(pair);
-  groupByIsland(state, scratch);
+  scratch.row_sources.clear();
+  reserveTightly(scratch.row_sources, scratch.pairs.size());
+  for (const BodyPair& pair : scratch.pairs) listSources(state, pair, scratch);
+  orderBlocks(state, scratch);
+  buildBlocks(state, scratch);
   listIslandBodies(state, scratch);
 }
 

@@ -1,6 +1,7 @@
 #include "src2d/dynamics/setup.h"
 
 #include <algorithm>
+#include <map>
 #include <random>
 
 #include "src2d/contact/broadphase.h"
@@ -53,17 +54,14 @@ class Builder {
     body.motion = desc.motion;
     body.alive = alive;
     body.rigid = RigidId{id};
-    addShapes(desc, area.centroid, body);
-
     Rigid r;
+    addShapes(desc, area.centroid, body, r);
     r.angle = desc.angle;
     r.rotation = r.previous_rotation = Rotation::of(desc.angle);
     r.x = at + r.rotation * area.centroid;
     r.mass = body.mass;
     r.inertia = body.inertia;
     r.anchor = anchorOf(desc, id);
-    r.bounds = body.bounds;
-    r.box = body.box;
     if (r.floating()) {
       r.v = desc.velocity;
       r.omega = desc.spin;
@@ -83,20 +81,34 @@ class Builder {
   }
 
   /// Shapes are kept in the frame at the centre of mass.
-  void addShapes(const BodyDesc& desc, const Vec2& centroid, Body& body) {
+  void addShapes(const BodyDesc& desc, const Vec2& centroid, Body& body, Rigid& r) {
     State& s = setup_.state;
-    body.first_shape = static_cast<std::uint32_t>(s.colliders.size());
+    body.first_shape = static_cast<std::uint32_t>(s.shape_body.size());
     body.shape_count = static_cast<std::uint32_t>(desc.shapes.size());
     std::vector<Vec2> outline;
     for (const ConvexShape& shape : desc.shapes) {
       const ConvexShape centered = transformed(shape, {-centroid, {}});
-      s.colliders.emplace_back(centered);
+      s.shape_collider.push_back(colliderFor(centered));
       s.shape_body.push_back(BodyId{static_cast<std::uint32_t>(body.rigid)});
-      s.shape_bounds.push_back(bounds(centered));
-      body.bounds.include(s.shape_bounds.back());
+      r.bounds.include(s.collider_bounds[s.shape_collider.back()]);
       for (const Vec2& p : outlinePoints(centered)) outline.push_back(p);
     }
-    body.box = tightBox(outline);
+    r.box = tightBox(outline);
+  }
+
+  /// Bodies of one shape share its collider.
+  std::uint32_t colliderFor(const ConvexShape& shape) {
+    std::vector<double> numbers;
+    for (const Vec2& p : outlinePoints(shape)) numbers.insert(numbers.end(), {p.x(), p.y()});
+    if (std::holds_alternative<Circle>(shape)) numbers.push_back(0.0);  // not its bounding square
+    State& s = setup_.state;
+    const auto next = static_cast<std::uint32_t>(s.colliders.size());
+    const auto [at, added] = known_.try_emplace(std::move(numbers), next);
+    if (added) {
+      s.colliders.emplace_back(shape);
+      s.collider_bounds.push_back(bounds(shape));
+    }
+    return at->second;
   }
 
   static FrameId anchorOf(const BodyDesc& desc, std::uint32_t id) {
@@ -112,7 +124,7 @@ class Builder {
     info.mass = body.mass;
     info.inertia = body.inertia;
     for (std::uint32_t i = 0; i < body.shape_count; ++i) {
-      info.shapes.push_back(setup_.state.colliders[body.first_shape + i].shape());
+      info.shapes.push_back(setup_.state.collider(body.first_shape + i).shape());
     }
     setup_.bodies.push_back(std::move(info));
   }
@@ -147,7 +159,7 @@ class Builder {
   void enterWorld() {
     State& s = setup_.state;
     s.broadphase.shape_trees.resize(s.rigids.size());
-    s.broadphase.shape_leaves.assign(s.colliders.size(), -1);
+    s.broadphase.shape_leaves.assign(s.shape_body.size(), -1);
     for (const Actions::Scripted& script : setup_.actions.scripts) {
       Rigid& r = s[rigidOf(script.body)];
       const ScriptPose pose = scriptPose(script, 0.0);
@@ -164,6 +176,7 @@ class Builder {
   const Scene& scene_;
   Setup& setup_;
   std::vector<Vec2> centers_;
+  std::map<std::vector<double>, std::uint32_t> known_;  ///< colliders by their outline
   std::vector<Actions::Launch> launch_;
 };
 

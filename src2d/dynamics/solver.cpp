@@ -39,14 +39,15 @@ SweepChange solveIsland(const SolverSettings& settings, Scratch& scratch, const 
 void storeImpulses(const Scratch& scratch) {
   for (std::size_t i = 0; i < scratch.blocks.size(); ++i) {
     const ContactBlock& k = scratch.blocks[i];
+    const RowSource& source = scratch.row_sources[scratch.block_order[i].source];
     for (int p = 0; p < k.count; ++p) {
-      ContactPoint& point = *scratch.row_points[i].point[p];
+      ContactPoint& point = *source.points[static_cast<std::size_t>(p)];
       const ContactVelocity w =
           contactVelocity(k, p, k.nx, k.ny, scratch.u[k.a], scratch.u[k.b]);
       point.lambda_n = k.lambda_n[p];
       point.lambda_t = k.lambda_t[p];
-      point.w_n = w.n;
-      point.w_t = w.t;
+      point.w_n = static_cast<float>(w.n);
+      point.w_t = static_cast<float>(w.t);
     }
   }
 }
@@ -55,6 +56,8 @@ void storeImpulses(const Scratch& scratch) {
 
 void solveContacts(State& state, Scratch& scratch) {
   buildRows(state, scratch);
+  scratch.stats.contacts = 0;
+  for (const ContactBlock& k : scratch.blocks) scratch.stats.contacts += k.count;
   SweepChange all;
   for (const Island& island : scratch.islands) {
     const SweepChange change = solveIsland(state.settings.solver, scratch, island);

@@ -58,7 +58,7 @@ struct Rigid {
 
 /// A body's own constants, and where it is found now.
 struct Body {
-  std::uint32_t first_shape = 0, shape_count = 0;  ///< into State::colliders
+  std::uint32_t first_shape = 0, shape_count = 0;  ///< into State::shape_collider
   double mass = 0.0, inertia = 0.0;
   double friction = 0.0, restitution = 0.0;
   double pinned_until = 0.0;
@@ -66,8 +66,6 @@ struct Body {
   bool alive = true;         ///< false before its emission
   bool magnet_on = false;
   Vec2 load = Vec2::Zero(), load_asleep = Vec2::Zero();  ///< outer forces now, and when it slept [N]
-  Aabb bounds;               ///< in the body frame
-  OrientedBox box;           ///< in the body frame
   RigidId rigid{};           ///< itself, or its collection
   Vec2 local = Vec2::Zero(); ///< pose in the collection's frame
   double local_angle = 0.0;
@@ -84,13 +82,13 @@ struct ContactKey {
 /// What is remembered of a contact point while it lasts.
 struct ContactPoint {
   Vec2 position = Vec2::Zero();  ///< in a's frame; inside a collection in the collection's [m]
-  double gap = 0.0;
-  double previous_gap = 0.0;
+  double gap = 0.0;              ///< [m]
+  float breath = 0.0F;           ///< change of the gap since the last step [m]
   std::uint32_t feature = 0;
   bool fresh = false;            ///< was not there, or carried nothing, in the last step
+  float approach = 0.0F;         ///< fastest approach while it was still open [m/s]
   double lambda_n = 0.0, lambda_t = 0.0;  ///< impulse of the last step [N s]
-  double w_n = 0.0, w_t = 0.0;            ///< velocity after it [m/s]
-  double approach = 0.0;         ///< fastest approach while it was still open [m/s]
+  float w_n = 0.0F, w_t = 0.0F;           ///< velocity after it [m/s]
 };
 
 /// The contact of two convex shapes: persistent over steps, at most two points.
@@ -99,7 +97,8 @@ struct Contact {
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in a's frame; inside a collection in its frame
   int count = 0;
   std::array<ContactPoint, 2> points;
-  double mu = 0.0, restitution = 0.0;
+  double mu = 0.0;
+  float restitution = 0.0F;
   int quiet_steps = 0;          ///< consecutive steps in which the pair could have merged
 };
 
@@ -151,7 +150,7 @@ struct Twist {
 
 /// A velocity summed over consecutive steps.
 struct Drift {
-  double sum = 0.0;  ///< [m/s]
+  float sum = 0.0F;  ///< [m/s]
   int steps = 0;
 };
 
@@ -209,9 +208,10 @@ struct State {
   Mode mode = Mode::MergeSleep;
   double h = 0.01;
   Vec2 gravity{0.0, -9.81};
-  std::vector<Collider> colliders;        ///< all shapes of all bodies, in the body frame
-  std::vector<BodyId> shape_body;         ///< whose shape it is
-  std::vector<Aabb> shape_bounds;         ///< in the body frame
+  std::vector<Collider> colliders;        ///< the different shapes, in the body frame
+  std::vector<Aabb> collider_bounds;      ///< in the body frame
+  std::vector<std::uint32_t> shape_collider;  ///< per shape of a body: which of them it is
+  std::vector<BodyId> shape_body;         ///< per shape: whose it is
 
   // what moves
   std::int64_t step = 0;
@@ -222,6 +222,9 @@ struct State {
   std::int32_t next_collection = 0;
   ContactTable contacts;
   Broadphase broadphase;
+
+  const Collider& collider(std::uint32_t shape) const { return colliders[shape_collider[shape]]; }
+  const Aabb& bounds(std::uint32_t shape) const { return collider_bounds[shape_collider[shape]]; }
 
   Body& operator[](BodyId id) { return bodies[index(id)]; }
   const Body& operator[](BodyId id) const { return bodies[index(id)]; }
@@ -267,9 +270,12 @@ struct SweepContact {
   ContactBlock block;      ///< with the bodies' own masses
 };
 
-/// The contact points of a block of the full solve.
-struct RowPoints {
-  ContactPoint* point[2] = {nullptr, nullptr};
+/// What a block of the full solve is made from, and where its impulses go.
+struct RowSource {
+  RigidId a{}, b{};
+  const Contact* contact = nullptr;
+  std::array<ContactPoint*, 2> points{};
+  int count = 0;
 };
 
 /// Blocks and bodies of one island of the full solve: ranges of Scratch::blocks, island_bodies.
@@ -279,8 +285,9 @@ struct Island {
   std::uint32_t first_body = 0, last_body = 0;
 };
 
+/// Where a block stands: `source` is its RowSource.
 struct BlockOrder {
-  std::uint32_t island = 0, colour = 0, block = 0;
+  std::uint32_t island = 0, colour = 0, source = 0;
   auto operator<=>(const BlockOrder&) const = default;
 };
 
@@ -331,15 +338,13 @@ struct Scratch {
   // SolveLCP
   std::vector<SolverVelocity> u;           ///< per rigid
   std::vector<ContactBlock> blocks;        ///< by island, then by colour
-  std::vector<RowPoints> row_points;       ///< where each block's impulses go
+  std::vector<RowSource> row_sources;      ///< in the order of the pairs
   std::vector<Island> islands;
   std::vector<std::uint32_t> island_bodies;
   std::vector<std::int32_t> island_of;     ///< per rigid; −1: touches nothing
   DisjointSets sets;
   std::vector<std::uint64_t> colours;      ///< per rigid: those of its blocks, as bits
   std::vector<BlockOrder> block_order;
-  std::vector<ContactBlock> sorted_blocks;
-  std::vector<RowPoints> sorted_points;
   NncgBuffers nncg;
 };
 

@@ -36,6 +36,15 @@ struct Aabb {
   }
 };
 
+/// The box around `box` as it is seen through `pose`.
+inline Aabb placed(const Pose& pose, const Aabb& box) {
+  const Vec2 half = 0.5 * box.extent();
+  const Vec2 center = pose * box.center();
+  const double c = std::abs(pose.rotation.c), s = std::abs(pose.rotation.s);
+  const Vec2 extent(c * half.x() + s * half.y(), s * half.x() + c * half.y());
+  return {center - extent, center + extent};
+}
+
 /// The tight axis-aligned box of a shape placed at `pose`.
 Aabb bounds(const ConvexShape& shape, const Pose& pose = {});
 

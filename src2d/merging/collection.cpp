@@ -57,12 +57,7 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   target.members.insert(target.members.end(), source.members.begin(), source.members.end());
   std::inplace_merge(target.members.begin(), target.members.begin() + middle,
                      target.members.end());
-  for (const Vec2& corner :
-       {state[from].bounds.lower, state[from].bounds.upper,
-        Vec2(state[from].bounds.lower.x(), state[from].bounds.upper.y()),
-        Vec2(state[from].bounds.upper.x(), state[from].bounds.lower.y())}) {
-    state[to].bounds.include(relative * corner);
-  }
+  state[to].bounds.include(placed(relative, state[from].bounds));
   state[to].resized = true;
   target.stale = true;
   removeRigid(state, from);

@@ -8,15 +8,9 @@
 namespace merge2d {
 namespace {
 
+/// A member's own box, seen in its collection's frame.
 Aabb memberBounds(const State& state, BodyId b) {
-  const Body& body = state[b];
-  Aabb box;
-  for (const Vec2& corner :
-       {body.bounds.lower, body.bounds.upper, Vec2(body.bounds.lower.x(), body.bounds.upper.y()),
-        Vec2(body.bounds.upper.x(), body.bounds.lower.y())}) {
-    box.include(Pose{body.local, body.local_rotation} * corner);
-  }
-  return box;
+  return placed({state[b].local, state[b].local_rotation}, state[rigidOf(b)].bounds);
 }
 
 }  // namespace
@@ -54,7 +48,7 @@ void fitBox(State& state, RigidId id) {
   points.clear();
   for (const BodyId b : state.collection(id).members) {
     const Body& body = state[b];
-    for (const Vec2& corner : body.box.corners()) {
+    for (const Vec2& corner : state[rigidOf(b)].box.corners()) {
       points.push_back(Pose{body.local, body.local_rotation} * corner);
     }
   }
@@ -148,6 +142,8 @@ void layOutBlocks(const State& state, Collection& c) {
     std::fill_n(weld_of.begin() + c.welds[w].first, c.welds[w].count, w);
   }
   c.blocks.clear();
+  c.blocks.shrink_to_fit();
+  c.blocks.reserve(items.size());
   c.block_contact.clear();
   c.block_weld.clear();
   c.watched.assign(c.contacts.size(), 1);
@@ -191,6 +187,7 @@ void layOutCollections(State& state) {
               [](const InternalContact& x, const InternalContact& y) {
                 return x.contact.key < y.contact.key;
               });
+    c.contacts.shrink_to_fit();
     if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
     fitBox(state, c.rigid);
     layOutWelds(c);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
+#include "src2d/core/memory.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/metric.h"
@@ -44,8 +46,8 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
       const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
       if (p.lambda_n <= 0.0) continue;
       ++seen.active;
-      seen.fastest_slip = std::max(seen.fastest_slip, std::abs(p.w_t));
-      seen.largest_breath = std::max(seen.largest_breath, std::abs(p.gap - p.previous_gap));
+      seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
+      seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
       seen.on_edge |= std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
     }
   }
@@ -175,6 +177,18 @@ bool weld(State& state, const BodyPair& pair) {
   return true;
 }
 
+/// The full solve has become smaller: its memory goes back.
+void releaseRows(Scratch& scratch) {
+  scratch.blocks.clear();
+  scratch.row_sources.clear();
+  trim(scratch.blocks);
+  trim(scratch.row_sources);
+  for (auto* v : {&scratch.nncg.before, &scratch.nncg.direction}) {
+    v->clear();
+    v->shrink_to_fit();
+  }
+}
+
 }  // namespace
 
 void accumulateRelativeMotion(State& state, Scratch& scratch) {
@@ -195,7 +209,9 @@ void merge(State& state, Scratch& scratch) {
   }
   absorbContacts(state);
   layOutCollections(state);
+  compactContacts(state);
   collectPairs(state, scratch);
+  releaseRows(scratch);
 }
 
 }  // namespace merge2d

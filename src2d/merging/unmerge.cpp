@@ -83,35 +83,34 @@ class WeldTest {
       }
       if (!edge) inner.slip[i] = {};
       if (edge || !pressed || scratch_.decisions) {
-        const double w_n = lookAtPoint(k, inner.contact, i);
-        const double w_t = inner.contact.points[static_cast<std::size_t>(i)].w_t;
-        if (!pressed && inner.active[i]) inner.lost[i] = testBroken(weld, inner.opening[i], w_n);
-        if (pressed) testSliding(weld, inner.slip[i], w_t, edge);
+        const ContactVelocity w = lookAtPoint(k, inner.contact, i);
+        if (!pressed && inner.active[i]) inner.lost[i] = testBroken(weld, inner.opening[i], w.n);
+        if (pressed) testSliding(weld, inner.slip[i], w.t, edge);
       }
       c_.watched[b] |= edge || !pressed;
       c_.pivots_stale |= was_lost != inner.lost[i] || was_active != inner.active[i];
     }
   }
 
-  /// Velocity at a point after the sweep; returns that along the normal.
-  double lookAtPoint(const ContactBlock& k, Contact& contact, int i) {
+  /// Velocity at a point after the sweep.
+  ContactVelocity lookAtPoint(const ContactBlock& k, Contact& contact, int i) {
     const double nx = turn_.c * k.nx - turn_.s * k.ny, ny = turn_.s * k.nx + turn_.c * k.ny;
     const ContactVelocity w =
         contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
-    contact.points[static_cast<std::size_t>(i)].w_n = w.n;
-    contact.points[static_cast<std::size_t>(i)].w_t = w.t;
-    return w.n;
+    contact.points[static_cast<std::size_t>(i)].w_n = static_cast<float>(w.n);
+    contact.points[static_cast<std::size_t>(i)].w_t = static_cast<float>(w.t);
+    return w;
   }
 
   /// True when the drift is too large. Evidence that more sweeps do not confirm is forgotten.
   bool exceeds(Drift& drift, double w, double threshold) const {
     if (confirming_) {
-      drift.sum = w * drift.steps;
+      drift.sum = static_cast<float>(w * drift.steps);
       if (std::abs(drift.sum) > threshold) return true;
       drift = {};
       return false;
     }
-    drift.sum += w;
+    drift.sum += static_cast<float>(w);
     drift.steps += 1;
     return std::abs(drift.sum) > threshold;
   }
@@ -169,7 +168,7 @@ class WeldTest {
     double fastest = 0.0;
     for (const BodyId id : {weld.a, weld.b}) {
       if (state_[id].rigid != c_.rigid) continue;  // only the box of the body that can move
-      OrientedBox box = state_[id].box;
+      OrientedBox box = state_[rigidOf(id)].box;
       box.frame = state_.pose(id) * box.frame;
       fastest = std::max(fastest, fastestCorner(box, a, b));
     }

@@ -176,7 +176,7 @@ void captureState(const State& state, const Actions& actions, const Scratch& scr
 void countBodies(const State& state, Scratch& scratch) {
   Stats& stats = scratch.stats;
   stats.bodies = stats.active_bodies = stats.collections = stats.asleep = 0;
-  stats.internal_contacts = stats.contacts = 0;
+  stats.internal_contacts = 0;
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
     const Rigid& r = state.rigids[i];
     if (!r.present()) continue;
@@ -196,27 +196,26 @@ void countBodies(const State& state, Scratch& scratch) {
       for (const ContactBlock& k : c.blocks) stats.internal_contacts += k.count;
     }
   }
-  for (const ContactBlock& k : scratch.blocks) stats.contacts += k.count;
 }
 
 std::size_t memoryBytes(const State& state, const Scratch& scratch) {
   std::size_t total = bytes(state.colliders) + bytes(state.shape_body) +
-                      bytes(state.shape_bounds) + bytes(state.bodies) + bytes(state.rigids) +
+                      bytes(state.collider_bounds) + bytes(state.shape_collider) + bytes(state.bodies) + bytes(state.rigids) +
                       bytes(state.contacts.slots) + bytes(state.contacts.order) +
                       bytes(state.broadphase.near) + bytes(state.broadphase.shape_leaves);
   for (const Collection& c : state.collections) {
     total += sizeof(Collection) + bytes(c.members) + bytes(c.contacts) + bytes(c.blocks) +
              bytes(c.block_contact) + bytes(c.welds) + bytes(c.push);
   }
-  total += bytes(scratch.u) + bytes(scratch.blocks) + bytes(scratch.sorted_blocks) +
-           bytes(scratch.row_points) + bytes(scratch.sorted_points) + bytes(scratch.nncg.before) +
+  total += bytes(scratch.u) + bytes(scratch.blocks) +
+           bytes(scratch.row_sources) + bytes(scratch.nncg.before) +
            bytes(scratch.nncg.direction) + bytes(scratch.nncg.u_before) +
            bytes(scratch.nncg.u_direction) +
            bytes(scratch.block_order) + bytes(scratch.sweep_u) + bytes(scratch.sweep_contacts) +
            bytes(scratch.sweep_before) + bytes(scratch.pairs);
   // Two nodes per leaf of each tree.
   constexpr std::size_t kNode = 2 * 48;
-  total += kNode * (state.rigids.size() + state.colliders.size());
+  total += kNode * (state.rigids.size() + state.shape_body.size());
   return total;
 }
 
