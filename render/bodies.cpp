@@ -123,7 +123,7 @@ const BodyState* FrameScene::body(BodyId id) const {
   return found != snapshot.bodies.end() && found->id == id ? &*found : nullptr;
 }
 
-float FrameScene::outlineWidth() const { return std::clamp(0.06F * bodySize(), 0.5F, px(1.6F)); }
+float FrameScene::outlineWidth() const { return std::clamp(0.08F * bodySize(), 0.6F, px(1.6F)); }
 
 bool isFixed(const FrameScene& scene, const BodyState& body) {
   return body.pinned || scene.info(body.id).motion != Motion::Dynamic;

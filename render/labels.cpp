@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -16,13 +17,14 @@ class LabelPainter {
  public:
   LabelPainter(Painter& painter, const FrameScene& scene) : painter_(painter), scene_(scene) {}
 
+  /// Of the plate of a text [px²].
+  float area(const std::string& text, Font font) const {
+    const PixelBox plate = plateOf(text, font, {});
+    return plate.width * plate.height;
+  }
+
   bool put(const std::string& text, Font font, Pixel at, Color outline) {
-    const float pad_x = scene_.px(5.0F), pad_y = scene_.px(4.0F);
-    const float width = painter_.text().width(text, font) + 2.0F * pad_x;
-    const float cap = painter_.text().capHeight(font);
-    const float height = cap + 2.0F * pad_y;
-    const PixelBox plate{std::round(at.x - 0.5F * width), std::round(at.y - 0.5F * height),
-                         std::round(width), std::round(height)};
+    const PixelBox plate = plateOf(text, font, at);
     if (!scene_.view.panel.contains(plate)) return false;
     for (const PixelBox& other : taken_) {
       if (other.overlaps(plate)) return false;
@@ -30,12 +32,21 @@ class LabelPainter {
     taken_.push_back(plate);
     painter_.box(plate, scene_.px(4.0F),
                  {.fill = scene_.theme().background, .outline = outline, .line = scene_.px(1.6F)});
-    painter_.write(text, font, {plate.x + 0.5F * plate.width, plate.y + pad_y + cap},
+    painter_.write(text, font, {plate.x + 0.5F * plate.width, plate.bottom() - scene_.px(kPadY)},
                    scene_.theme().ink, Align::Center);
     return true;
   }
 
  private:
+  static constexpr float kPadX = 5.0F, kPadY = 4.0F;  // [design px]
+
+  PixelBox plateOf(const std::string& text, Font font, Pixel center) const {
+    const float width = painter_.text().width(text, font) + 2.0F * scene_.px(kPadX);
+    const float height = painter_.text().capHeight(font) + 2.0F * scene_.px(kPadY);
+    return {std::round(center.x - 0.5F * width), std::round(center.y - 0.5F * height),
+            std::round(width), std::round(height)};
+  }
+
   Painter& painter_;
   const FrameScene& scene_;
   std::vector<PixelBox> taken_;
@@ -54,18 +65,25 @@ Vec2 labelPlace(const FrameScene& scene, const CollectionView& collection) {
   return best;
 }
 
+/// How many pixels the members fill, roughly.
+float coveredArea(const FrameScene& scene, const CollectionView& collection) {
+  double area = 0.0;
+  for (const BodyId id : collection.bodies) area += scene.looks.silhouettes[index(id)].area;
+  return static_cast<float>(area * scene.view.scale * scene.view.scale);
+}
+
 void labelCollections(LabelPainter& labels, const FrameScene& scene) {
   std::vector<const CollectionView*> bySize;
   for (const CollectionView& c : scene.snapshot.collections) bySize.push_back(&c);
   std::ranges::stable_sort(bySize, std::ranges::greater{},
                            [](const CollectionView* c) { return c->bodies.size(); });
+  // Where there are few, each gets its label; where there are many, those that it does not hide.
+  const bool crowded = bySize.size() > 8;
   const Font font = scene.font(13.0F, Weight::Bold);
   for (const CollectionView* c : bySize) {
-    const bool small =
-        scene.view(2.0 * c->box.half.minCoeff()) < 0.8F * static_cast<float>(font.size);
-    if (small) continue;
-    labels.put(fmt::format("C{}", value(c->id)), font, scene.view(labelPlace(scene, *c)),
-               standingOut(scene, c->id));
+    const std::string label = fmt::format("C{}", value(c->id));
+    if (crowded && coveredArea(scene, *c) < 3.0F * labels.area(label, font)) continue;
+    labels.put(label, font, scene.view(labelPlace(scene, *c)), standingOut(scene, c->id));
   }
 }
 

@@ -59,8 +59,8 @@ CollectionSlots CollectionColors::update(const Snapshot& snapshot) {
   return alive;
 }
 
-/// Not the colour of a neighbour, then the one whose nearest bearer is farthest away, then the one
-/// that was given out longest ago.
+/// Not the colour of a neighbour, then the one whose nearest bearer is farthest away, then not the
+/// faint one, then the one that was given out longest ago.
 std::size_t CollectionColors::choose(const Snapshot& snapshot, const CollectionView& added,
                                      const CollectionSlots& alive) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -78,7 +78,8 @@ std::size_t CollectionColors::choose(const Snapshot& snapshot, const CollectionV
   }
   last_use_.resize(Theme::kCollections);
   const auto cost = [&](std::size_t slot) {
-    return std::tuple{touching[slot], -distance[slot], last_use_[slot], slot};
+    return std::tuple{touching[slot], -distance[slot], slot == Theme::kFaint, last_use_[slot],
+                      slot};
   };
   std::size_t best = 0;
   for (std::size_t slot = 1; slot < Theme::kCollections; ++slot) {

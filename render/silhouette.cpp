@@ -170,6 +170,7 @@ Silhouette silhouette(const std::vector<ConvexShape>& shapes) {
     const Vec2 half = tightBox(outlinePoints(shape)).half;
     thinnest = std::min(thinnest, 2.0 * half.minCoeff());
     box.include(bounds(shape));
+    out.area += areaProperties(shape).area;
   }
   out.width = shapes.size() == 1 ? thinnest : box.empty() ? 0.0 : box.extent().minCoeff();
   if (shapes.size() > 1) out.boundary = boundaryOf(out.pieces, 1e-4 * thinnest);

@@ -26,6 +26,7 @@ struct Silhouette {
   /// The boundary of the union of several pieces, without the seams between them; empty for one.
   std::vector<Segment> boundary;
   double radius = 0.0;  ///< of the circle about the body's origin that holds it [m]
+  double area = 0.0;    ///< [m²]
   double width = 0.0;   ///< of the body where it is thinnest, roughly [m]
 };
 

@@ -15,9 +15,9 @@ constexpr std::array<Color, Theme::kCollections> kOkabeIto = {
     rgb(0x56b4e9),  // sky blue
     rgb(0x009e73),  // bluish green
     rgb(0xcc79a7),  // reddish purple
-    rgb(0xf0e442),  // yellow
     rgb(0x0072b2),  // blue
     rgb(0xd55e00),  // vermilion
+    rgb(0xf0e442),  // yellow
 };
 
 /// Each fill mixed towards `tint`, each outline from the fill towards `edge`.

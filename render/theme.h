@@ -17,6 +17,7 @@ struct Finish {
 
 struct Theme {
   static constexpr std::size_t kCollections = 7;
+  static constexpr std::size_t kFaint = 6;  ///< the slot to be used last: yellow
 
   std::string name;
   Color background;

@@ -51,13 +51,14 @@ TEST(CollectionColors, TouchingNeighboursDifferAlsoWhenThereAreMany) {
   for (std::size_t i = 1; i < slots.size(); ++i) EXPECT_NE(slots[i - 1].second, slots[i].second);
 }
 
-TEST(CollectionColors, ColoursComeBackWhenTheirCollectionsAreGone) {
+TEST(CollectionColors, TakeTurnsWhenCollectionsComeAndGo) {
   CollectionColors colors;
   std::set<std::size_t> used;
   for (int id = 1; id <= 7; ++id) {
     used.insert(slotOf(colors.update(row({id}).snapshot), CollectionId{id}));
   }
-  EXPECT_EQ(used.size(), Theme::kCollections) << "one after the other, in turn";
+  EXPECT_EQ(used.size(), Theme::kCollections - 1);
+  EXPECT_FALSE(used.contains(Theme::kFaint)) << "yellow waits until the others are taken";
 }
 
 }  // namespace
