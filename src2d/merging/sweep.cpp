@@ -170,9 +170,9 @@ std::vector<SweepItem> disturbedOrder(State& state, Scratch& scratch) {
   return ordered;
 }
 
-/// One sweep over the active contacts of a collection that nothing disturbs. What it changes is
-/// added to each member's push; `settled` when it changed next to nothing.
-void sweepUndisturbed(const State& state, Collection& c, Scratch& scratch) {
+/// Sweeps over the active contacts of a collection. What they change is added to each member's
+/// push. Returns the largest change of a member's velocity [m/s].
+double sweepInside(const State& state, Collection& c, Scratch& scratch, int sweeps) {
   auto& u = scratch.sweep_u;
   auto& before = scratch.sweep_before;
   const std::size_t n = c.members.size();
@@ -182,7 +182,7 @@ void sweepUndisturbed(const State& state, Collection& c, Scratch& scratch) {
     before[i] = {m.vx, m.vy, m.omega};
   }
   const Rotation turn = state[c.rigid].rotation;
-  for (int s = 0; s < state.settings.unmerging.sweeps; ++s) {
+  for (int s = 0; s < sweeps; ++s) {
     for (std::uint32_t i = 0; i < c.active_blocks; ++i) {
       sweepBlock(c.blocks[i], turn, u, state.settings.solver.method);
     }
@@ -197,8 +197,22 @@ void sweepUndisturbed(const State& state, Collection& c, Scratch& scratch) {
     c.push[i].omega += m.omega - before[i].omega;
     largest = std::max(largest, change.squaredNorm());
   }
-  const double still = state.settings.sleeping.velocity;
-  c.settled = largest <= still * still;
+  return std::sqrt(largest);
+}
+
+/// Inner forces have settled when a sweep changes less than this part of a step's gravity.
+constexpr double kSettled = 1e-3;
+
+/// A collection that nothing disturbs is swept once; one that could sleep but for its inner forces
+/// a few times more, so that it soon can.
+void sweepUndisturbed(const State& state, Collection& c, Scratch& scratch) {
+  const UnmergingSettings& settings = state.settings.unmerging;
+  const bool resting =
+      sleeps(state.mode) && state[c.rigid].quiet_steps >= state.settings.sleeping.steps;
+  if (resting && !c.settled) sweepInside(state, c, scratch, settings.disturbed_sweeps);
+  const double change = sweepInside(state, c, scratch, settings.sweeps);
+  c.settled = change <= std::max(kSettled * state.h * state.gravity.norm(),
+                                 state.settings.sleeping.velocity);
 }
 
 /// Several sweeps in the order given, accelerated as in the full solve.

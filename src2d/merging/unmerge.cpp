@@ -50,6 +50,8 @@ class WeldTest {
     }
   }
 
+  bool contactOpened() const { return opened_; }
+
   /// Looks again after more sweeps. What was summed may have come from a sweep that had not
   /// converged: it is replaced by today's velocity, as if it had been the same in all those steps.
   void confirmAll() {
@@ -88,6 +90,7 @@ class WeldTest {
         if (pressed) testSliding(weld, inner.slip[i], w.t, edge);
       }
       c_.watched[b] |= edge || !pressed;
+      opened_ |= inner.lost[i] && !was_lost;
       c_.pivots_stale |= was_lost != inner.lost[i] || was_active != inner.active[i];
     }
   }
@@ -189,6 +192,7 @@ class WeldTest {
   Collection& c_;
   Rotation turn_;
   bool confirming_ = false;
+  bool opened_ = false;  ///< some contact was lost that held before
   bool whole_ = false;  ///< dormant contacts were swept too
 
 };
@@ -307,7 +311,7 @@ void unmerge(State& state, Scratch& scratch) {
     test.testAll();
     // Broken welds that do not part the graph are found again in each step: look anew only when
     // there is one more.
-    if (!newCut(c, scratch)) continue;
+    if (!newCut(c, scratch) && !test.contactOpened()) continue;
     Parts parts = partsWithoutCuts(state, c);
     if (!fallsApart(state, c, parts)) continue;
     if (state.settings.unmerging.rule == Rule::Default) {
