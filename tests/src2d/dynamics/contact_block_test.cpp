@@ -1,0 +1,129 @@
+/// The kernel of a sweep against the conditions that define its result.
+
+#include "src2d/dynamics/contact_block.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace merge2d {
+namespace {
+
+double uniform(double low, double high) {
+  return low + (high - low) * *rc::gen::inRange(0, 1000001) * 1e-6;
+}
+
+Vec2 anyVector(double size) { return {uniform(-size, size), uniform(-size, size)}; }
+
+SolverVelocity anyBody() {
+  return {uniform(-2, 2), uniform(-2, 2), uniform(-2, 2), uniform(0.01, 2), uniform(0.01, 2)};
+}
+
+/// Two points of a face, at least 0.2 m apart.
+BlockGeometry anyGeometry(int count) {
+  BlockGeometry g;
+  g.normal = Rotation::of(uniform(-3.1, 3.1)) * Vec2(1, 0);
+  g.count = count;
+  g.softness = uniform(0, 0.1);
+  const Vec2 a = anyVector(1), b = anyVector(1);
+  const Vec2 along = uniform(0.2, 1.0) * perpendicular(g.normal);
+  g.arm_a[0] = a, g.arm_a[1] = a + along;
+  g.arm_b[0] = b, g.arm_b[1] = b + along;
+  return g;
+}
+
+RC_GTEST_PROP(ContactBlock, TheNormalsSolveTheirComplementarityProblem, (bool pair)) {
+  SolverVelocity a = anyBody(), b = anyBody();
+  ContactBlock k;
+  prepareBlock(k, anyGeometry(pair ? 2 : 1), a, b);
+  k.mu = 0.0;
+  for (int i = 0; i < k.count; ++i) {
+    k.lambda_n[i] = uniform(0, 1);
+    k.bias[i] = uniform(-0.5, 0.5);
+  }
+  solveBlock(k, k.nx, k.ny, a, b);
+  for (int i = 0; i < k.count; ++i) {
+    const double w =
+        contactVelocity(k, i, k.nx, k.ny, a, b).n + k.bias[i] + k.softness * k.lambda_n[i];
+    RC_ASSERT(k.lambda_n[i] >= 0.0);
+    RC_ASSERT(w >= -1e-9);
+    RC_ASSERT(std::abs(w * k.lambda_n[i]) < 1e-9);
+  }
+}
+
+RC_GTEST_PROP(ContactBlock, FrictionOpposesSlipAndStaysInItsCone, ()) {
+  SolverVelocity a = anyBody(), b = anyBody();
+  ContactBlock k;
+  prepareBlock(k, anyGeometry(1), a, b);
+  k.mu = uniform(0, 1);
+  k.lambda_n[0] = uniform(0, 1);
+  solveBlock(k, k.nx, k.ny, a, b);
+  const double limit = k.mu * k.lambda_n[0];
+  const double slip = contactVelocity(k, 0, k.nx, k.ny, a, b).t;
+  RC_ASSERT(std::abs(k.lambda_t[0]) <= limit);
+  if (std::abs(slip) > 1e-9) RC_ASSERT(std::abs(k.lambda_t[0] + std::copysign(limit, slip)) < 1e-9);
+}
+
+RC_GTEST_PROP(ContactBlock, ASweepKeepsMomentum, (bool rows)) {
+  const SolverVelocity before_a = anyBody(), before_b = anyBody();
+  SolverVelocity a = before_a, b = before_b;
+  BlockGeometry g = anyGeometry(2);
+  const Vec2 offset = g.arm_a[0] - g.arm_b[0];  // of b's centre from a's
+  ContactBlock k;
+  prepareBlock(k, g, a, b);
+  k.mu = 0.5;
+  k.bias[0] = uniform(-1, 1);
+  (rows ? solveRows : solveBlock)(k, k.nx, k.ny, a, b);
+  const Vec2 pa((a.vx - before_a.vx) / a.inv_mass, (a.vy - before_a.vy) / a.inv_mass);
+  const Vec2 pb((b.vx - before_b.vx) / b.inv_mass, (b.vy - before_b.vy) / b.inv_mass);
+  const double la = (a.omega - before_a.omega) / a.inv_inertia;
+  const double lb = (b.omega - before_b.omega) / b.inv_inertia;
+  RC_ASSERT((pa + pb).norm() < 1e-10);
+  RC_ASSERT(std::abs(la + lb + cross(offset, pb)) < 1e-10);
+}
+
+RC_GTEST_PROP(ContactBlock, WhatIsSolvedIsNotChangedBySolvingItAgain, ()) {
+  SolverVelocity a = anyBody(), b = anyBody();
+  ContactBlock k;
+  prepareBlock(k, anyGeometry(2), a, b);
+  k.mu = 0.0;
+  solveBlock(k, k.nx, k.ny, a, b);
+  const double first = k.lambda_n[0], second = k.lambda_n[1];
+  solveBlock(k, k.nx, k.ny, a, b);
+  RC_ASSERT(std::abs(k.lambda_n[0] - first) < 1e-10);
+  RC_ASSERT(std::abs(k.lambda_n[1] - second) < 1e-10);
+}
+
+TEST(ContactBlock, AMagnetPullsAndHoldsSideways) {
+  SolverVelocity a;  // fixed
+  SolverVelocity b{.vx = 1.0, .vy = 1.0, .inv_mass = 1.0, .inv_inertia = 6.0};
+  BlockGeometry g;
+  g.normal = {0, 1};
+  g.count = 2;
+  g.arm_a[0] = {-0.5, 0}, g.arm_a[1] = {0.5, 0};
+  g.arm_b[0] = {-0.5, -0.5}, g.arm_b[1] = {0.5, -0.5};
+  ContactBlock k;
+  prepareBlock(k, g, a, b);
+  k.bilateral = true;
+  k.mu = 0.1;
+  for (int i = 0; i < 100; ++i) solveBlock(k, k.nx, k.ny, a, b);
+  EXPECT_NEAR(b.vx, 0.0, 1e-12);
+  EXPECT_NEAR(b.vy, 0.0, 1e-12);
+  EXPECT_NEAR(b.omega, 0.0, 1e-12);
+  EXPECT_LT(k.lambda_n[0] + k.lambda_n[1], 0.0);
+}
+
+TEST(ContactBlock, TwoPointsInOnePlaceAreTreatedAsOne) {
+  SolverVelocity a, b{.vy = -1.0, .inv_mass = 1.0, .inv_inertia = 6.0};
+  BlockGeometry g;
+  g.normal = {0, 1};
+  g.count = 2;
+  g.arm_b[0] = {0, -0.5}, g.arm_b[1] = {1e-9, -0.5};
+  ContactBlock k;
+  prepareBlock(k, g, a, b);
+  EXPECT_EQ(k.count, 1);
+  solveBlock(k, k.nx, k.ny, a, b);
+  EXPECT_NEAR(b.vy, 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace merge2d
