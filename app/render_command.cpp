@@ -1,64 +1,216 @@
-#include <algorithm>
-#include <cmath>
+#include <chrono>
 #include <memory>
-#include <thread>
+#include <nlohmann/json.hpp>
 
+#include "app/captions.h"
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/ffmpeg.h"
+#include "app/frame_sink.h"
+#include "app/frames_folder.h"
 #include "app/interrupt.h"
+#include "app/output_file.h"
 #include "app/progress.h"
 #include "app/simulation.h"
+#include "render/apng.h"
+#include "render/frame.h"
+#include "render/png.h"
 #include "render/sequence.h"
+#include "src2d/core/error.h"
 
 namespace merge2d {
 namespace {
 
-struct RenderOptions : SceneOptions {
-  std::string folder;  ///< default: frames/<scene>
-  int fps = 30;
-  FrameStyle style;
+namespace fs = std::filesystem;
+
+constexpr const char* kExamples = R"(Examples:
+  merge2d render tower-platform
+  merge2d render pile -q l --seconds 3 --format gif
+  merge2d render books --overlay contacts,forces --theme print -s -o figure
+  merge2d render spinner -r 1920x1080 --fps 60 -n 0,120
+  merge2d render tower-platform --resume
+
+The pictures are called frame_000000.png, frame_000001.png, …; frame k shows the time k / fps, and
+the last one the end of the run. Beside them, run.json tells how they were made and captions.vtt
+what happens. A folder is used only when it is empty or holds an earlier rendering, which is
+replaced; --force puts the frames among other files.)";
+
+/// A rendering from its options to its files.
+class Rendering {
+ public:
+  explicit Rendering(const RenderOptions& options)
+      : options_(options),
+        console_(options),
+        simulation_(loadScene(options, console_), {.mode = options.mode, .timings = false}),
+        film_(filmOf(scene(), options)),
+        folder_(options.folder.empty() ? fs::path("frames") / scene().name
+                                       : fs::path(options.folder)),
+        snapshot_(world().capture()),
+        style_(makeStyle()),
+        run_file_(folder_, filmJson(scene(), options, style_), film_) {}
+
+  void run();
+
+ private:
+  const World& world() const { return simulation_.world(); }
+  const Scene& scene() const { return world().scene(); }
+
+  FrameStyle makeStyle() const;
+  void drawFrames();
+  void stepTo(std::int64_t step);
+  void finish(bool complete, const std::string& failure = {});
+  fs::path makeAnimation();
+  FfmpegJob ffmpegJob() const;
+  void report(const fs::path& animation);
+
+  const RenderOptions& options_;
+  Console console_;
+  Simulation simulation_;
+  Film film_;
+  fs::path folder_;
+  Snapshot snapshot_;
+  FrameStyle style_;
+  RunFile run_file_;
+  Captions captions_;
+  FrameCounts counts_;
+  double seconds_ = 0.0;  ///< that the frames took
 };
 
-/// The number of the step that frame `k` shows: the first one whose time is at least k / fps,
-/// within half a step.
-std::int64_t stepOfFrame(std::int64_t k, int fps, double h) {
-  constexpr double kRounding = 1e-6;
-  const double exact = static_cast<double>(k) / (fps * h);
-  return std::max<std::int64_t>(0, static_cast<std::int64_t>(std::ceil(exact - 0.5 - kRounding)));
+FrameStyle Rendering::makeStyle() const {
+  FrameStyle style;
+  style.width = evenSize(options_.width());
+  style.height = evenSize(options_.height());
+  style.theme = options_.theme;
+  style.transparent = options_.transparent;
+  style.overlays = options_.overlays;
+  style.mode = options_.mode;
+  adaptToScene(style, scene(), snapshot_, world().bodies());
+  return style;
+}
+
+void Rendering::stepTo(std::int64_t step) {
+  while (world().steps() < step) {
+    simulation_.step();
+    // Between two frames only the events are of interest.
+    snapshot_.step = world().steps();
+    snapshot_.time = world().time();
+    snapshot_.events = world().events();
+    snapshot_.stats = world().stats();
+    run_file_.add(snapshot_);
+    captions_.add(snapshot_);
+  }
+}
+
+void Rendering::drawFrames() {
+  const auto sink = makeFrameSink(world().bodies(), style_, folder_, film_, options_.resume);
+  Progress progress(console_, "frame", film_.to + 1);
+  const auto start = std::chrono::steady_clock::now();
+  for (std::int64_t frame = 0; frame <= film_.to; ++frame) {
+    stepTo(film_.stepOf(frame));
+    stopIfInterrupted();
+    world().capture(snapshot_);
+    sink->add(frame, snapshot_);
+    progress.update(frame);
+  }
+  sink->finish();
+  counts_ = sink->counts();
+  seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Rendering::finish(bool complete, const std::string& failure) {
+  run_file_.write(complete, describe(snapshot_, style_), failure);
+  writeFile(folder_ / "captions.vtt", captions_.text(scene().title), {.everything = true});
+}
+
+FfmpegJob Rendering::ffmpegJob() const {
+  return {.folder = folder_,
+          .scene = scene().name,
+          .fps = film_.fps,
+          .first = film_.from,
+          .gif = options_.format == Format::Gif,
+          .transparent = options_.transparent};
+}
+
+/// The path of the animation that was asked for; empty when there is none.
+fs::path Rendering::makeAnimation() {
+  if (options_.format == Format::Png) return {};
+  if (options_.format == Format::Apng) {
+    const fs::path file = folder_ / (scene().name + ".apng");
+    ApngWriter writer(file, film_.fps);
+    for (std::int64_t k = film_.from; k <= film_.to; ++k) {
+      writer.add(readFile(folder_ / frameName(k)));
+    }
+    writer.finish();
+    return file;
+  }
+  const auto program = findFfmpeg();
+  if (!program) {
+    console_.note(
+        fmt::format("ffmpeg is not installed; it can make the {} later:", nameOf(options_.format)));
+    return {};
+  }
+  runFfmpeg(*program, ffmpegJob());
+  return ffmpegJob().output();
+}
+
+void Rendering::report(const fs::path& animation) {
+  const std::int64_t frames = counts_.written + counts_.kept;
+  const double rate = static_cast<double>(counts_.written) / seconds_;
+  const fs::path product = options_.last_only  ? folder_ / frameName(film_.last)
+                           : animation.empty() ? folder_
+                                               : animation;
+  const std::string ffmpeg = ffmpegJob().commandLine();
+  if (options_.json) {
+    Json out{{"scene", scene().name},
+             {"folder", folder_.string()},
+             {"frames", {{"first", film_.from}, {"last", film_.to}}},
+             {"written", counts_.written},
+             {"kept", counts_.kept},
+             {"width", style_.width},
+             {"height", style_.height},
+             {"fps", film_.fps},
+             {"animation", animation.empty() ? Json() : Json(animation.string())},
+             {"ffmpeg", ffmpeg},
+             {"frames_per_second", rate}};
+    print(out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+    return;
+  }
+  const std::string kept = counts_.kept > 0 ? fmt::format(", {} kept", counts_.kept) : "";
+  console_.note(fmt::format("{} frame{} of {}x{} in {:.1f} s ({:.0f} frames per second{})", frames,
+                            frames == 1 ? "" : "s", style_.width, style_.height, seconds_, rate,
+                            kept));
+  print(product.string() + "\n");
+  if (!options_.last_only) print(ffmpeg + "\n");
+}
+
+void Rendering::run() {
+  prepareFolder(folder_, filmJson(scene(), options_, style_), film_, options_, console_);
+  run_file_.write(false);
+  try {
+    drawFrames();
+  } catch (const SimulationError& error) {
+    finish(false, error.what());  // what there is up to here helps to find out why
+    throw;
+  } catch (const Interrupted&) {
+    throw Interrupted("interrupted; --resume continues");
+  }
+  finish(true);
+  report(makeAnimation());
 }
 
 void render(const RenderOptions& options) {
-  const Console console(options);
+  check(options);
   catchInterrupts();
-  Simulation simulation(loadScene(options, console), {.mode = options.mode, .timings = false});
-  const World& world = simulation.world();
-  const Scene& scene = world.scene();
-  const std::string folder = options.folder.empty() ? "frames/" + scene.name : options.folder;
-
-  FrameStyle style = options.style;
-  style.mode = options.mode;
-  Snapshot snapshot = world.capture();
-  adaptToScene(style, scene, snapshot, world.bodies());
-  SequenceWriter writer(world.bodies(), style, {.folder = folder});
-  const auto last = static_cast<std::int64_t>(std::floor(scene.duration * options.fps + 1e-6));
-  Progress progress(console, "frame", last + 1);
-  for (std::int64_t k = 0; k <= last; ++k) {
-    while (world.steps() < stepOfFrame(k, options.fps, scene.step)) simulation.step();
-    world.capture(snapshot);
-    writer.add(snapshot);
-    progress.update(k);
-  }
-  writer.finish();
-  print(fmt::format("{}/frame_%06d.png\n", folder));
+  Rendering(options).run();
 }
 
 }  // namespace
 
 void addRenderCommand(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("render", "Draw a scene as a sequence of PNG files");
+  command->footer(kExamples);
   const auto options = std::make_shared<RenderOptions>();
-  addSceneOptions(*command, *options);
-  command->add_option("-o", options->folder, "Folder for the frames (default: frames/<scene>)");
+  addRenderOptions(*command, *options);
   command->callback([&action, options] { action = [options] { render(*options); }; });
 }
 

@@ -1,0 +1,95 @@
+#include "app/captions.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace merge2d {
+namespace {
+
+std::string clockText(std::int64_t second) {
+  return fmt::format("{:02}:{:02}:{:02}.000", second / 3600, second / 60 % 60, second % 60);
+}
+
+std::string cue(std::int64_t second, const std::string& text) {
+  return fmt::format("\n{} --> {}\n{}\n", clockText(second), clockText(second + 1), text);
+}
+
+/// "1 merge", "3 merges".
+std::string counted(int number, const std::string& one, const std::string& many) {
+  return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
+std::string counted(EventType type, int number) {
+  switch (type) {
+    case EventType::Merge:
+      return counted(number, "merge", "merges");
+    case EventType::Unmerge:
+      return counted(number, "unmerge", "unmerges");
+    case EventType::Sleep:
+      return counted(number, "body falls asleep", "bodies fall asleep");
+    case EventType::Wake:
+      return counted(number, "body wakes up", "bodies wake up");
+    case EventType::Impact:
+      return counted(number, "impact", "impacts");
+    case EventType::Emit:
+      return counted(number, "body appears", "bodies appear");
+  }
+  return {};
+}
+
+/// What would be read as markup.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  }
+  return out;
+}
+
+}  // namespace
+
+void Captions::add(const Snapshot& snapshot) {
+  if (snapshot.events.empty()) return;
+  // The step that ends at a whole second belongs to the second before it.
+  const auto number = static_cast<std::int64_t>(std::ceil(snapshot.time - 1e-9)) - 1;
+  Second& second = seconds_[std::max<std::int64_t>(0, number)];
+  for (const Event& event : snapshot.events) {
+    ++second.events[event.type];
+    if (event.type == EventType::Unmerge) ++second.reasons[event.reason];
+  }
+  second.bodies = snapshot.stats.bodies;
+  second.collections = snapshot.stats.collections;
+  second.asleep = snapshot.stats.asleep;
+}
+
+std::string Captions::describe(const Second& second) {
+  std::vector<std::string> parts;
+  for (const auto& [type, number] : second.events) {
+    parts.push_back(counted(type, number));
+    if (type != EventType::Unmerge) continue;
+    std::vector<std::string> reasons;
+    for (const auto& [reason, times] : second.reasons) {
+      reasons.push_back(fmt::format("{} {}", times, name(reason)));
+    }
+    parts.back() += fmt::format(" ({})", fmt::join(reasons, ", "));
+  }
+  return fmt::format("{}. Then {}, {} asleep, in {}.", fmt::join(parts, ", "),
+                     counted(second.bodies, "body", "bodies"), second.asleep,
+                     counted(second.collections, "collection", "collections"));
+}
+
+std::string Captions::text(const std::string& title) const {
+  std::string out = "WEBVTT\n";
+  const bool quiet_start = !seconds_.contains(0);
+  if (quiet_start) out += cue(0, escaped(title));
+  for (const auto& [number, second] : seconds_) {
+    const std::string start = number == 0 ? escaped(title) + "\n" : "";
+    out += cue(number, start + describe(second));
+  }
+  return out;
+}
+
+}  // namespace merge2d

@@ -1,0 +1,31 @@
+#pragma once
+/// What happens in a film, in words and with times (WebVTT).
+
+#include <map>
+#include <string>
+
+#include "src2d/trace/snapshot.h"
+
+namespace merge2d {
+
+/// One caption for each second in which something happens.
+class Captions {
+ public:
+  /// Takes note of what the step that just ended brought.
+  void add(const Snapshot& snapshot);
+
+  /// The whole file; `title` is the caption of the first second as well.
+  std::string text(const std::string& title) const;
+
+ private:
+  struct Second {
+    std::map<EventType, int> events;
+    std::map<EventReason, int> reasons;  ///< of the unmerges
+    int bodies = 0, collections = 0, asleep = 0;
+  };
+  static std::string describe(const Second& second);
+
+  std::map<std::int64_t, Second> seconds_;  ///< those with events, by number
+};
+
+}  // namespace merge2d

@@ -1,0 +1,94 @@
+#include "app/frame_sink.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "render/frame.h"
+#include "render/png.h"
+#include "render/sequence.h"
+
+namespace merge2d {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Frames from the first one on: drawn by as many threads as there are processors.
+class ParallelSink : public FrameSink {
+ public:
+  ParallelSink(const std::vector<BodyInfo>& bodies, const FrameStyle& style, const fs::path& folder,
+               bool resume)
+      : writer_(bodies, style, {.folder = folder, .workers = workers(), .resume = resume}) {}
+
+  void add(std::int64_t, const Snapshot& snapshot) override { writer_.add(snapshot); }
+  void finish() override { writer_.finish(); }
+  FrameCounts counts() const override {
+    const SequenceStats stats = writer_.stats();
+    return {stats.written, stats.kept};
+  }
+
+ private:
+  static int workers() {
+    return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
+  }
+
+  SequenceWriter writer_;
+};
+
+/// Frames from somewhere in the middle: what comes before decides on the colours.
+class PartialSink : public FrameSink {
+ public:
+  PartialSink(const std::vector<BodyInfo>& bodies, const FrameStyle& style, fs::path folder,
+              std::int64_t from, bool resume)
+      : bodies_(bodies),
+        style_(style),
+        looks_(bodies),
+        canvas_(style.width, style.height),
+        folder_(std::move(folder)),
+        from_(from),
+        resume_(resume) {}
+
+  void add(std::int64_t frame, const Snapshot& snapshot) override {
+    const CollectionSlots slots = colors_.update(snapshot);
+    if (frame < from_) return;
+    const fs::path file = folder_ / frameName(frame);
+    if (resume_ && complete(file)) {
+      ++counts_.kept;
+      return;
+    }
+    const auto image =
+        canvas_.draw(composeFrame(canvas_.text(), snapshot, bodies_, looks_, style_, slots));
+    savePng(file, image, {.alpha = style_.transparent, .description = describe(snapshot, style_)});
+    ++counts_.written;
+  }
+
+  void finish() override {}
+  FrameCounts counts() const override { return counts_; }
+
+ private:
+  bool complete(const fs::path& file) const {
+    if (!fs::is_regular_file(file)) return false;
+    const PngSummary found = inspectPng(readFile(file));
+    return found.complete && found.width == style_.width && found.height == style_.height;
+  }
+
+  const std::vector<BodyInfo>& bodies_;
+  FrameStyle style_;
+  BodyLooks looks_;
+  CollectionColors colors_;
+  Canvas canvas_;
+  fs::path folder_;
+  std::int64_t from_;
+  bool resume_;
+  FrameCounts counts_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSink> makeFrameSink(const std::vector<BodyInfo>& bodies,
+                                         const FrameStyle& style, const fs::path& folder,
+                                         const Film& film, bool resume) {
+  if (film.from == 0) return std::make_unique<ParallelSink>(bodies, style, folder, resume);
+  return std::make_unique<PartialSink>(bodies, style, folder, film.from, resume);
+}
+
+}  // namespace merge2d

@@ -1,0 +1,34 @@
+#pragma once
+/// Where the frames of a rendering go.
+
+#include <filesystem>
+#include <memory>
+
+#include "app/film.h"
+#include "render/style.h"
+#include "src2d/trace/snapshot.h"
+
+namespace merge2d {
+
+struct FrameCounts {
+  std::int64_t written = 0;
+  std::int64_t kept = 0;  ///< were there already
+};
+
+/// Takes the states of all frames of a run in order, and draws those that are wanted.
+class FrameSink {
+ public:
+  virtual ~FrameSink() = default;
+  virtual void add(std::int64_t frame, const Snapshot& snapshot) = 0;
+  /// All frames are there. Throws what went wrong.
+  virtual void finish() = 0;
+  virtual FrameCounts counts() const = 0;
+};
+
+/// `bodies` must outlive the sink.
+std::unique_ptr<FrameSink> makeFrameSink(const std::vector<BodyInfo>& bodies,
+                                         const FrameStyle& style,
+                                         const std::filesystem::path& folder, const Film& film,
+                                         bool resume);
+
+}  // namespace merge2d

@@ -1,0 +1,54 @@
+#pragma once
+/// What `render` can be asked for.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/options.h"
+#include "render/style.h"
+
+namespace merge2d {
+
+enum class Format { Png, Apng, Gif, Mp4 };
+
+/// How large and how fast: manim's letters.
+struct Quality {
+  char letter;
+  int width, height;  ///< [px]
+  int fps;
+};
+
+/// Frames, inclusive; an open end is the last one.
+struct FrameRange {
+  std::int64_t from = 0;
+  std::optional<std::int64_t> to;
+};
+
+struct RenderOptions : SceneOptions {
+  std::string folder;  ///< empty: frames/<scene>
+  Quality quality{'m', 1280, 720, 30};
+  std::optional<std::pair<int, int>> size;  ///< overrides the quality's [px]
+  std::optional<int> fps;                   ///< overrides the quality's
+  Overlays overlays = Overlays::standard();
+  Theme theme = lightTheme();
+  bool transparent = false;
+  bool last_only = false;
+  std::optional<FrameRange> range;
+  Format format = Format::Png;
+  bool resume = false;
+
+  int width() const { return size ? size->first : quality.width; }
+  int height() const { return size ? size->second : quality.height; }
+  int framesPerSecond() const { return fps.value_or(quality.fps); }
+};
+
+void addRenderOptions(CLI::App& command, RenderOptions& options);
+
+/// Throws UsageError for options that contradict each other.
+void check(const RenderOptions& options);
+
+/// "mp4"
+std::string_view nameOf(Format format);
+
+}  // namespace merge2d

@@ -1,0 +1,110 @@
+#include "app/run_file.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "app/output_file.h"
+#include "src2d/scene/load.h"
+#include "src2d/trace/parameters.h"
+#include "src2d/trace/trace_writer.h"
+
+namespace merge2d {
+namespace {
+
+constexpr const char* kFormat = "merge2d-run";
+constexpr int kVersion = 1;
+
+/// A number that changes with any part of the scene but its duration (FNV-1a).
+std::string digest(Scene scene) {
+  scene.duration = 0.0;
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : toToml(scene)) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+Json parameters(const Scene& scene) {
+  JsonText text;
+  writeParameters(text, scene);
+  return Json::parse(text.text());
+}
+
+Json picture(const RenderOptions& options, const FrameStyle& style) {
+  Json out;
+  out["width"] = style.width;
+  out["height"] = style.height;
+  out["fps"] = options.framesPerSecond();
+  out["theme"] = style.theme.name;
+  out["transparent"] = style.transparent;
+  out["overlays"] = Json::array();
+  for (const OverlayEntry& entry : kOverlayTable) {
+    if (style.overlays.has(entry.overlay)) out["overlays"].push_back(entry.name);
+  }
+  return out;
+}
+
+/// The film without what may change from one rendering of it to the next.
+Json fixedPart(const Json& film) {
+  Json fixed;
+  for (const char* key : {"program", "scene", "digest", "mode", "parameters", "picture"}) {
+    fixed[key] = film.value(key, Json());
+  }
+  if (fixed["parameters"].is_object()) fixed["parameters"].erase("duration");
+  return fixed;
+}
+
+}  // namespace
+
+Json filmJson(const Scene& scene, const RenderOptions& options, const FrameStyle& style) {
+  Json film;
+  film["format"] = kFormat;
+  film["version"] = kVersion;
+  film["program"] = "merge2d " MERGE2D_VERSION;
+  film["scene"] = scene.name;
+  film["title"] = scene.title;
+  film["digest"] = digest(scene);
+  film["mode"] = name(options.mode);
+  film["seed"] = scene.seed;
+  film["h"] = scene.step;
+  film["parameters"] = parameters(scene);
+  film["picture"] = picture(options, style);
+  return film;
+}
+
+std::optional<Json> readRunFile(const std::filesystem::path& folder) {
+  std::ifstream in(folder / "run.json");
+  Json run = Json::parse(in, nullptr, false);
+  if (!run.is_object() || run.value("format", Json()) != kFormat) return std::nullopt;
+  return run;
+}
+
+std::string difference(const Json& film, const Json& run_file) {
+  const Json changes = Json::diff(fixedPart(film), fixedPart(run_file));
+  if (changes.empty()) return {};
+  return changes[0]["path"].get<std::string>().substr(1);
+}
+
+void RunFile::add(const Snapshot& snapshot) {
+  for (const Event& event : snapshot.events) {
+    JsonText text;
+    writeEvent(text, event, &snapshot);
+    events_ += fmt::format("{}\n    {}", events_.empty() ? "" : ",", text.text());
+  }
+}
+
+void RunFile::write(bool complete, const std::string& description, const std::string& failure) {
+  Json out = film_;
+  out["steps"] = frames_.steps;
+  out["frames"] = {{"first", frames_.from}, {"last", frames_.to}, {"pattern", "frame_%06d.png"}};
+  out["complete"] = complete;
+  if (!description.empty()) out["description"] = description;
+  if (!failure.empty()) out["failure"] = failure;
+  std::string text = out.dump(2, ' ', false, Json::error_handler_t::replace);
+  text.erase(text.size() - 2);  // "\n}"
+  text += fmt::format(",\n  \"events\": [{}\n  ]\n}}\n", events_);
+  writeFile(folder_ / "run.json", text, {.everything = true});
+}
+
+}  // namespace merge2d
