@@ -44,7 +44,9 @@ ApngWriter::~ApngWriter() {
   std::filesystem::remove(temporary_, ignored);
 }
 
-void ApngWriter::add(const Image& image, bool alpha) { add(encodePng(image, {.alpha = alpha})); }
+void ApngWriter::add(const Picture& picture, bool alpha) {
+  add(encodePng(picture, {.alpha = alpha}));
+}
 
 void ApngWriter::add(std::span<const std::uint8_t> png) {
   PngChunks chunks(png);

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <span>
 
-#include "render/image.h"
+#include "render/picture.h"
 
 namespace merge2d {
 
@@ -23,7 +23,7 @@ class ApngWriter {
   /// A frame as the bytes of a PNG file. Throws IoError for another size or kind of pixels than
   /// the first frame's, and for odd sizes.
   void add(std::span<const std::uint8_t> png);
-  void add(const Image& image, bool alpha = false);
+  void add(const Picture& picture, bool alpha = false);
   void finish();
 
   std::uint32_t frames() const { return frames_; }

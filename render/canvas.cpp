@@ -177,7 +177,7 @@ void Canvas::describeInstances() {
   gl_->GenTextures(1, &atlas_texture_);
 }
 
-Image Canvas::draw(const Drawing& drawing) {
+Picture Canvas::draw(const Drawing& drawing) {
   gl_ = &context_->makeCurrent();
   const Color c = drawing.background;
   const float alpha = static_cast<float>(c.a) / 255.0F;
@@ -237,14 +237,14 @@ void Canvas::drawInstances(Kind kind, const std::vector<Instance>& instances) {
   gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
 }
 
-Image Canvas::read(bool opaque) {
-  Image image(width_, height_);
-  gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  if (!opaque) unpremultiply(image.rgba);
+Picture Canvas::read(bool opaque) {
+  Picture picture(width_, height_);
+  gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
+  if (!opaque) unpremultiply(picture.rgba);
   if (const GLenum error = gl_->GetError(); error != GL_NO_ERROR) {
     throw IoError(fmt::format("OpenGL error 0x{:04x} while drawing", error));
   }
-  return image;
+  return picture;
 }
 
 }  // namespace merge2d

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "render/drawing.h"
-#include "render/image.h"
+#include "render/picture.h"
 #include "render/text.h"
 
 namespace merge2d {
@@ -34,7 +34,7 @@ class Canvas {
   /// What draws: "4.5 (Core Profile) Mesa 22.3.6, llvmpipe (…)".
   std::string description();
 
-  Image draw(const Drawing& drawing);
+  Picture draw(const Drawing& drawing);
 
  private:
   enum Kind : std::size_t { Shapes, Arrows, Glyphs, kKinds };
@@ -47,7 +47,7 @@ class Canvas {
   void drawLayer(const Layer& layer);
   template <class Instance>
   void drawInstances(Kind kind, const std::vector<Instance>& instances);
-  Image read(bool opaque);
+  Picture read(bool opaque);
 
   int width_, height_;
   std::unique_ptr<Context> context_;

@@ -200,7 +200,7 @@ std::vector<double> ticks(double low, double high, int wanted) {
   return out;
 }
 
-Image drawChart(Canvas& canvas, const Chart& chart, const Theme& theme) {
+Picture drawChart(Canvas& canvas, const Chart& chart, const Theme& theme) {
   Drawing drawing;
   drawing.background = theme.background;
   Painter painter(drawing, canvas.text());

@@ -26,6 +26,6 @@ struct Chart {
 std::vector<double> ticks(double low, double high, int wanted);
 
 /// Fills the canvas. Each line has its name at its end; there are four colours (Theme::lines).
-Image drawChart(Canvas& canvas, const Chart& chart, const Theme& theme = lightTheme());
+Picture drawChart(Canvas& canvas, const Chart& chart, const Theme& theme = lightTheme());
 
 }  // namespace merge2d

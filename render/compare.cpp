@@ -11,7 +11,7 @@ namespace merge2d {
 namespace {
 
 /// The largest difference of a channel of one pixel.
-int pixelDifference(const Image& a, const Image& b, std::size_t offset) {
+int pixelDifference(const Picture& a, const Picture& b, std::size_t offset) {
   int largest = 0;
   for (std::size_t c = offset; c < offset + 4; ++c) {
     largest = std::max(largest, std::abs(int{a.rgba[c]} - int{b.rgba[c]}));
@@ -21,8 +21,8 @@ int pixelDifference(const Image& a, const Image& b, std::size_t offset) {
 
 }  // namespace
 
-ImageDifference compareImages(const Image& a, const Image& b, int tolerance) {
-  ImageDifference out;
+PictureDifference comparePictures(const Picture& a, const Picture& b, int tolerance) {
+  PictureDifference out;
   out.same_size = a.width == b.width && a.height == b.height;
   if (!out.same_size) return {.same_size = false, .fraction = 1.0, .largest = 255};
   std::size_t different = 0;
@@ -36,8 +36,8 @@ ImageDifference compareImages(const Image& a, const Image& b, int tolerance) {
   return out;
 }
 
-Image differenceImage(const Image& a, const Image& b, int tolerance) {
-  Image out(std::min(a.width, b.width), std::min(a.height, b.height));
+Picture differencePicture(const Picture& a, const Picture& b, int tolerance) {
+  Picture out(std::min(a.width, b.width), std::min(a.height, b.height));
   for (int y = 0; y < out.height; ++y) {
     for (int x = 0; x < out.width; ++x) {
       const Color p = a.at(x, y), q = b.at(x, y);
@@ -52,21 +52,21 @@ Image differenceImage(const Image& a, const Image& b, int tolerance) {
   return out;
 }
 
-std::string compareWithReference(const Image& image, const std::filesystem::path& reference,
+std::string compareWithReference(const Picture& picture, const std::filesystem::path& reference,
                                  const std::filesystem::path& out, double allowed_fraction) {
   std::filesystem::create_directories(out);
   const std::filesystem::path copy = out / reference.filename();
   if (!std::filesystem::exists(reference)) {
-    savePng(copy, image, {.alpha = true});
+    savePng(copy, picture, {.alpha = true});
     return fmt::format("{} is missing; the picture is {}", reference.string(), copy.string());
   }
-  const Image expected = loadPng(reference);
-  const ImageDifference found = compareImages(expected, image);
+  const Picture expected = loadPng(reference);
+  const PictureDifference found = comparePictures(expected, picture);
   if (found.same_size && found.fraction <= allowed_fraction) return {};
-  savePng(copy, image, {.alpha = true});
+  savePng(copy, picture, {.alpha = true});
   std::filesystem::path where = copy;
   where.replace_extension(".difference.png");
-  savePng(where, differenceImage(expected, image));
+  savePng(where, differencePicture(expected, picture));
   return fmt::format("{}: {:.2f}% of the pixels differ, by up to {} of 255; see {} and {}",
                      reference.string(), 100.0 * found.fraction, found.largest, copy.string(),
                      where.string());

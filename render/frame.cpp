@@ -47,13 +47,13 @@ FrameDrawer::FrameDrawer(const std::vector<BodyInfo>& bodies, FrameStyle style)
       looks_(bodies),
       canvas_(style_.width, style_.height) {}
 
-Image FrameDrawer::draw(const Snapshot& snapshot) {
+Picture FrameDrawer::draw(const Snapshot& snapshot) {
   const CollectionSlots slots = colors_.update(snapshot);
   return canvas_.draw(composeFrame(canvas_.text(), snapshot, bodies_, looks_, style_, slots));
 }
 
-Image drawFrame(Canvas& canvas, const Snapshot& snapshot, const std::vector<BodyInfo>& bodies,
-                const FrameStyle& style) {
+Picture drawFrame(Canvas& canvas, const Snapshot& snapshot, const std::vector<BodyInfo>& bodies,
+                  const FrameStyle& style) {
   const CollectionSlots slots = CollectionColors().update(snapshot);
   return canvas.draw(
       composeFrame(canvas.text(), snapshot, bodies, BodyLooks(bodies), style, slots));

@@ -26,7 +26,7 @@ class FrameDrawer {
   FrameDrawer(const std::vector<BodyInfo>& bodies, FrameStyle style);
 
   const FrameStyle& style() const { return style_; }
-  Image draw(const Snapshot& snapshot);
+  Picture draw(const Snapshot& snapshot);
 
  private:
   const std::vector<BodyInfo>& bodies_;
@@ -37,7 +37,7 @@ class FrameDrawer {
 };
 
 /// A single picture.
-Image drawFrame(Canvas& canvas, const Snapshot& snapshot, const std::vector<BodyInfo>& bodies,
-                const FrameStyle& style);
+Picture drawFrame(Canvas& canvas, const Snapshot& snapshot, const std::vector<BodyInfo>& bodies,
+                  const FrameStyle& style);
 
 }  // namespace merge2d

@@ -32,13 +32,13 @@ struct Compressor {
 };
 
 /// Rows as PNG stores them: a filter byte (0, none) and the pixels.
-Bytes rawRows(const Image& image, bool alpha) {
-  const auto width = static_cast<std::size_t>(image.width);
+Bytes rawRows(const Picture& picture, bool alpha) {
+  const auto width = static_cast<std::size_t>(picture.width);
   const std::size_t channels = alpha ? 4 : 3;
-  Bytes raw(static_cast<std::size_t>(image.height) * (1 + channels * width));
-  const std::uint8_t* from = image.rgba.data();
+  Bytes raw(static_cast<std::size_t>(picture.height) * (1 + channels * width));
+  const std::uint8_t* from = picture.rgba.data();
   std::uint8_t* to = raw.data();
-  for (int y = 0; y < image.height; ++y) {
+  for (int y = 0; y < picture.height; ++y) {
     *to++ = 0;
     if (alpha) {
       std::memcpy(to, from, 4 * width);
@@ -106,16 +106,16 @@ std::string reason() { return std::generic_category().message(errno); }
 
 }  // namespace
 
-std::vector<std::uint8_t> encodePng(const Image& image, const PngOptions& options) {
-  Bytes data = compressed(rawRows(image, options.alpha));
+std::vector<std::uint8_t> encodePng(const Picture& picture, const PngOptions& options) {
+  Bytes data = compressed(rawRows(picture, options.alpha));
   Bytes out;
   out.reserve(data.size() + 1024);
   const Writer writer;
   png_structp png = writer.png;
   png_infop info = writer.info;
   png_set_write_fn(png, &out, appendBytes, nullptr);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
-               static_cast<png_uint_32>(image.height), 8,
+  png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width),
+               static_cast<png_uint_32>(picture.height), 8,
                options.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   setDescription(png, info, options.description);
@@ -125,7 +125,7 @@ std::vector<std::uint8_t> encodePng(const Image& image, const PngOptions& option
   return out;
 }
 
-Image decodePng(std::span<const std::uint8_t> bytes) {
+Picture decodePng(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 8 || png_sig_cmp(bytes.data(), 0, 8) != 0) throw IoError("not a PNG file");
   Source source{bytes};
   const Reader reader;
@@ -141,13 +141,14 @@ Image decodePng(std::span<const std::uint8_t> bytes) {
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
 
-  Image image(static_cast<int>(png_get_image_width(png, info)),
-              static_cast<int>(png_get_image_height(png, info)));
+  Picture picture(static_cast<int>(png_get_image_width(png, info)),
+                  static_cast<int>(png_get_image_height(png, info)));
   std::vector<png_bytep> rows;
-  for (int y = 0; y < image.height; ++y) rows.push_back(image.rgba.data() + image.offset(0, y));
+  for (int y = 0; y < picture.height; ++y)
+    rows.push_back(picture.rgba.data() + picture.offset(0, y));
   png_read_image(png, rows.data());
   png_read_end(png, nullptr);
-  return image;
+  return picture;
 }
 
 PngSummary inspectPng(std::span<const std::uint8_t> bytes) {
@@ -163,7 +164,7 @@ PngSummary inspectPng(std::span<const std::uint8_t> bytes) {
   return out;
 }
 
-std::vector<std::uint8_t> readFile(const std::filesystem::path& file) {
+std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in) throw IoError(fmt::format("cannot read {}: {}", file.string(), reason()));
   Bytes bytes(static_cast<std::size_t>(in.tellg()));

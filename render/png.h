@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/image.h"
+#include "render/picture.h"
 
 namespace merge2d {
 
@@ -17,10 +17,10 @@ struct PngOptions {
 };
 
 /// The bytes of a PNG file: fast rather than small, and nothing but the picture in them (no dates).
-std::vector<std::uint8_t> encodePng(const Image& image, const PngOptions& options = {});
+std::vector<std::uint8_t> encodePng(const Picture& picture, const PngOptions& options = {});
 
 /// Throws IoError for what is not a PNG, is damaged, or is larger than 8192 pixels a side.
-Image decodePng(std::span<const std::uint8_t> bytes);
+Picture decodePng(std::span<const std::uint8_t> bytes);
 
 /// What can be told of a file without decoding it.
 struct PngSummary {
@@ -30,15 +30,15 @@ struct PngSummary {
 PngSummary inspectPng(std::span<const std::uint8_t> bytes);
 
 /// Throws IoError.
-std::vector<std::uint8_t> readFile(const std::filesystem::path& file);
+std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file);
 
 /// The file appears with all its bytes or not at all. Throws IoError.
 void writeAtomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
-inline Image loadPng(const std::filesystem::path& file) { return decodePng(readFile(file)); }
-inline void savePng(const std::filesystem::path& file, const Image& image,
+inline Picture loadPng(const std::filesystem::path& file) { return decodePng(readFileBytes(file)); }
+inline void savePng(const std::filesystem::path& file, const Picture& picture,
                     const PngOptions& options = {}) {
-  writeAtomically(file, encodePng(image, options));
+  writeAtomically(file, encodePng(picture, options));
 }
 
 }  // namespace merge2d

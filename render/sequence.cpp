@@ -77,7 +77,7 @@ class Queue {
 bool isComplete(const std::filesystem::path& file, const FrameStyle& style) {
   std::error_code missing;
   if (!std::filesystem::is_regular_file(file, missing)) return false;
-  const PngSummary found = inspectPng(readFile(file));
+  const PngSummary found = inspectPng(readFileBytes(file));
   return found.complete && found.width == style.width && found.height == style.height;
 }
 
@@ -127,11 +127,11 @@ struct SequenceWriter::Impl {
 
   void drawAndWrite(Canvas& canvas, const Job& job) {
     const Clock::time_point start = Clock::now();
-    const Image image =
+    const Picture picture =
         canvas.draw(composeFrame(canvas.text(), job.snapshot, bodies, looks, style, job.slots));
     const double draw_seconds = secondsSince(start);
     const std::vector<std::uint8_t> png = encodePng(
-        image, {.alpha = style.transparent, .description = describe(job.snapshot, style)});
+        picture, {.alpha = style.transparent, .description = describe(job.snapshot, style)});
     writeAtomically(job.file, png);
 
     const std::lock_guard lock(mutex);

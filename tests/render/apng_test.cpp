@@ -17,11 +17,11 @@ TEST(Apng, HoldsAllFramesInOrder) {
   const TemporaryFolder folder;
   ApngWriter writer(folder.path() / "a.png", 25);
   for (const std::uint32_t color : {0xff0000U, 0x00ff00U, 0x0000ffU})
-    writer.add(Image(16, 8, rgb(color)));
+    writer.add(Picture(16, 8, rgb(color)));
   writer.finish();
   EXPECT_EQ(folder.count(), 1U);
 
-  const auto bytes = readFile(folder.path() / "a.png");
+  const auto bytes = readFileBytes(folder.path() / "a.png");
   std::vector<std::string> types;
   std::uint32_t sequence = 0;
   PngChunks chunks(bytes);
@@ -46,11 +46,11 @@ TEST(Apng, HoldsAllFramesInOrder) {
 TEST(Apng, AFrameCanBeTakenOutAgain) {
   const TemporaryFolder folder;
   ApngWriter writer(folder.path() / "a.png", 30);
-  writer.add(Image(16, 8, rgb(0xff0000)));
-  writer.add(Image(16, 8, rgb(0x0000ff)));
+  writer.add(Picture(16, 8, rgb(0xff0000)));
+  writer.add(Picture(16, 8, rgb(0x0000ff)));
   writer.finish();
   // The second frame's data without its sequence number is the data of a PNG file.
-  const auto bytes = readFile(folder.path() / "a.png");
+  const auto bytes = readFileBytes(folder.path() / "a.png");
   std::vector<std::uint8_t> png(kPngSignature.begin(), kPngSignature.end());
   const auto append = [&](const std::vector<std::uint8_t>& b) {
     png.insert(png.end(), b.begin(), b.end());
@@ -67,8 +67,8 @@ TEST(Apng, AFrameCanBeTakenOutAgain) {
 TEST(Apng, ReadersWithoutAnimationSeeTheFirstFrame) {
   const TemporaryFolder folder;
   ApngWriter writer(folder.path() / "a.png", 30);
-  writer.add(Image(16, 8, rgb(0xff0000)));
-  writer.add(Image(16, 8, rgb(0x0000ff)));
+  writer.add(Picture(16, 8, rgb(0xff0000)));
+  writer.add(Picture(16, 8, rgb(0x0000ff)));
   writer.finish();
   EXPECT_EQ(loadPng(folder.path() / "a.png").at(3, 3), rgb(0xff0000));
 }
@@ -76,18 +76,18 @@ TEST(Apng, ReadersWithoutAnimationSeeTheFirstFrame) {
 TEST(Apng, RefusesOddSizesAndFramesThatDiffer) {
   const TemporaryFolder folder;
   ApngWriter odd(folder.path() / "odd.png", 30);
-  EXPECT_THROW(odd.add(Image(15, 8)), IoError);
+  EXPECT_THROW(odd.add(Picture(15, 8)), IoError);
   ApngWriter writer(folder.path() / "a.png", 30);
-  writer.add(Image(16, 8));
-  EXPECT_THROW(writer.add(Image(18, 8)), IoError);
-  EXPECT_THROW(writer.add(Image(16, 8), true), IoError);
+  writer.add(Picture(16, 8));
+  EXPECT_THROW(writer.add(Picture(18, 8)), IoError);
+  EXPECT_THROW(writer.add(Picture(16, 8), true), IoError);
 }
 
 TEST(Apng, LeavesNothingBehindWhenItIsNotFinished) {
   const TemporaryFolder folder;
   {
     ApngWriter writer(folder.path() / "a.png", 30);
-    writer.add(Image(16, 8));
+    writer.add(Picture(16, 8));
   }
   EXPECT_EQ(folder.count(), 0U);
 }

@@ -22,13 +22,13 @@ class CanvasTest : public testing::Test {
     drawing.background = kBlack;
     painter.beginLayer();
   }
-  Image draw() { return canvas.draw(drawing); }
+  Picture draw() { return canvas.draw(drawing); }
 
   /// How many pixels white covers on black.
-  static double coveredArea(const Image& image) {
+  static double coveredArea(const Picture& picture) {
     double sum = 0.0;
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) sum += image.at(x, y).r / 255.0;
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) sum += picture.at(x, y).r / 255.0;
     }
     return sum;
   }
@@ -40,20 +40,20 @@ class CanvasTest : public testing::Test {
 
 TEST_F(CanvasTest, FillsTheWholePictureWithTheBackground) {
   drawing.background = rgb(0x123456);
-  const Image image = draw();
-  EXPECT_EQ(image.at(0, 0), rgb(0x123456));
-  EXPECT_EQ(image.at(119, 79), rgb(0x123456));
+  const Picture picture = draw();
+  EXPECT_EQ(picture.at(0, 0), rgb(0x123456));
+  EXPECT_EQ(picture.at(119, 79), rgb(0x123456));
 }
 
 TEST_F(CanvasTest, LeavesATransparentBackgroundTransparent) {
   drawing.background = {};
   painter.disc({60.0F, 40.0F}, 20.0F, {.fill = kRed});
-  const Image image = draw();
-  EXPECT_EQ(image.at(2, 2).a, 0);
-  EXPECT_EQ(image.at(60, 40), kRed);
+  const Picture picture = draw();
+  EXPECT_EQ(picture.at(2, 2).a, 0);
+  EXPECT_EQ(picture.at(60, 40), kRed);
   // On the edge the colour stays what it is; only its opacity goes down.
   for (int x = 35; x < 45; ++x) {
-    const Color c = image.at(x, 40);
+    const Color c = picture.at(x, 40);
     if (c.a > 8) {
       EXPECT_GE(c.r, 250) << "at " << x;
     }
@@ -90,10 +90,10 @@ TEST_F(CanvasTest, APolygonAndABoxOfTheSameShapeLookTheSame) {
       {20.5F, 10.25F}, {90.5F, 10.25F}, {90.5F, 60.0F}, {20.5F, 60.0F}};
   const Paint paint{.fill = kRed, .outline = kWhite, .line = 2.0F};
   painter.polygon(corners, 0.0F, paint);
-  const Image polygon = draw();
+  const Picture polygon = draw();
   drawing.layers.back().shapes.clear();
   painter.box({20.5F, 10.25F, 70.0F, 49.75F}, 0.0F, paint);
-  const Image box = draw();
+  const Picture box = draw();
   for (std::size_t i = 0; i < box.rgba.size(); ++i) {
     ASSERT_NEAR(int{box.rgba[i]}, int{polygon.rgba[i]}, 1) << "byte " << i;
   }
@@ -101,37 +101,37 @@ TEST_F(CanvasTest, APolygonAndABoxOfTheSameShapeLookTheSame) {
 
 TEST_F(CanvasTest, EdgesOnPixelBordersAreSharp) {
   painter.box({20.0F, 10.0F, 30.0F, 20.0F}, 0.0F, {.fill = kWhite});
-  const Image image = draw();
-  EXPECT_EQ(image.at(19, 15), kBlack);
-  EXPECT_EQ(image.at(20, 15), kWhite);
-  EXPECT_EQ(image.at(49, 29), kWhite);
-  EXPECT_EQ(image.at(50, 29), kBlack);
+  const Picture picture = draw();
+  EXPECT_EQ(picture.at(19, 15), kBlack);
+  EXPECT_EQ(picture.at(20, 15), kWhite);
+  EXPECT_EQ(picture.at(49, 29), kWhite);
+  EXPECT_EQ(picture.at(50, 29), kBlack);
 }
 
 TEST_F(CanvasTest, AnEdgeInTheMiddleOfAPixelIsHalfCovered) {
   painter.box({20.5F, 10.0F, 30.0F, 20.0F}, 0.0F, {.fill = kWhite});
-  const Image image = draw();
-  EXPECT_NEAR(image.at(20, 15).r, 128, 2);
-  EXPECT_NEAR(image.at(50, 15).r, 128, 2);
+  const Picture picture = draw();
+  EXPECT_NEAR(picture.at(20, 15).r, 128, 2);
+  EXPECT_NEAR(picture.at(50, 15).r, 128, 2);
 }
 
 TEST_F(CanvasTest, TheOutlineLiesInsideOfTheBoundary) {
   painter.box({20.0F, 10.0F, 30.0F, 20.0F}, 0.0F, {.fill = kRed, .outline = kWhite, .line = 2.0F});
-  const Image image = draw();
-  EXPECT_EQ(image.at(19, 20), kBlack);
-  EXPECT_EQ(image.at(20, 20), kWhite);
-  EXPECT_EQ(image.at(21, 20), kWhite);
-  EXPECT_EQ(image.at(22, 20), kRed);
+  const Picture picture = draw();
+  EXPECT_EQ(picture.at(19, 20), kBlack);
+  EXPECT_EQ(picture.at(20, 20), kWhite);
+  EXPECT_EQ(picture.at(21, 20), kWhite);
+  EXPECT_EQ(picture.at(22, 20), kRed);
 }
 
 TEST_F(CanvasTest, LaterShapesLieOverEarlierOnes) {
   painter.disc({60.0F, 40.0F}, 20.0F, {.fill = kRed});
   painter.box({50.0F, 30.0F, 20.0F, 20.0F}, 0.0F, {.fill = kBlue});
   painter.disc({60.0F, 40.0F}, 5.0F, {.fill = kWhite});
-  const Image image = draw();
-  EXPECT_EQ(image.at(60, 24), kRed);
-  EXPECT_EQ(image.at(52, 32), kBlue);
-  EXPECT_EQ(image.at(60, 40), kWhite);
+  const Picture picture = draw();
+  EXPECT_EQ(picture.at(60, 24), kRed);
+  EXPECT_EQ(picture.at(52, 32), kBlue);
+  EXPECT_EQ(picture.at(60, 40), kWhite);
 }
 
 TEST_F(CanvasTest, HatchingCoversItsShareOfTheFill) {
@@ -150,13 +150,13 @@ TEST_F(CanvasTest, ALineHasItsWidth) {
 
 TEST_F(CanvasTest, AnArrowReachesFromItsTailToItsTip) {
   painter.arrow({10.0F, 40.0F}, {100.0F, 40.0F}, {.color = kWhite, .width = 4.0F});
-  const Image image = draw();
-  EXPECT_EQ(image.at(10, 40), kWhite);
-  EXPECT_EQ(image.at(96, 40), kWhite);
-  EXPECT_EQ(image.at(8, 40), kBlack);
-  EXPECT_EQ(image.at(101, 40), kBlack);
-  EXPECT_EQ(image.at(86, 34), kWhite) << "the head is wider than the shaft";
-  EXPECT_EQ(image.at(60, 34), kBlack);
+  const Picture picture = draw();
+  EXPECT_EQ(picture.at(10, 40), kWhite);
+  EXPECT_EQ(picture.at(96, 40), kWhite);
+  EXPECT_EQ(picture.at(8, 40), kBlack);
+  EXPECT_EQ(picture.at(101, 40), kBlack);
+  EXPECT_EQ(picture.at(86, 34), kWhite) << "the head is wider than the shaft";
+  EXPECT_EQ(picture.at(60, 34), kBlack);
 }
 
 TEST_F(CanvasTest, ALayerIsClippedToItsBox) {
@@ -164,21 +164,21 @@ TEST_F(CanvasTest, ALayerIsClippedToItsBox) {
   painter.box({0.0F, 0.0F, 120.0F, 80.0F}, 0.0F, {.fill = kWhite});
   painter.beginLayer();
   painter.box({0.0F, 0.0F, 5.0F, 5.0F}, 0.0F, {.fill = kRed});
-  const Image image = draw();
-  EXPECT_EQ(image.at(29, 25), kBlack);
-  EXPECT_EQ(image.at(30, 20), kWhite);
-  EXPECT_EQ(image.at(69, 49), kWhite);
-  EXPECT_EQ(image.at(69, 50), kBlack);
-  EXPECT_EQ(image.at(2, 2), kRed);
+  const Picture picture = draw();
+  EXPECT_EQ(picture.at(29, 25), kBlack);
+  EXPECT_EQ(picture.at(30, 20), kWhite);
+  EXPECT_EQ(picture.at(69, 49), kWhite);
+  EXPECT_EQ(picture.at(69, 50), kBlack);
+  EXPECT_EQ(picture.at(2, 2), kRed);
 }
 
 TEST_F(CanvasTest, TextLeavesInkWhereItStands) {
   painter.write("C1", {16, Weight::Bold}, {20.0F, 40.0F}, kWhite);
-  const Image image = draw();
-  EXPECT_GT(coveredArea(image), 60.0);
+  const Picture picture = draw();
+  EXPECT_GT(coveredArea(picture), 60.0);
   for (int x = 0; x < 120; ++x) {
-    EXPECT_EQ(image.at(x, 45), kBlack);
-    EXPECT_EQ(image.at(x, 20), kBlack);
+    EXPECT_EQ(picture.at(x, 45), kBlack);
+    EXPECT_EQ(picture.at(x, 20), kBlack);
   }
 }
 
@@ -192,7 +192,7 @@ TEST_F(CanvasTest, NewLettersAppearInLaterPictures) {
 
 TEST_F(CanvasTest, SeveralCanvasesOnOneThreadDoNotDisturbEachOther) {
   painter.disc({60.0F, 40.0F}, 20.0F, {.fill = kRed});
-  const Image before = draw();
+  const Picture before = draw();
   Canvas other(64, 48);
   Drawing blue;
   blue.background = kBlue;

@@ -30,11 +30,11 @@ Chart sample() {
 }
 
 /// Rows with a pixel of this colour.
-int rowsWith(const Image& image, Color color) {
+int rowsWith(const Picture& picture, Color color) {
   int rows = 0;
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      if (image.at(x, y) != color) continue;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (picture.at(x, y) != color) continue;
       ++rows;
       break;
     }
@@ -44,9 +44,9 @@ int rowsWith(const Image& image, Color color) {
 
 TEST(Chart, DrawsALineForEachSeries) {
   Canvas canvas(640, 400);
-  const Image image = drawChart(canvas, sample());
+  const Picture picture = drawChart(canvas, sample());
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_GT(rowsWith(image, lightTheme().lines[i]), 8) << i;
+    EXPECT_GT(rowsWith(picture, lightTheme().lines[i]), 8) << i;
   }
 }
 

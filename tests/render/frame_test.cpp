@@ -16,20 +16,21 @@ namespace {
 using samples::Sample;
 using samples::styleOf;
 
-Image drawn(const Sample& sample, const FrameStyle& style) {
+Picture drawn(const Sample& sample, const FrameStyle& style) {
   return FrameDrawer(sample.bodies, style).draw(sample.snapshot);
 }
 
 /// Compares with frames/reference/NAME.png; MERGE2D_UPDATE_REFERENCES=1 writes it instead.
-void expectLikeReference(const Image& image, const std::string& name) {
+void expectLikeReference(const Picture& picture, const std::string& name) {
   const std::filesystem::path source = MERGE2D_SOURCE_DIR, build = MERGE2D_BINARY_DIR;
   const std::filesystem::path reference = source / "frames" / "reference" / (name + ".png");
   if (std::getenv("MERGE2D_UPDATE_REFERENCES") != nullptr) {
     bool alpha = false;
-    for (std::size_t i = 3; i < image.rgba.size(); i += 4) alpha = alpha || image.rgba[i] != 255;
-    savePng(reference, image, {.alpha = alpha});
+    for (std::size_t i = 3; i < picture.rgba.size(); i += 4)
+      alpha = alpha || picture.rgba[i] != 255;
+    savePng(reference, picture, {.alpha = alpha});
   }
-  EXPECT_EQ(compareWithReference(image, reference, build / "test-pictures"), "");
+  EXPECT_EQ(compareWithReference(picture, reference, build / "test-pictures"), "");
 }
 
 TEST(FrameReference, MixedShapes) {
@@ -70,9 +71,9 @@ FrameStyle bare() {
 TEST(Frame, ABodyIsDrawnWhereItIsWithYUp) {
   Sample s;
   s.box({5.0, 3.0}, 2.0, 2.0);
-  const Image image = drawn(s, bare());
-  EXPECT_EQ(image.at(150, 20), lightTheme().free.fill);
-  EXPECT_EQ(image.at(150, 80), lightTheme().background);
+  const Picture picture = drawn(s, bare());
+  EXPECT_EQ(picture.at(150, 20), lightTheme().free.fill);
+  EXPECT_EQ(picture.at(150, 80), lightTheme().background);
 }
 
 TEST(Frame, LaterBodiesLieOverEarlierOnes) {
@@ -94,11 +95,11 @@ TEST(Frame, ColoursSayWhatABodyIs) {
   s.collect(1, {samples::id(2)});
   s.collect(2, {samples::id(3)}, true);
   const Theme& theme = lightTheme();
-  const Image image = drawn(s, bare());
-  EXPECT_EQ(image.at(20, 50), theme.free.fill);
-  EXPECT_EQ(image.at(60, 50), theme.asleep.fill);
-  EXPECT_EQ(image.at(100, 50), theme.collections[0].fill);
-  EXPECT_EQ(image.at(140, 50), theme.asleep.fill);
+  const Picture picture = drawn(s, bare());
+  EXPECT_EQ(picture.at(20, 50), theme.free.fill);
+  EXPECT_EQ(picture.at(60, 50), theme.asleep.fill);
+  EXPECT_EQ(picture.at(100, 50), theme.collections[0].fill);
+  EXPECT_EQ(picture.at(140, 50), theme.asleep.fill);
 }
 
 TEST(Frame, FixedBodiesAreHatchedAndNeverHaveTheColourOfACollection) {
@@ -106,10 +107,10 @@ TEST(Frame, FixedBodiesAreHatchedAndNeverHaveTheColourOfACollection) {
     Sample s;
     s.box({0.0, 0.0}, 10.0, 8.0, 0.0, motion);
     s.collect(1, {samples::id(0)});
-    const Image image = drawn(s, bare());
+    const Picture picture = drawn(s, bare());
     int plain = 0, striped = 0;
     for (int x = 60; x < 140; ++x) {
-      const Color c = image.at(x, 50);
+      const Color c = picture.at(x, 50);
       plain += c == lightTheme().fixed.fill ? 1 : 0;
       striped += difference(c, lightTheme().hatch) < 5.0 ? 1 : 0;
       EXPECT_GT(difference(c, lightTheme().collections[0].fill), 20.0);
@@ -130,10 +131,10 @@ TEST(Frame, NoSeamShinesThroughBetweenThePiecesOfABody) {
   s.add(
       {makeBox(3.0, 4.0, Pose::at({-1.5, 0.0}, 0.0)), makeBox(3.0, 4.0, Pose::at({1.5, 0.0}, 0.0))},
       {0.13, 0.0}, 0.3);
-  const Image image = drawn(s, bare());
+  const Picture picture = drawn(s, bare());
   for (int y = 40; y < 60; ++y) {
     for (int x = 85; x < 115; ++x) {
-      EXPECT_LT(difference(image.at(x, y), lightTheme().free.fill), 3.0) << x << ", " << y;
+      EXPECT_LT(difference(picture.at(x, y), lightTheme().free.fill), 3.0) << x << ", " << y;
     }
   }
 }
@@ -141,10 +142,10 @@ TEST(Frame, NoSeamShinesThroughBetweenThePiecesOfABody) {
 TEST(Frame, AHugeGroundHasItsEdgeWhereItBelongs) {
   Sample s;
   s.box({300.0, -5000.0}, 400000.0, 10000.0, 0.0, Motion::Pinned);
-  const Image image = drawn(s, bare());
-  EXPECT_EQ(image.at(100, 48), lightTheme().background);
-  EXPECT_NE(image.at(100, 50), lightTheme().background);
-  EXPECT_NE(image.at(100, 90), lightTheme().background);
+  const Picture picture = drawn(s, bare());
+  EXPECT_EQ(picture.at(100, 48), lightTheme().background);
+  EXPECT_NE(picture.at(100, 50), lightTheme().background);
+  EXPECT_NE(picture.at(100, 90), lightTheme().background);
 }
 
 TEST(Frame, ATransparentFrameHasNoBackground) {
@@ -152,9 +153,9 @@ TEST(Frame, ATransparentFrameHasNoBackground) {
   s.box({0.0, 0.0}, 4.0, 4.0);
   FrameStyle style = bare();
   style.transparent = true;
-  const Image image = drawn(s, style);
-  EXPECT_EQ(image.at(2, 2).a, 0);
-  EXPECT_EQ(image.at(100, 50), lightTheme().free.fill);
+  const Picture picture = drawn(s, style);
+  EXPECT_EQ(picture.at(2, 2).a, 0);
+  EXPECT_EQ(picture.at(100, 50), lightTheme().free.fill);
 }
 
 TEST(Frame, TheScaleBarIsAsLongAsItSays) {
@@ -165,14 +166,14 @@ TEST(Frame, TheScaleBarIsAsLongAsItSays) {
   style.height = 360;
   style.overlays.add(Overlay::Scale);
   style.camera.height = 10.0;
-  const Image image = drawn(s, style);
+  const Picture picture = drawn(s, style);
   const Layout layout = layoutOf(style.width, style.height, style.overlays);
   const double scale = double{layout.panel.height} / 10.0;
   const double expected = scale * roundLength(0.12 * double{layout.panel.width} / scale);
   const int y = static_cast<int>(layout.footer.y + 0.5F * layout.footer.height);
   int longest = 0, run = 0;
-  for (int x = 0; x < image.width; ++x) {
-    run = image.at(x, y) == lightTheme().ink ? run + 1 : 0;
+  for (int x = 0; x < picture.width; ++x) {
+    run = picture.at(x, y) == lightTheme().ink ? run + 1 : 0;
     longest = std::max(longest, run);
   }
   EXPECT_NEAR(longest, expected, 2.0);
@@ -183,7 +184,7 @@ TEST(Frame, EachOverlayChangesThePicture) {
   FrameStyle style = styleOf(s, "Overlays", 640, 360);
   for (const OverlayEntry& entry : kOverlayTable) {
     style.overlays = {};
-    const Image without = drawn(s, style);
+    const Picture without = drawn(s, style);
     style.overlays.add(entry.overlay);
     EXPECT_NE(drawn(s, style).rgba, without.rgba) << entry.name;
   }
@@ -193,7 +194,7 @@ TEST(Frame, ADrawingIsTheSameEachTime) {
   const Sample s = samples::mixture();
   const FrameStyle style = styleOf(s, "Twice", 320, 180, parseOverlays("all"));
   FrameDrawer drawer(s.bodies, style);
-  const Image first = drawer.draw(s.snapshot);
+  const Picture first = drawer.draw(s.snapshot);
   EXPECT_EQ(drawer.draw(s.snapshot).rgba, first.rgba);
   EXPECT_EQ(drawn(s, style).rgba, first.rgba);
   Canvas canvas(style.width, style.height);
@@ -203,9 +204,9 @@ TEST(Frame, ADrawingIsTheSameEachTime) {
 TEST(Frame, DrawsPicturesOfAnySize) {
   const Sample s = samples::mixture();
   for (const auto& [width, height] : {std::pair{2, 2}, {33, 17}, {100, 700}, {1900, 60}}) {
-    const Image image = drawn(s, styleOf(s, "Any size", width, height, parseOverlays("all")));
-    EXPECT_EQ(image.width, width);
-    EXPECT_EQ(image.height, height);
+    const Picture picture = drawn(s, styleOf(s, "Any size", width, height, parseOverlays("all")));
+    EXPECT_EQ(picture.width, width);
+    EXPECT_EQ(picture.height, height);
   }
 }
 

@@ -12,13 +12,13 @@ namespace merge2d {
 namespace {
 
 /// Colours and opacities of all kinds.
-Image gradient(int width, int height, bool opaque) {
-  Image image(width, height);
-  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
-    image.rgba[i] = static_cast<std::uint8_t>(i * 37 + i / 91);
-    if (opaque && i % 4 == 3) image.rgba[i] = 255;
+Picture gradient(int width, int height, bool opaque) {
+  Picture picture(width, height);
+  for (std::size_t i = 0; i < picture.rgba.size(); ++i) {
+    picture.rgba[i] = static_cast<std::uint8_t>(i * 37 + i / 91);
+    if (opaque && i % 4 == 3) picture.rgba[i] = 255;
   }
-  return image;
+  return picture;
 }
 
 std::vector<std::string> chunkTypes(const std::vector<std::uint8_t>& png) {
@@ -29,18 +29,18 @@ std::vector<std::string> chunkTypes(const std::vector<std::uint8_t>& png) {
 }
 
 TEST(Png, AnOpaquePictureComesBackAsItWas) {
-  const Image image = gradient(37, 21, true);
-  EXPECT_EQ(decodePng(encodePng(image)).rgba, image.rgba);
+  const Picture picture = gradient(37, 21, true);
+  EXPECT_EQ(decodePng(encodePng(picture)).rgba, picture.rgba);
 }
 
 TEST(Png, ATransparentPictureComesBackAsItWas) {
-  const Image image = gradient(37, 21, false);
-  EXPECT_EQ(decodePng(encodePng(image, {.alpha = true})).rgba, image.rgba);
+  const Picture picture = gradient(37, 21, false);
+  EXPECT_EQ(decodePng(encodePng(picture, {.alpha = true})).rgba, picture.rgba);
 }
 
 TEST(Png, WithoutAlphaOnlyColoursAreKept) {
-  const Image image = decodePng(encodePng(gradient(5, 4, false)));
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) EXPECT_EQ(image.rgba[i], 255);
+  const Picture picture = decodePng(encodePng(gradient(5, 4, false)));
+  for (std::size_t i = 3; i < picture.rgba.size(); i += 4) EXPECT_EQ(picture.rgba[i], 255);
 }
 
 TEST(Png, HoldsNothingButThePicture) {
@@ -95,7 +95,7 @@ TEST(WriteAtomically, LeavesOneFileWithAllBytes) {
   const TemporaryFolder folder;
   const std::vector<std::uint8_t> bytes = {1, 2, 3};
   writeAtomically(folder.path() / "a.png", bytes);
-  EXPECT_EQ(readFile(folder.path() / "a.png"), bytes);
+  EXPECT_EQ(readFileBytes(folder.path() / "a.png"), bytes);
   EXPECT_EQ(folder.count(), 1U);
 }
 
@@ -103,7 +103,7 @@ TEST(WriteAtomically, ReplacesWhatWasThere) {
   const TemporaryFolder folder;
   writeAtomically(folder.path() / "a", std::vector<std::uint8_t>{1, 2, 3});
   writeAtomically(folder.path() / "a", std::vector<std::uint8_t>{4});
-  EXPECT_EQ(readFile(folder.path() / "a"), (std::vector<std::uint8_t>{4}));
+  EXPECT_EQ(readFileBytes(folder.path() / "a"), (std::vector<std::uint8_t>{4}));
 }
 
 TEST(WriteAtomically, SaysWhichFileCannotBeWritten) {

@@ -45,7 +45,7 @@ class SequenceTest : public testing::Test {
 
   static Files read(const std::filesystem::path& from) {
     Files files;
-    for (int k = 0; k < kFrames; ++k) files.push_back(readFile(from / frameName(k)));
+    for (int k = 0; k < kFrames; ++k) files.push_back(readFileBytes(from / frameName(k)));
     return files;
   }
 };
@@ -60,7 +60,7 @@ TEST_F(SequenceTest, WritesAFrameForEachSnapshot) {
   EXPECT_EQ(stats.written, kFrames);
   EXPECT_EQ(stats.kept, 0);
   EXPECT_GT(stats.bytes, 1000U);
-  const Image first = loadPng(folder.path() / "new" / "folder" / "frame_000000.png");
+  const Picture first = loadPng(folder.path() / "new" / "folder" / "frame_000000.png");
   EXPECT_EQ(first.width, 160);
   EXPECT_EQ(first.height, 90);
 }
@@ -102,7 +102,7 @@ TEST_F(SequenceTest, SkippedSnapshotsDecideOnColoursToo) {
     for (int k = 5; k < kFrames; ++k) writer.add(frameOf(sample, k));
     writer.finish();
   }
-  EXPECT_EQ(readFile(late / frameName(0)), readFile(all / frameName(5)));
+  EXPECT_EQ(readFileBytes(late / frameName(0)), readFileBytes(all / frameName(5)));
 }
 
 TEST_F(SequenceTest, PassesOnWhatAWorkerThrew) {

@@ -10,16 +10,16 @@
 namespace merge2d {
 
 /// Rows from the top, straight (not premultiplied) RGBA.
-struct Image {
+struct Picture {
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
   std::vector<std::uint8_t> rgba;
 
-  Image() = default;
+  Picture() = default;
   /// Transparent.
-  Image(int w, int h)
+  Picture(int w, int h)
       : width(w), height(h), rgba(4 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
-  Image(int w, int h, Color fill) : Image(w, h) {
+  Picture(int w, int h, Color fill) : Picture(w, h) {
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
       rgba[i] = fill.r, rgba[i + 1] = fill.g, rgba[i + 2] = fill.b, rgba[i + 3] = fill.a;
     }
