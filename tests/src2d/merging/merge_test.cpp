@@ -1,0 +1,352 @@
+#include "src2d/merging/merge.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+const std::string kBox = kGround + R"(
+[[body]]
+name = "box"
+at = [0, 0.5]
+box = [1, 1]
+)";
+
+/// The step in which a body becomes a member, or 0 within `limit` steps.
+std::int64_t mergeStep(const std::string& toml, const std::string& body,
+                       const Overrides& overrides = {}, int limit = 500) {
+  Simulation run(toml, Mode::Merge, overrides);
+  for (int i = 0; i < limit; ++i) {
+    run.steps(1);
+    if (run.merged(body)) return run.world().steps();
+  }
+  return 0;
+}
+
+TEST(Merge, ABoxOnTheGroundMerges) {
+  const std::int64_t step = mergeStep(kBox, "box");
+  EXPECT_GT(step, 2);
+  EXPECT_LT(step, 150);
+}
+
+TEST(Merge, NothingMergesInTheModesWithoutMerging) {
+  for (const Mode mode : {Mode::Reference, Mode::Sleep}) {
+    Simulation run(kBox, mode);
+    run.steps(300, [&] { ASSERT_FALSE(run.merged("box")); });
+    EXPECT_EQ(run.count(EventType::Merge), 0);
+  }
+}
+
+TEST(Merge, NeedsTheGivenNumberOfConsecutiveSteps) {
+  const std::int64_t at_3 = mergeStep(kBox, "box", {{"merging.steps", "3"}});
+  const std::int64_t at_13 = mergeStep(kBox, "box", {{"merging.steps", "13"}});
+  EXPECT_EQ(at_13, at_3 + 10);
+}
+
+TEST(Merge, AnInterruptionStartsTheCountAnew) {
+  const std::int64_t undisturbed = mergeStep(kBox, "box", {{"merging.steps", "50"}});
+  ASSERT_GT(undisturbed, 50);
+  Simulation run(kBox, Mode::Merge, {{"merging.steps", "50"}});
+  run.steps(static_cast<int>(undisturbed) - 2);
+  run.kick("box", {2.0, 0.0});  // slides for 0.34 s
+  run.steps(34 + 45);
+  EXPECT_FALSE(run.merged("box"));
+  run.steps(60);
+  EXPECT_TRUE(run.merged("box"));
+}
+
+const std::string kPile = kGround + R"(
+[[body]]
+name = "b"
+at = [0, 0.6]
+box = [1, 1]
+repeat = { count = [3, 4], spacing = [1.05, 1.1], stagger = 0.4 }
+[[body]]
+name = "disc"
+at = [1, 6]
+circle = 0.5
+repeat = { count = [2, 1], spacing = [1.3, 1] }
+)";
+
+TEST(Merge, EveryMergedPairWasBelowAllThresholdsForTheGivenSteps) {
+  Simulation run(kPile, Mode::Merge, {}, true);
+  std::map<std::pair<BodyId, BodyId>, int> below;  // consecutive steps
+  const MergingSettings& merging = run.world().scene().settings.merging;
+  const std::map<std::string, double> thresholds{{"relative-motion", merging.velocity},
+                                                 {"sliding", merging.sliding},
+                                                 {"breathing", merging.breathing}};
+  run.steps(500, [&] {
+    const Snapshot now = run.now();
+    std::map<std::pair<BodyId, BodyId>, bool> ok;
+    for (const Decision& d : now.decisions) {
+      if (d.stage != "AccumulateRelativeMotion") continue;
+      const auto pair = std::pair(d.a, d.b);
+      if (!ok.contains(pair)) ok[pair] = true;
+      ok[pair] = ok[pair] && d.value < d.threshold;
+      if (!thresholds.contains(d.criterion)) continue;
+      EXPECT_EQ(d.threshold, thresholds.at(d.criterion));
+    }
+    for (auto& [pair, count] : below) count = ok.contains(pair) && ok[pair] ? count : 0;
+    for (const auto& [pair, good] : ok) below[pair] = good ? below[pair] + 1 : 0;
+    for (const Event& e : now.events) {
+      if (e.type != EventType::Merge) continue;
+      EXPECT_GE(below[std::pair(e.a, e.b)], merging.steps)
+          << "bodies " << index(e.a) << " and " << index(e.b) << " in step " << now.step;
+    }
+  });
+  EXPECT_GT(run.count(EventType::Merge), 5);
+}
+
+TEST(Merge, WaitsWhileTheContactBreathes) {
+  const std::int64_t strict = mergeStep(kPile, "b[1,3]", {{"merging.breathing", "1e-6"}});
+  const std::int64_t normal = mergeStep(kPile, "b[1,3]");
+  const std::int64_t loose = mergeStep(kPile, "b[1,3]", {{"merging.breathing", "1e-3"}});
+  ASSERT_GT(strict, 0);
+  ASSERT_GT(normal, 0);
+  ASSERT_GT(loose, 0);
+  EXPECT_GT(strict, normal);
+  EXPECT_GE(normal, loose);
+}
+
+// A box on a slope of 31°, a little steeper than arctan 0.6 = 30.96°: it slides off at 7 mm/s².
+const std::string kSteep = R"(
+format = 1
+[[body]]
+name = "slope"
+motion = "pinned"
+box = [40, 1]
+angle = 31
+[[body]]
+name = "box"
+at = [-0.5150380749, 0.8571673007]
+angle = 31
+box = [1, 1]
+)";
+
+TEST(Merge, APairOnTheEdgeOfItsConeWaits) { EXPECT_EQ(mergeStep(kSteep, "box"), 0); }
+
+TEST(Merge, APairOnTheEdgeOfItsConeMergesUnderThePapersRule) {
+  EXPECT_GT(mergeStep(kSteep, "box", {{"merging.rule", "\"paper\""}}), 0);
+}
+
+TEST(Merge, ABoxOnASlopeItCanHoldMerges) {
+  std::string gentle = kSteep;
+  for (std::size_t at; (at = gentle.find("angle = 31")) != std::string::npos;) {
+    gentle.replace(at, 10, "angle = 30");
+  }
+  gentle.replace(gentle.find("[-0.5150380749, 0.8571673007]"), 29, "[-0.5, 0.8660254038]");
+  EXPECT_GT(mergeStep(gentle, "box"), 0);
+}
+
+TEST(Merge, ADiscOnTheFloorIsNotWeldedAlone) {
+  const std::string disc = kGround + "[[body]]\nname = \"disc\"\nat = [0, 0.5]\ncircle = 0.5\n";
+  EXPECT_EQ(mergeStep(disc, "disc"), 0);
+  EXPECT_GT(mergeStep(disc, "disc", {{"merging.rule", "\"paper\""}}), 0);
+}
+
+const std::string kGroove = R"(
+format = 1
+[[body]]
+name = "groove"
+motion = "pinned"
+shapes = [ { box = [6, 1], at = [-2, 0], angle = -30 }, { box = [6, 1], at = [2, 0], angle = 30 } ]
+)";
+
+TEST(Merge, ADiscInAGrooveIsWelded) {
+  EXPECT_GT(mergeStep(kGroove + "[[body]]\nname = \"disc\"\nat = [0, 1.1]\ncircle = 0.8\n", "disc"),
+            0);
+}
+
+// Each disc rests on its own side of a flat groove and leans on the other: one contact per pair.
+const std::string kLeaning = R"(
+format = 1
+[[body]]
+name = "left"
+motion = "pinned"
+at = [-5, 0]
+box = [10, 1]
+angle = -10
+[[body]]
+name = "right"
+motion = "pinned"
+at = [5, 0]
+box = [10, 1]
+angle = 10
+[[body]]
+name = "disc"
+at = [-0.5, 0.22]
+circle = 0.5
+repeat = { count = [2, 1], spacing = [1, 1] }
+)";
+
+TEST(Merge, DiscsThatLeanOnEachOtherAreWeldedAsACycleOfThree) {
+  Simulation run(kLeaning, Mode::Merge);
+  run.until(5.0);
+  const Snapshot now = run.now();
+  int outer = 0;
+  for (const ContactView& c : now.contacts) outer += c.lambda_n > 0.0 ? 1 : 0;
+  ASSERT_EQ(outer, 3) << "three contacts carry a force";
+  EXPECT_TRUE(run.merged("disc[0,0]"));
+  EXPECT_EQ(run.collectionOf("disc[0,0]"), run.collectionOf("disc[1,0]"));
+}
+
+TEST(Merge, TwoDiscsStackedAreNotWelded) {
+  Simulation run(kGround + R"(
+[[body]]
+name = "disc"
+at = [0, 0.5]
+circle = 0.5
+[[body]]
+name = "upper"
+at = [0.001, 1.5]
+circle = 0.5
+)",
+                 Mode::Merge);
+  run.steps(500, [&] { ASSERT_FALSE(run.merged("upper")); });
+  EXPECT_LT(run.body("upper").x.y(), 0.7) << "it has fallen";
+}
+
+TEST(Merge, WeldedToAPinnedBodyIsAnchoredAndStill) {
+  Simulation run(kBox, Mode::Merge);
+  run.until(2.0);
+  const Snapshot now = run.now();
+  ASSERT_EQ(now.collections.size(), 1u);
+  EXPECT_TRUE(now.collections[0].anchored);
+  EXPECT_EQ(now.bodies[1].v, Vec2(0.0, 0.0));
+  EXPECT_EQ(now.bodies[1].omega, 0.0);
+}
+
+TEST(Merge, PairsOfDifferentFramesNeverMerge) {
+  // A long box lies on the ground and on a platform that drives away below it.
+  Simulation run(kGround + R"(
+[[body]]
+name = "platform"
+motion = "scripted"
+at = [6, -0.5]
+box = [4, 1]
+script = { velocity = [0.001, 0] }
+[[body]]
+name = "plank"
+at = [3, 0.55]
+box = [8, 0.2]
+[[body]]
+name = "block"
+at = [0, 0.2]
+box = [1, 0.4]
+[[body]]
+name = "step"
+at = [6, 0.2]
+box = [1, 0.4]
+)",
+                 Mode::Merge);
+  run.steps(400, [&] {
+    for (const CollectionView& c : run.now().collections) {
+      if (c.anchored) continue;
+      ASSERT_FALSE(std::isnan(c.x.x()));
+    }
+  });
+  const Pose ground = seenFrom(run.body("ground"), run.body("block"));
+  EXPECT_NEAR(ground.position.x(), 0.0, 0.05);
+}
+
+// ---- moving frames: three boxes on a platform, two high ----
+
+std::string onPlatform(const std::string& script, const std::string& motion_of_boxes) {
+  return R"(
+format = 1
+[[body]]
+name = "platform"
+motion = "scripted"
+at = [0, -0.5]
+box = [12, 1]
+script = )" +
+         script + R"(
+[[body]]
+name = "box"
+at = [-1, 0.5]
+box = [1, 1]
+repeat = { count = [2, 2], spacing = [1.5, 1] }
+)" + motion_of_boxes;
+}
+
+TEST(Merge, BoxesOnAUniformlyMovingPlatformMergeAsOnTheGround) {
+  const std::int64_t still = mergeStep(onPlatform("{ velocity = [0, 0] }", ""), "box[0,1]");
+  const std::int64_t moving =
+      mergeStep(onPlatform("{ velocity = [3, 0] }", "velocity = [3, 0]\n"), "box[0,1]");
+  ASSERT_GT(still, 0);
+  EXPECT_EQ(moving, still);
+}
+
+TEST(Merge, BoxesOnASlowlyTurningPlatformMerge) {
+  Simulation run(onPlatform("{ spin = 2 }", "spin = 2\n"), Mode::Merge);
+  run.until(3.0);
+  for (const char* name : {"box[0,0]", "box[1,0]", "box[0,1]", "box[1,1]"}) {
+    EXPECT_TRUE(run.merged(name)) << name;
+  }
+}
+
+TEST(Merge, BoxesInASpinningBoxMerge) {
+  Simulation run(R"(
+format = 1
+gravity = [0, 0]
+[[body]]
+name = "drum"
+motion = "scripted"
+script = { spin = 60 }
+shapes = [ { box = [9, 1], at = [0, -4] }, { box = [9, 1], at = [0, 4] },
+           { box = [1, 7], at = [-4, 0] }, { box = [1, 7], at = [4, 0] } ]
+[[body]]
+name = "low"
+at = [0, -3]
+velocity = [3.141592653589793, 0]
+spin = 60
+box = [1, 1]
+[[body]]
+name = "second"
+at = [0, -2]
+velocity = [2.0943951023931953, 0]
+spin = 60
+box = [1, 1]
+)",
+                 Mode::Merge);
+  run.until(4.0);
+  EXPECT_TRUE(run.merged("low"));
+  EXPECT_TRUE(run.merged("second"));
+  EXPECT_EQ(run.collectionOf("low"), run.collectionOf("second"));
+}
+
+TEST(Merge, AFloatingPlatformCarriesItsBoxesAsOneCollection) {
+  // A constant force carries raft and boxes, 13 kg.
+  Simulation run(R"(
+format = 1
+[[body]]
+name = "raft"
+at = [0, -0.5]
+box = [10, 1]
+velocity = [1, 0]
+[[body]]
+name = "box"
+at = [-1, 0.5]
+box = [1, 1]
+velocity = [1, 0]
+repeat = { count = [3, 1], spacing = [1, 1] }
+[[force]]
+body = "raft"
+force = [0, 127.53]
+)",
+                 Mode::Merge);
+  run.until(2.0);
+  const Snapshot now = run.now();
+  ASSERT_EQ(now.collections.size(), 1u);
+  const CollectionView& c = now.collections.front();
+  EXPECT_FALSE(c.anchored);
+  EXPECT_EQ(c.bodies.size(), 4u);
+  EXPECT_NEAR(c.mass, 13.0, 1e-12);
+  EXPECT_NEAR(c.v.x(), 1.0, 1e-9);
+  EXPECT_NEAR(c.v.y(), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace merge2d

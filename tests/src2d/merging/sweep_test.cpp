@@ -1,0 +1,205 @@
+#include "src2d/merging/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+constexpr int kBoxes = 10;
+
+const std::string kColumn = kGround + R"(
+[[body]]
+name = "box"
+at = [0, 0.5]
+box = [1, 1]
+mass = 2
+repeat = { count = [1, 10], spacing = [1, 1] }
+)";
+
+/// The largest error of the normal forces in a column with `load` [N] on top [N].
+double columnError(const Simulation& run, double load) {
+  const Snapshot now = run.now();
+  double worst = 0.0;
+  for (std::uint32_t i = 0; i < kBoxes; ++i) {  // below box i; body 0 is the ground
+    const double expected = (kBoxes - static_cast<double>(i)) * 2.0 * kGravity + load;
+    const double force = normalForce(now, BodyId{i}, BodyId{i + 1}, run.world().scene().step);
+    worst = std::max(worst, std::abs(force - expected));
+  }
+  return worst;
+}
+
+TEST(Sweep, HoldsAColumnsWeightExactly) {
+  Simulation run(kColumn, Mode::Merge);
+  run.until(10.0);
+  ASSERT_TRUE(run.merged("box[0,9]"));
+  ASSERT_EQ(run.now().stats.collections, 1);
+  EXPECT_LT(columnError(run, 0.0), 1e-9 * kBoxes * 2.0 * kGravity);
+}
+
+TEST(Sweep, ALoadOnTopReachesTheBottom) {
+  Simulation run(kColumn + R"(
+[[force]]
+body = "box[0,9]"
+at = [0, 0.5]
+force = [0, -50]
+from = 5.0
+)",
+                 Mode::Merge);
+  run.until(5.0);
+  ASSERT_TRUE(run.merged("box[0,9]"));
+  run.until(20.0);
+  ASSERT_TRUE(run.merged("box[0,9]"));
+  EXPECT_EQ(run.count(EventType::Unmerge), 0);
+  EXPECT_LT(columnError(run, 50.0), 1e-6 * 50.0);
+}
+
+TEST(Sweep, ABodyPutOnTopIsFeltAtTheBottom) {
+  Simulation run(kColumn + R"(
+[[body]]
+name = "late"
+at = [0, 10.55]
+box = [1, 1]
+mass = 5
+pinned_until = 5
+)",
+                 Mode::Merge);
+  run.until(20.0);
+  const Snapshot now = run.now();
+  EXPECT_NEAR(normalForce(now, BodyId{0}, BodyId{1}, 0.01), (20.0 + 5.0) * kGravity, 1e-3);
+}
+
+/// Two boxes which a spring of force 10 N presses together, turning about their centre.
+std::string spinner(double degrees_per_second) {
+  const double v = 0.5 * degrees_per_second * std::numbers::pi / 180.0;
+  return R"(
+format = 1
+gravity = [0, 0]
+[[body]]
+name = "a"
+at = [-0.5, 0]
+box = [1, 1]
+velocity = [0, )" +
+         std::to_string(-v) + R"(]
+spin = )" +
+         std::to_string(degrees_per_second) + R"(
+[[body]]
+name = "b"
+at = [0.5, 0]
+box = [1, 1]
+velocity = [0, )" +
+         std::to_string(v) + R"(]
+spin = )" +
+         std::to_string(degrees_per_second) + R"(
+[[spring]]
+body = "a"
+to_body = "b"
+to = [0, 0]
+stiffness = 20
+rest_length = 0.5
+)";
+}
+
+TEST(Sweep, HoldsASpinningMemberOnItsCircle) {
+  Simulation run(spinner(120.0), Mode::Merge);
+  run.until(5.0);
+  ASSERT_TRUE(run.merged("a"));
+  const Snapshot now = run.now();
+  const Vec2 apart = now.bodies[1].x - now.bodies[0].x;
+  const double spring = 20.0 * (apart.norm() - 0.5);
+  const double omega = now.collections.front().omega;
+  const double centripetal = omega * omega * 0.5 * apart.norm();  // m ω² r
+  ASSERT_GT(centripetal, 2.0);
+  const double pressed = normalForce(now, BodyId{0}, BodyId{1}, 0.01);
+  EXPECT_NEAR((spring - pressed) / centripetal, 1.0, 5e-4);
+}
+
+TEST(Sweep, HoldsABoxInASpinningDrumOnItsCircle) {
+  Simulation run(R"(
+format = 1
+gravity = [0, 0]
+[[body]]
+name = "drum"
+motion = "scripted"
+script = { spin = 60 }
+shapes = [ { box = [8, 1], at = [0, -2.5] }, { box = [8, 1], at = [0, 2.5] } ]
+[[body]]
+name = "box"
+at = [0, -1.5]
+box = [1, 1]
+velocity = [1.5707963267948966, 0]
+spin = 60
+)",
+                 Mode::Merge);
+  run.until(6.0);
+  ASSERT_TRUE(run.merged("box"));
+  const Snapshot now = run.now();
+  const double omega = std::numbers::pi / 3.0, r = now.bodies[1].x.norm();
+  EXPECT_NEAR(normalForce(now, BodyId{0}, BodyId{1}, 0.01) / (omega * omega * r), 1.0, 5e-4);
+}
+
+/// Remembers the impulses outside collections and looks whether the sweep changes them.
+class WarmStartGuard : public Observer {
+ public:
+  void afterStage(Stage stage, const State& state, const Scratch&) override {
+    if (stage == Stage::SleepAndWake) before_ = impulses(state);
+    if (stage != Stage::SingleIterationPGS) return;
+    EXPECT_EQ(impulses(state), before_) << "in step " << state.step + 1;
+    looked_ += before_.size();
+  }
+  std::size_t looked() const { return looked_; }
+
+ private:
+  static std::vector<double> impulses(const State& state) {
+    std::vector<double> all;
+    for (const ContactTable::Entry& entry : state.contacts.order) {
+      const Contact& contact = state.contacts[entry];
+      for (int i = 0; i < contact.count; ++i) {
+        const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];
+        all.insert(all.end(), {p.lambda_n, p.lambda_t});
+      }
+    }
+    return all;
+  }
+
+  std::vector<double> before_;
+  std::size_t looked_ = 0;
+};
+
+TEST(Sweep, LeavesTheFullSolvesWarmStartUntouched) {
+  Simulation run(kColumn + R"(
+[[body]]
+name = "rocker"
+at = [0.1, 10.35]
+circle = 0.3
+spin = 40
+[[body]]
+name = "slider"
+at = [3, 0.5]
+box = [1, 1]
+velocity = [6, 0]
+)",
+                 Mode::Merge);
+  WarmStartGuard guard;
+  run.world().observe(&guard);
+  run.steps(300);
+  EXPECT_TRUE(run.merged("box[0,0]"));
+  EXPECT_GT(guard.looked(), 100u);
+}
+
+TEST(Sweep, OfASettledColumnChangesNothing) {
+  Simulation run(kColumn, Mode::Merge);
+  run.until(10.0);
+  const Snapshot before = run.now();
+  run.steps(1);
+  const Snapshot after = run.now();
+  ASSERT_EQ(before.contacts.size(), after.contacts.size());
+  for (std::size_t i = 0; i < before.contacts.size(); ++i) {
+    EXPECT_NEAR(after.contacts[i].lambda_n, before.contacts[i].lambda_n, 1e-12);
+    EXPECT_NEAR(after.contacts[i].lambda_t, before.contacts[i].lambda_t, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace merge2d

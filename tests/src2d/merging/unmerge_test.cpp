@@ -1,0 +1,368 @@
+#include "src2d/merging/unmerge.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+const Overrides kPaper{{"merging.rule", "\"paper\""}, {"unmerging.rule", "\"paper\""}};
+
+int events(const Simulation& run, EventType type, EventReason reason) {
+  int count = 0;
+  for (const Event& e : run.world().events()) count += e.type == type && e.reason == reason;
+  return count;
+}
+
+const std::string kColumn = kGround + R"(
+[[body]]
+name = "box"
+at = [0, 0.5]
+box = [1, 1]
+repeat = { count = [1, 6], spacing = [1, 1] }
+)";
+
+std::string boxName(int row) { return "box[0," + std::to_string(row) + "]"; }
+
+TEST(Unmerge, FreesOnlyTheBodyThatWasHit) {
+  Simulation run(kColumn, Mode::Merge);
+  run.until(3.0);
+  const CollectionId pile = run.collectionOf(boxName(0));
+  ASSERT_EQ(run.collectionOf(boxName(5)), pile);
+  run.kick(boxName(5), {0.0, 2.0});
+  run.steps(1);
+  EXPECT_FALSE(run.merged(boxName(5)));
+  EXPECT_EQ(events(run, EventType::Unmerge, EventReason::Broken), 1);
+  for (int row = 0; row < 5; ++row) EXPECT_EQ(run.collectionOf(boxName(row)), pile) << row;
+  EXPECT_NEAR(run.body(boxName(5)).v.y(), 2.0 - 9.81 * 0.01, 1e-9);
+}
+
+TEST(Unmerge, ABreakInTheMiddleLeavesTwoParts) {  // Figure 3
+  Simulation run(kColumn, Mode::Merge);
+  run.until(3.0);
+  const CollectionId pile = run.collectionOf(boxName(0));
+  ASSERT_EQ(run.collectionOf(boxName(5)), pile);
+  run.kick(boxName(3), {0.0, 6.0});  // throws boxes 3, 4 and 5 up by 2 m/s
+  run.steps(1);
+  const CollectionId upper = run.collectionOf(boxName(3));
+  for (int row = 0; row < 3; ++row) EXPECT_EQ(run.collectionOf(boxName(row)), pile) << row;
+  EXPECT_NE(upper, pile);
+  for (int row = 3; row < 6; ++row) {
+    EXPECT_EQ(run.collectionOf(boxName(row)), upper) << row;
+    EXPECT_NEAR(run.body(boxName(row)).v.y(), 2.0 - 9.81 * 0.01, 0.02) << row;
+  }
+  for (int row = 0; row < 3; ++row) EXPECT_NEAR(run.body(boxName(row)).v.norm(), 0.0, 1e-9);
+}
+
+// ---- sliding ----
+
+/// The angle [degrees] at which a block on a slope that tilts by 1° per second starts to slide.
+double slidingAngle(Mode mode, const Overrides& overrides = {}) {
+  Simulation run(R"(
+format = 1
+[[body]]
+name = "slope"
+motion = "scripted"
+at = [0, -0.5]
+box = [20, 1]
+script = { spin = 1 }
+[[body]]
+name = "block"
+at = [0, 0.25]
+box = [1, 0.5]
+)",
+                 mode, overrides);
+  const auto place = [&] { return seenFrom(run.body("slope"), run.body("block")).position.x(); };
+  run.until(5.0);
+  const double start = place();
+  while (run.world().time() < 45.0) {
+    run.steps(5);
+    if (std::abs(place() - start) > 0.01) return run.body("slope").angle / kDegree;
+  }
+  return 45.0;
+}
+
+TEST(Unmerge, ABlockOnATiltingSlopeSlidesAsInTheReference) {
+  const double reference = slidingAngle(Mode::Reference);
+  const double exact = std::atan(0.6) / kDegree;  // 30.96°
+  EXPECT_NEAR(reference, exact, 0.7);
+  EXPECT_NEAR(slidingAngle(Mode::Merge), reference, 0.5);
+  EXPECT_NEAR(slidingAngle(Mode::MergeSleep), reference, 0.5);
+}
+
+TEST(Unmerge, UnderThePapersRuleTheBlockSticksForDegreesMore) {
+  EXPECT_GT(slidingAngle(Mode::Merge, kPaper), slidingAngle(Mode::Reference) + 3.0);
+}
+
+/// How far a box slips on a platform that is pushed with 6.5 m/s², more than μg = 5.88 m/s², from
+/// second 2 for one second [m].
+double slipOnPlatform(Mode mode, const Overrides& overrides = {}, double acceleration = 6.5) {
+  const std::string force = std::to_string(1000.0 * acceleration + 0.6 * 9.81);
+  Simulation run(kGround + R"(
+friction = 0
+[[body]]
+name = "platform"
+at = [0, 0.5]
+box = [30, 1]
+mass = 1000
+[[body]]
+name = "box"
+at = [0, 1.5]
+box = [1, 1]
+[[force]]
+body = "platform"
+force = [)" + force + R"(, 0]
+from = 2
+)",
+                 mode, overrides);
+  run.until(2.0);
+  const double before = seenFrom(run.body("platform"), run.body("box")).position.x();
+  EXPECT_EQ(run.merged("box"), merges(mode));
+  run.until(3.0);
+  return seenFrom(run.body("platform"), run.body("box")).position.x() - before;
+}
+
+TEST(Unmerge, ABoxSlipsOnAPlatformThatAcceleratesTooFast) {
+  const double analytic = -0.5 * (6.5 - 0.6 * 9.81);  // −0.307 m
+  const double reference = slipOnPlatform(Mode::Reference);
+  EXPECT_NEAR(reference, analytic, 0.02);
+  EXPECT_NEAR(slipOnPlatform(Mode::Merge), reference, 0.05);
+}
+
+TEST(Unmerge, ABoxStaysOnAPlatformThatAcceleratesSlowly) {
+  EXPECT_NEAR(slipOnPlatform(Mode::Merge, {}, 5.5), 0.0, 1e-3);
+}
+
+TEST(Unmerge, UnderThePapersRuleTheBoxNeverSlips) {
+  EXPECT_NEAR(slipOnPlatform(Mode::Merge, kPaper), 0.0, 1e-3);
+}
+
+/// How far the last of ten boxes in a row goes when the first is hit from the side [m].
+std::pair<double, double> rowHit(Mode mode, double impulse, const Overrides& overrides = {}) {
+  Simulation run(kGround + R"(
+[[body]]
+name = "box"
+at = [0, 0.5]
+box = [1, 1]
+repeat = { count = [10, 1], spacing = [1, 1] }
+)",
+                 mode, overrides);
+  run.until(3.0);
+  const double first = run.body("box[0,0]").x.x(), last = run.body("box[9,0]").x.x();
+  run.kick("box[0,0]", {impulse, 0.0});
+  run.until(8.0);
+  return {run.body("box[0,0]").x.x() - first, run.body("box[9,0]").x.x() - last};
+}
+
+class RowHit : public testing::TestWithParam<double> {};
+TEST_P(RowHit, MovesAsInTheReference) {
+  const auto reference = rowHit(Mode::Reference, GetParam());
+  const auto merged = rowHit(Mode::Merge, GetParam());
+  const double scale = std::max(reference.first, reference.second);
+  EXPECT_GT(scale, 0.005);
+  EXPECT_NEAR(merged.first, reference.first, 0.05 * scale);
+  EXPECT_NEAR(merged.second, reference.second, 0.05 * scale);
+}
+INSTANTIATE_TEST_SUITE_P(Impulses, RowHit, testing::Values(1.0, 3.0, 10.0));
+
+// ---- pivots ----
+
+const std::string kSeeSaw = kGround + R"(
+[[body]]
+name = "pivot"
+motion = "pinned"
+at = [0, 0.5]
+circle = 0.5
+[[body]]
+name = "beam"
+at = [0.02, 1.1]
+box = [4, 0.2]
+)";
+
+TEST(Unmerge, ASeeSawOutOfBalanceTips) {
+  for (const char* let_go : {"", "pinned_until = 2\n"}) {
+    Simulation reference(kSeeSaw + let_go, Mode::Reference);
+    Simulation merged(kSeeSaw + let_go, Mode::MergeSleep);
+    reference.until(15.0);
+    merged.until(15.0);
+    EXPECT_LT(reference.body("beam").angle, -0.2);
+    EXPECT_NEAR(merged.body("beam").angle, reference.body("beam").angle, 0.02);
+  }
+}
+
+TEST(Unmerge, UnderThePapersRuleTheSeeSawIsStuck) {
+  Overrides paper = kPaper;
+  Simulation run(kSeeSaw, Mode::Merge, paper);
+  run.until(15.0);
+  EXPECT_TRUE(run.merged("beam"));
+  EXPECT_NEAR(run.body("beam").angle, 0.0, 0.05);
+}
+
+TEST(Unmerge, AWeldThatTurnsBreaksAfterTheGivenSteps) {  // Figure 4, Section 6.4
+  for (const int steps : {3, 6}) {
+    Overrides overrides{{"merging.cycles", "\"off\""}, {"unmerging.steps", std::to_string(steps)}};
+    std::string balanced = kSeeSaw;
+    balanced.replace(balanced.find("[0.02, 1.1]"), 11, "[0.00, 1.1]");
+    Simulation run(balanced + R"(
+[[force]]
+body = "beam"
+at = [1.9, 0]
+force = [0, -8]
+from = 4
+)",
+                   Mode::Merge, overrides);
+    run.until(4.0);
+    ASSERT_TRUE(run.merged("beam"));
+    run.steps(steps - 1, [&] { ASSERT_TRUE(run.merged("beam")) << steps; });
+    run.steps(1);
+    EXPECT_FALSE(run.merged("beam"));
+    EXPECT_EQ(events(run, EventType::Unmerge, EventReason::RelativeMotion), 1);
+    run.until(6.0);
+    EXPECT_LT(run.body("beam").angle, -0.2);
+  }
+}
+
+TEST(Unmerge, APlankWhoseSupportIsKnockedAwayFalls) {
+  const std::string scene = kGround + R"(
+[[body]]
+name = "left"
+at = [-2, 0.5]
+box = [0.4, 1]
+[[body]]
+name = "right"
+at = [2, 0.5]
+box = [0.4, 1]
+[[body]]
+name = "plank"
+at = [0, 1.1]
+box = [5, 0.2]
+friction = 0.05
+)";
+  const auto end = [&](Mode mode) {
+    Simulation run(scene, mode);
+    run.until(4.0);
+    EXPECT_EQ(run.merged("plank"), merges(mode));
+    run.kick("right", {4.0, 0.0}, {0.0, -0.2});
+    run.until(7.0);
+    return run.body("plank");
+  };
+  const BodyState reference = end(Mode::Reference), merged = end(Mode::MergeSleep);
+  EXPECT_LT(reference.x.y(), 0.9);
+  EXPECT_NEAR(merged.x.y(), reference.x.y(), 0.1);
+  EXPECT_NEAR(merged.angle, reference.angle, 0.1);
+}
+
+TEST(Unmerge, APlankFallsWhenItsMagnetLetsGo) {
+  Simulation run(R"(
+format = 1
+[[body]]
+name = "crane"
+motion = "pinned"
+at = [0, 10.5]
+box = [2, 1]
+[[body]]
+name = "plank"
+at = [0, 9.9]
+box = [1.5, 0.2]
+[[magnet]]
+body = "crane"
+on = [[0, 3]]
+)",
+                 Mode::MergeSleep);
+  run.until(3.0);
+  EXPECT_NEAR(run.body("plank").x.y(), 9.9, 0.02);
+  run.until(4.0);
+  EXPECT_NEAR(run.body("plank").x.y(), 9.9 - 0.5 * 9.81, 0.1);
+}
+
+// ---- impacts ----
+
+std::string wallHitByBall(int columns, int rows) {
+  return kGround + R"(
+[[body]]
+name = "wall"
+at = [0, 0.5]
+box = [1, 1]
+repeat = { count = [)" +
+         std::to_string(columns) + ", " + std::to_string(rows) +
+         R"(], spacing = [1, 1], stagger = 0.5 }
+[[body]]
+name = "ball"
+at = [-52.5, 2.0]
+circle = 0.5
+mass = 20
+velocity = [20, 10.5]
+pinned_until = 2
+)";
+}
+
+int movedByBall(Mode mode, const Overrides& overrides = {}) {
+  Simulation run(wallHitByBall(10, 12), mode, overrides);
+  run.until(3.9);  // before the ball arrives
+  const Snapshot before = run.now();
+  run.until(8.0);
+  return moved(before, run.now(), 0.1);
+}
+
+TEST(Unmerge, AProjectileMovesAsManyBodiesAsInTheReference) {
+  const int reference = movedByBall(Mode::Reference);
+  const int merged = movedByBall(Mode::MergeSleep);
+  EXPECT_GT(reference, 10);
+  EXPECT_NEAR(merged, reference, 0.25 * reference);
+}
+
+// ---- no flicker ----
+
+int wallEvents(const Scene& scene) {
+  Simulation run(scene, Mode::Merge);
+  run.until(5.0);
+  const int before = run.count(EventType::Merge) + run.count(EventType::Unmerge);
+  EXPECT_GT(before, 0);
+  const Stats stats = run.now().stats;
+  EXPECT_EQ(stats.collections, 1);
+  run.until(15.0);
+  return run.count(EventType::Merge) + run.count(EventType::Unmerge) - before;
+}
+
+TEST(Unmerge, AWallOnTheGroundDoesNotFlicker) { EXPECT_EQ(wallEvents(wall(18, 18)), 0); }
+
+TEST(Unmerge, AWallOnASwingingPlatformDoesNotFlicker) {
+  EXPECT_EQ(wallEvents(wallOnSwingingPlatform(18, 18, 0.4, 10.0)), 0);
+}
+
+// ---- ordering (Figure 10) ----
+
+int movedInTower(Mode mode, const char* ordering) {
+  Simulation run(kGround + R"(
+[[body]]
+name = "tower"
+at = [-4, 0.5]
+box = [1, 1]
+repeat = { count = [8, 20], spacing = [1, 1], stagger = 0.5 }
+[[impulse]]
+body = "tower[0,18]"
+at = [-4.4, 18.5]
+impulse = [40, 0]
+time = 1.5
+)",
+                 mode, {{"unmerging.ordering", ordering}});
+  run.until(1.4);
+  const Snapshot before = run.now();
+  run.until(5.0);
+  return moved(before, run.now(), 0.1);
+}
+
+TEST(Unmerge, BreadthFirstOrderFreesWhatAnImpulseMoves) {
+  const int reference = movedInTower(Mode::Reference, "true");
+  const int ordered = movedInTower(Mode::Merge, "true");
+  const int unordered = movedInTower(Mode::Merge, "false");
+  EXPECT_GT(reference, 5);
+  EXPECT_LE(std::abs(ordered - reference), std::max(2.0, 0.25 * reference));
+  EXPECT_GT(std::abs(unordered - reference), std::abs(ordered - reference));
+}
+
+}  // namespace
+}  // namespace merge2d
