@@ -82,7 +82,7 @@ void labelCollections(LabelPainter& labels, const FrameScene& scene) {
   const Font font = scene.font(13.0F, Weight::Bold);
   for (const CollectionView* c : bySize) {
     const std::string label = fmt::format("C{}", value(c->id));
-    if (crowded && coveredArea(scene, *c) < 3.0F * labels.area(label, font)) continue;
+    if (crowded && coveredArea(scene, *c) < 2.0F * labels.area(label, font)) continue;
     labels.put(label, font, scene.view(labelPlace(scene, *c)), standingOut(scene, c->id));
   }
 }

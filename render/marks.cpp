@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "render/frame_parts.h"
@@ -107,12 +108,25 @@ float markRadius(const FrameScene& scene) {
   return std::clamp(0.12F * scene.bodySize(), 1.8F, scene.px(5.0F));
 }
 
+/// The pairs that came apart in this step.
+std::set<Pair> partedPairs(const Snapshot& snapshot) {
+  std::set<Pair> pairs;
+  for (const Event& event : snapshot.events) {
+    if (event.type == EventType::Unmerge) pairs.insert(ordered(event.a, event.b));
+  }
+  return pairs;
+}
+
+/// Contacts that carry no force are shown when they have just broken.
 void drawContacts(Painter& painter, const FrameScene& scene) {
   const float radius = markRadius(scene);
+  const std::set<Pair> parted = partedPairs(scene.snapshot);
   for (const ContactView& contact : scene.snapshot.contacts) {
     const Pixel at = scene.view(contact.x);
     if (contact.state == ContactState::Broken) {
-      if (!contact.fresh) drawBrokenMark(painter, scene, at, radius);
+      if (parted.contains(ordered(contact.a, contact.b))) {
+        drawBrokenMark(painter, scene, at, radius);
+      }
     } else if (contact.internal) {
       drawMergedMark(painter, scene, at, radius);
     } else {

@@ -13,7 +13,7 @@ enum class Overlay : unsigned {
   Scale,       ///< scale bar
   Hud,         ///< title, time, step, mode and counts
   Legend,      ///< what the colours and marks mean
-  Contacts,    ///< merged: square; active: ring; just broken: cross
+  Contacts,    ///< merged: square; active: ring; of a pair that just came apart: cross
   Forces,      ///< arrows of normal and friction forces
   Graph,       ///< who is in contact with whom
   Welds,       ///< which contacts hold a collection together

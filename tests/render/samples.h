@@ -173,6 +173,8 @@ inline Sample mixture() {
   s.contact(id(4), id(5), {0.55, 0.74}, {1.0, 0.0}, 0.05, 0.02);
   s.contact(id(0), id(6), {2.7, 0.0}, {0.0, 1.0}, 0.08);
   s.contact(id(5), id(6), {2.45, 0.4}, {1.0, 0.0}, 0.0, 0.0, ContactState::Broken);
+  s.snapshot.events = {
+      {.type = EventType::Unmerge, .a = id(6), .b = id(5), .reason = EventReason::Broken}};
   s.snapshot.welds = {{id(1), id(2), 2}, {id(2), id(11), 1}, {id(4), id(5), 1}, {id(6), id(7), 1}};
   s.snapshot.springs = {{{-2.5, 3.4}, {-2.5, 5.6}, 3.0}};
   s.snapshot.bodies[8].v = {3.0, -1.5};
