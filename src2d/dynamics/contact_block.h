@@ -9,6 +9,7 @@
 /// K = J M⁻¹ Jᵀ [1/kg], C softness [1/kg], n normal from a to b, t = n turned by +90°.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -41,7 +42,12 @@ struct ContactBlock {
   double softness = 0.0;                   ///< C
   double bias[2] = {0, 0};                 ///< wanted: w_n + bias + Cλ ≥ 0 [m/s]
   double mu = 0.0;
-  double lambda_n[2] = {0, 0}, lambda_t[2] = {0, 0};
+  std::array<double, 4> lambda{};  ///< both normals, then both tangents [N s]
+
+  double& lambda_n(int i) { return lambda[static_cast<std::size_t>(i)]; }
+  double& lambda_t(int i) { return lambda[static_cast<std::size_t>(i) + 2]; }
+  double lambda_n(int i) const { return lambda[static_cast<std::size_t>(i)]; }
+  double lambda_t(int i) const { return lambda[static_cast<std::size_t>(i) + 2]; }
 };
 
 /// Relative velocity of b against a at point `i` along the normal and the tangent.
@@ -69,7 +75,7 @@ inline void applyImpulse(const ContactBlock& k, int i, double nx, double ny, dou
 
 /// The exact solution x ≥ 0, (K+C)x + q ≥ 0, x·((K+C)x + q) = 0 of the two normals, by cases.
 inline void solveNormalPair(const ContactBlock& k, double w1, double w2, double& x1, double& x2) {
-  const double l1 = k.lambda_n[0], l2 = k.lambda_n[1];
+  const double l1 = k.lambda_n(0), l2 = k.lambda_n(1);
   x1 = l1 - (k.k22 * w1 - k.k12 * w2) * k.inv_det;
   x2 = l2 - (k.k11 * w2 - k.k12 * w1) * k.inv_det;
   if ((x1 >= 0.0 && x2 >= 0.0) || k.bilateral) return;  // both press
@@ -91,13 +97,13 @@ inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& bo
                        SolverVelocity& body_b) {
   SolverVelocity a = body_a, b = body_b;
   if (k.count == 2) {
-    const double w1 = contactVelocity(k, 0, nx, ny, a, b).n + k.bias[0] + k.softness * k.lambda_n[0];
-    const double w2 = contactVelocity(k, 1, nx, ny, a, b).n + k.bias[1] + k.softness * k.lambda_n[1];
+    const double w1 = contactVelocity(k, 0, nx, ny, a, b).n + k.bias[0] + k.softness * k.lambda_n(0);
+    const double w2 = contactVelocity(k, 1, nx, ny, a, b).n + k.bias[1] + k.softness * k.lambda_n(1);
     double x1, x2;
     solveNormalPair(k, w1, w2, x1, x2);
-    const double p1 = x1 - k.lambda_n[0], p2 = x2 - k.lambda_n[1];
-    k.lambda_n[0] = x1;
-    k.lambda_n[1] = x2;
+    const double p1 = x1 - k.lambda_n(0), p2 = x2 - k.lambda_n(1);
+    k.lambda_n(0) = x1;
+    k.lambda_n(1) = x2;
     const double px = nx * (p1 + p2), py = ny * (p1 + p2);
     a.vx -= a.inv_mass * px;
     a.vy -= a.inv_mass * py;
@@ -106,19 +112,19 @@ inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& bo
     b.vy += b.inv_mass * py;
     b.omega += b.inv_inertia * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
   } else {
-    const double w = contactVelocity(k, 0, nx, ny, a, b).n + k.bias[0] + k.softness * k.lambda_n[0];
-    double x = k.lambda_n[0] - w / k.k11;
+    const double w = contactVelocity(k, 0, nx, ny, a, b).n + k.bias[0] + k.softness * k.lambda_n(0);
+    double x = k.lambda_n(0) - w / k.k11;
     if (!k.bilateral) x = std::max(0.0, x);
-    applyImpulse(k, 0, nx, ny, x - k.lambda_n[0], 0.0, a, b);
-    k.lambda_n[0] = x;
+    applyImpulse(k, 0, nx, ny, x - k.lambda_n(0), 0.0, a, b);
+    k.lambda_n(0) = x;
   }
   for (int i = 0; i < k.count; ++i) {
     const double w = contactVelocity(k, i, nx, ny, a, b).t;
     const double limit =
-        k.bilateral ? std::numeric_limits<double>::infinity() : k.mu * k.lambda_n[i];
-    const double x = std::clamp(k.lambda_t[i] - k.inv_kt[i] * w, -limit, limit);
-    applyImpulse(k, i, nx, ny, 0.0, x - k.lambda_t[i], a, b);
-    k.lambda_t[i] = x;
+        k.bilateral ? std::numeric_limits<double>::infinity() : k.mu * k.lambda_n(i);
+    const double x = std::clamp(k.lambda_t(i) - k.inv_kt[i] * w, -limit, limit);
+    applyImpulse(k, i, nx, ny, 0.0, x - k.lambda_t(i), a, b);
+    k.lambda_t(i) = x;
   }
   body_a.vx = a.vx, body_a.vy = a.vy, body_a.omega = a.omega;
   body_b.vx = b.vx, body_b.vy = b.vy, body_b.omega = b.omega;
@@ -127,17 +133,17 @@ inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& bo
 /// The paper's plain PGS: one row at a time, each normal followed by its friction.
 inline void solveRows(ContactBlock& k, double nx, double ny, SolverVelocity& a, SolverVelocity& b) {
   for (int i = 0; i < k.count; ++i) {
-    const double w_n = contactVelocity(k, i, nx, ny, a, b).n + k.bias[i] + k.softness * k.lambda_n[i];
-    double x = k.lambda_n[i] - w_n / (i == 0 ? k.k11 : k.k22);
+    const double w_n = contactVelocity(k, i, nx, ny, a, b).n + k.bias[i] + k.softness * k.lambda_n(i);
+    double x = k.lambda_n(i) - w_n / (i == 0 ? k.k11 : k.k22);
     if (!k.bilateral) x = std::max(0.0, x);
-    applyImpulse(k, i, nx, ny, x - k.lambda_n[i], 0.0, a, b);
-    k.lambda_n[i] = x;
+    applyImpulse(k, i, nx, ny, x - k.lambda_n(i), 0.0, a, b);
+    k.lambda_n(i) = x;
     const double w_t = contactVelocity(k, i, nx, ny, a, b).t;
     const double limit =
-        k.bilateral ? std::numeric_limits<double>::infinity() : k.mu * k.lambda_n[i];
-    const double y = std::clamp(k.lambda_t[i] - k.inv_kt[i] * w_t, -limit, limit);
-    applyImpulse(k, i, nx, ny, 0.0, y - k.lambda_t[i], a, b);
-    k.lambda_t[i] = y;
+        k.bilateral ? std::numeric_limits<double>::infinity() : k.mu * k.lambda_n(i);
+    const double y = std::clamp(k.lambda_t(i) - k.inv_kt[i] * w_t, -limit, limit);
+    applyImpulse(k, i, nx, ny, 0.0, y - k.lambda_t(i), a, b);
+    k.lambda_t(i) = y;
   }
 }
 
@@ -179,7 +185,7 @@ inline void prepareBlock(ContactBlock& k, const BlockGeometry& g, const SolverVe
   const double det = k.k11 * k.k22 - k.k12 * k.k12;
   if (det < 1e-6 * k.k11 * k.k22) {
     k.count = 1;
-    k.lambda_n[1] = k.lambda_t[1] = 0.0;
+    k.lambda_n(1) = k.lambda_t(1) = 0.0;
   } else {
     k.inv_det = 1.0 / det;
   }

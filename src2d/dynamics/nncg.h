@@ -20,10 +20,6 @@ struct SweepChange {
   double total = 0.0;
 };
 
-inline Impulses impulsesOf(const ContactBlock& k) {
-  return {k.lambda_n[0], k.lambda_n[1], k.lambda_t[0], k.lambda_t[1]};
-}
-
 /// `block(i)` for i < `blocks` are the rows, `velocity(i)` for i < `bodies` what they act on, each
 /// once; `sweep()` solves every block once and changes both. With `accelerate` off: plain sweeps.
 template <class BlockAt, class VelocityAt, class Sweep>
@@ -46,9 +42,10 @@ class Nncg {
   SweepChange run(int sweeps, bool accelerate) {
     SweepChange change;
     double previous = 0.0;
+    if (accelerate) remember();
     for (int k = 0; k < sweeps; ++k) {
       const bool last = k + 1 == sweeps;
-      if (accelerate || last) remember();
+      if (last && !accelerate) remember();
       sweep_();
       if (!accelerate && !last) continue;
       change = changeSince();
@@ -61,49 +58,49 @@ class Nncg {
 
  private:
   void remember() {
-    for (std::size_t i = 0; i < blocks_; ++i) m_.before[i] = impulsesOf(block_(i));
+    for (std::size_t i = 0; i < blocks_; ++i) m_.before[i] = block_(i).lambda;
     for (std::size_t i = 0; i < bodies_; ++i) {
       const SolverVelocity& u = velocity_(i);
       m_.u_before[i] = {u.vx, u.vy, u.omega};
     }
   }
 
+  /// Four sums side by side, one per row of a block: always in the same order.
   SweepChange changeSince() const {
-    SweepChange change;
+    Impulses squared{}, total{};
     for (std::size_t i = 0; i < blocks_; ++i) {
-      const Impulses now = impulsesOf(block_(i));
-      for (std::size_t r = 0; r < now.size(); ++r) {
-        const double d = now[r] - m_.before[i][r];
-        change.squared += d * d;
-        change.total += now[r] * now[r];
+      const Impulses &now = block_(i).lambda, &before = m_.before[i];
+      for (std::size_t r = 0; r < 4; ++r) {
+        const double d = now[r] - before[r];
+        squared[r] += d * d;
+        total[r] += now[r] * now[r];
       }
     }
-    return change;
+    return {(squared[0] + squared[1]) + (squared[2] + squared[3]),
+            (total[0] + total[1]) + (total[2] + total[3])};
   }
 
+  /// The step along p; what it leaves is remembered for the next sweep.
   void step(double rho) {
     const double keep = rho > 1.0 ? 0.0 : 1.0;
     if (rho > 1.0) rho = 0.0;
     for (std::size_t i = 0; i < blocks_; ++i) {
-      ContactBlock& k = block_(i);
-      Impulses& p = m_.direction[i];
-      const Impulses swept = impulsesOf(k);
-      for (std::size_t r = 0; r < p.size(); ++r) {
+      Impulses &lambda = block_(i).lambda, &p = m_.direction[i], &before = m_.before[i];
+      for (std::size_t r = 0; r < 4; ++r) {
         const double along = rho * p[r];
-        p[r] = along + keep * (swept[r] - m_.before[i][r]);
-        (r < 2 ? k.lambda_n[r] : k.lambda_t[r - 2]) += along;
+        p[r] = along + keep * (lambda[r] - before[r]);
+        before[r] = lambda[r] += along;
       }
     }
     for (std::size_t i = 0; i < bodies_; ++i) {
       SolverVelocity& u = velocity_(i);
-      Twist& p = m_.u_direction[i];
-      const Twist& before = m_.u_before[i];
+      Twist &p = m_.u_direction[i], &before = m_.u_before[i];
       const Twist along{rho * p.vx, rho * p.vy, rho * p.omega};
       p = {along.vx + keep * (u.vx - before.vx), along.vy + keep * (u.vy - before.vy),
            along.omega + keep * (u.omega - before.omega)};
-      u.vx += along.vx;
-      u.vy += along.vy;
-      u.omega += along.omega;
+      before.vx = u.vx += along.vx;
+      before.vy = u.vy += along.vy;
+      before.omega = u.omega += along.omega;
     }
   }
 

@@ -138,8 +138,8 @@ ContactBlock makeBlock(const State& state, const Scratch& scratch, const RowSour
     const Vec2 before = b.v + cross(b.omega, g.arm_b[i]) - a.v - cross(a.omega, g.arm_a[i]);
     k.bias[i] = restitutionBias(state, contact, point, g.normal.dot(before),
                                 contactBias(settings, state.h, point.gap));
-    k.lambda_n[i] = point.lambda_n;
-    k.lambda_t[i] = point.lambda_t;
+    k.lambda_n(i) = point.lambda_n;
+    k.lambda_t(i) = point.lambda_t;
   }
   return k;
 }

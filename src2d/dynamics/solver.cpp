@@ -16,7 +16,7 @@ void sweep(std::span<ContactBlock> blocks, std::vector<SolverVelocity>& u, Solve
 void warmStart(std::span<const ContactBlock> blocks, std::vector<SolverVelocity>& u) {
   for (const ContactBlock& k : blocks) {
     for (int i = 0; i < k.count; ++i) {
-      applyImpulse(k, i, k.nx, k.ny, k.lambda_n[i], k.lambda_t[i], u[k.a], u[k.b]);
+      applyImpulse(k, i, k.nx, k.ny, k.lambda_n(i), k.lambda_t(i), u[k.a], u[k.b]);
     }
   }
 }
@@ -44,8 +44,8 @@ void storeImpulses(const Scratch& scratch) {
       ContactPoint& point = *source.points[static_cast<std::size_t>(p)];
       const ContactVelocity w =
           contactVelocity(k, p, k.nx, k.ny, scratch.u[k.a], scratch.u[k.b]);
-      point.lambda_n = k.lambda_n[p];
-      point.lambda_t = k.lambda_t[p];
+      point.lambda_n = k.lambda_n(p);
+      point.lambda_t = k.lambda_t(p);
       point.w_n = static_cast<float>(w.n);
       point.w_t = static_cast<float>(w.t);
     }

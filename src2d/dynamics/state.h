@@ -329,6 +329,7 @@ struct Scratch {
   std::vector<SolverVelocity> sweep_u;     ///< per body
   std::vector<Twist> sweep_before;         ///< per member
   std::vector<SweepContact> sweep_contacts;
+  std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
   std::vector<std::uint8_t> disturbed;     ///< per collection slot
 
   // Unmerge

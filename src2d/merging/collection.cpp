@@ -214,8 +214,8 @@ void saveForces(Collection& c) {
     const ContactBlock& k = c.blocks[i];
     Contact& contact = c.contacts[c.block_contact[i]].contact;
     for (int p = 0; p < k.count; ++p) {
-      contact.points[static_cast<std::size_t>(p)].lambda_n = k.lambda_n[p];
-      contact.points[static_cast<std::size_t>(p)].lambda_t = k.lambda_t[p];
+      contact.points[static_cast<std::size_t>(p)].lambda_n = k.lambda_n(p);
+      contact.points[static_cast<std::size_t>(p)].lambda_t = k.lambda_t(p);
     }
   }
 }

@@ -105,8 +105,8 @@ ContactBlock makeBlock(const State& state, const Collection& c, const Contact& c
   k.bilateral = state[contact.key.a].magnet_on || state[contact.key.b].magnet_on;
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];
-    k.lambda_n[i] = p.lambda_n;
-    k.lambda_t[i] = p.lambda_t;
+    k.lambda_n(i) = p.lambda_n;
+    k.lambda_t(i) = p.lambda_t;
     k.bias[i] = std::max(0.0, p.gap) / state.h;
   }
   prepareBlock(k, g, memberMasses(state, c, contact.key.a), memberMasses(state, c, contact.key.b));
@@ -173,9 +173,9 @@ void layOutPush(const State& state, Collection& c) {
   for (const ContactBlock& k : c.blocks) {
     const Vec2 n(k.nx, k.ny), t = perpendicular(n);
     for (int i = 0; i < k.count; ++i) {
-      const Vec2 impulse = k.lambda_n[i] * n + k.lambda_t[i] * t;
-      add(BodyId{k.a}, -1.0, impulse, k.arm_an[i] * k.lambda_n[i] + k.arm_at[i] * k.lambda_t[i]);
-      add(BodyId{k.b}, 1.0, impulse, k.arm_bn[i] * k.lambda_n[i] + k.arm_bt[i] * k.lambda_t[i]);
+      const Vec2 impulse = k.lambda_n(i) * n + k.lambda_t(i) * t;
+      add(BodyId{k.a}, -1.0, impulse, k.arm_an[i] * k.lambda_n(i) + k.arm_at[i] * k.lambda_t(i));
+      add(BodyId{k.b}, 1.0, impulse, k.arm_bn[i] * k.lambda_n(i) + k.arm_bt[i] * k.lambda_t(i));
     }
   }
 }

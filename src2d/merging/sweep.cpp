@@ -99,8 +99,8 @@ void addOuterContact(const State& state, const Contact& contact, std::uint32_t s
     const Vec2 p = pose_a * point.position;
     g.arm_a[i] = p - pose_a.position;
     g.arm_b[i] = p - x_b;
-    k.lambda_n[i] = point.lambda_n;
-    k.lambda_t[i] = point.lambda_t;
+    k.lambda_n(i) = point.lambda_n;
+    k.lambda_t(i) = point.lambda_t;
     k.bias[i] = contactBias(settings, state.h, point.gap);
   }
   k.a = static_cast<std::uint32_t>(a);
@@ -111,21 +111,63 @@ void addOuterContact(const State& state, const Contact& contact, std::uint32_t s
   scratch.sweep_contacts.push_back(outer);
 }
 
+/// The impulses of the last step, on the velocities.
+void applyWarmStart(const ContactBlock& k, std::vector<SolverVelocity>& u) {
+  for (int i = 0; i < k.count; ++i) {
+    applyImpulse(k, i, k.nx, k.ny, k.lambda_n(i), k.lambda_t(i), u[k.a], u[k.b]);
+  }
+}
+
+/// The same for a contact that is not swept itself: a load on the bodies around a collection.
+void applyAsLoad(const State& state, const Contact& contact, std::vector<SolverVelocity>& u) {
+  const Pose pose_a = state.pose(contact.key.a);
+  const Vec2 x_b = state.pose(contact.key.b).position;
+  const Vec2 n = pose_a.rotation * contact.normal, t = perpendicular(n);
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
+    const Vec2 p = pose_a * point.position, impulse = point.lambda_n * n + point.lambda_t * t;
+    const auto push = [&](BodyId b, const Vec2& arm, double sign) {
+      SolverVelocity& v = u[index(b)];
+      v.vx += sign * v.inv_mass * impulse.x();
+      v.vy += sign * v.inv_mass * impulse.y();
+      v.omega += sign * v.inv_inertia * cross(arm, impulse);
+    };
+    push(contact.key.a, p - pose_a.position, -1.0);
+    push(contact.key.b, p - x_b, 1.0);
+  }
+}
+
+/// Contacts at swept collections, and fresh ones, get rows; the others of the free bodies there
+/// keep pushing with the impulses of the last step.
 void warmStartOuter(const State& state, Scratch& scratch) {
   scratch.sweep_contacts.clear();
-  for (const BodyPair& pair : scratch.pairs) {
-    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-      const ContactTable::Entry& entry = state.contacts.order[i];
-      const Contact& contact = state.contacts[entry];
-      if (contact.count > 0) addOuterContact(state, contact, entry.slot, scratch);
+  auto& near = scratch.near_collection;
+  near.assign(state.bodies.size(), 0);
+  const auto swept = [&](BodyId b) { return isMember(state, b) && !state.rigid(b).asleep; };
+  const auto forEach = [&](auto&& visit) {
+    for (const BodyPair& pair : scratch.pairs) {
+      for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+        const ContactTable::Entry& entry = state.contacts.order[i];
+        if (state.contacts[entry].count > 0) visit(entry, state.contacts[entry]);
+      }
     }
-  }
-  auto& u = scratch.sweep_u;
+  };
+  forEach([&](const ContactTable::Entry& entry, const Contact& contact) {
+    const BodyId a = contact.key.a, b = contact.key.b;
+    if (!swept(a) && !swept(b) && !closesAnew(state, contact)) return;
+    near[index(a)] = near[index(b)] = 1;
+    addOuterContact(state, contact, entry.slot, scratch);
+  });
+  std::size_t row = 0;
+  forEach([&](const ContactTable::Entry& entry, const Contact& contact) {
+    const auto& rows = scratch.sweep_contacts;
+    if (row < rows.size() && rows[row].slot == entry.slot) return void(++row);
+    if (near[index(contact.key.a)] || near[index(contact.key.b)]) {
+      applyAsLoad(state, contact, scratch.sweep_u);
+    }
+  });
   for (const SweepContact& outer : scratch.sweep_contacts) {
-    const ContactBlock& k = outer.block;
-    for (int i = 0; i < k.count; ++i) {
-      applyImpulse(k, i, k.nx, k.ny, k.lambda_n[i], k.lambda_t[i], u[k.a], u[k.b]);
-    }
+    applyWarmStart(outer.block, scratch.sweep_u);
   }
 }
 
@@ -152,7 +194,14 @@ std::vector<SweepItem> disturbedOrder(State& state, Scratch& scratch) {
     items.push_back({&k, turn});
     edges.push_back({k.a, k.b});
   };
-  for (SweepContact& outer : scratch.sweep_contacts) add(outer.block, {});
+  // Of the contacts outside, those at disturbed collections and the fresh ones between free bodies.
+  const auto concerned = [&](std::uint32_t b) {
+    const RigidId id = state.bodies[b].rigid;
+    return !state.isCollection(id) || scratch.disturbed[index(id) - state.bodies.size()];
+  };
+  for (SweepContact& outer : scratch.sweep_contacts) {
+    if (concerned(outer.block.a) && concerned(outer.block.b)) add(outer.block, {});
+  }
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
@@ -301,12 +350,9 @@ void sweepCollections(State& state, Scratch& scratch) {
   if (!scratch.sweeping) return;
   const bool disturbed = std::any_of(scratch.disturbed.begin(), scratch.disturbed.end(),
                                      [](std::uint8_t d) { return d != 0; });
-  if (disturbed) {
-    sweepDisturbed(state, scratch);
-  } else {
-    for (SweepContact& outer : scratch.sweep_contacts) {
-      sweepBlock(outer.block, {}, scratch.sweep_u, state.settings.solver.method);
-    }
+  if (disturbed) sweepDisturbed(state, scratch);
+  for (SweepContact& outer : scratch.sweep_contacts) {
+    sweepBlock(outer.block, {}, scratch.sweep_u, state.settings.solver.method);
   }
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
@@ -316,7 +362,11 @@ void sweepCollections(State& state, Scratch& scratch) {
 
 void sweepAgain(State& state, Scratch& scratch, Collection& c) {
   std::vector<SweepItem> items;
-  for (SweepContact& outer : scratch.sweep_contacts) items.push_back({&outer.block, {}});
+  for (SweepContact& outer : scratch.sweep_contacts) {
+    const ContactBlock& k = outer.block;
+    const bool at = state.bodies[k.a].rigid == c.rigid || state.bodies[k.b].rigid == c.rigid;
+    if (at) items.push_back({&outer.block, {}});
+  }
   for (ContactBlock& k : c.blocks) items.push_back({&k, state[c.rigid].rotation});
   sweepConverging(state, scratch, items);
   layOutPush(state, c);

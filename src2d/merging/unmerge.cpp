@@ -14,9 +14,9 @@ namespace {
 /// A tangential impulse this near to its limit is on the edge of the cone, Eq. (20).
 constexpr double kOnEdge = 1.0 - 1e-9;
 
-bool broken(const ContactBlock& k, int i) { return k.lambda_n[i] <= 0.0 && !k.bilateral; }
+bool broken(const ContactBlock& k, int i) { return k.lambda_n(i) <= 0.0 && !k.bilateral; }
 bool onEdge(const ContactBlock& k, int i) {
-  return !k.bilateral && std::abs(k.lambda_t[i]) >= kOnEdge * k.mu * k.lambda_n[i];
+  return !k.bilateral && std::abs(k.lambda_t(i)) >= kOnEdge * k.mu * k.lambda_n(i);
 }
 
 /// Records one decision if somebody asks.

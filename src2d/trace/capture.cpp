@@ -73,8 +73,8 @@ void captureContacts(const State& state, Snapshot& out) {
       const Contact& contact = c.contacts[c.block_contact[b]].contact;
       for (int i = 0; i < k.count; ++i) {
         ContactPoint p = contact.points[static_cast<std::size_t>(i)];
-        p.lambda_n = k.lambda_n[i];
-        p.lambda_t = k.lambda_t[i];
+        p.lambda_n = k.lambda_n(i);
+        p.lambda_t = k.lambda_t(i);
         p.fresh = false;
         out.contacts.push_back(view(contact, p, frame));
         out.contacts.back().internal = true;
