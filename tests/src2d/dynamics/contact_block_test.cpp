@@ -37,16 +37,16 @@ RC_GTEST_PROP(ContactBlock, TheNormalsSolveTheirComplementarityProblem, (bool pa
   prepareBlock(k, anyGeometry(pair ? 2 : 1), a, b);
   k.mu = 0.0;
   for (int i = 0; i < k.count; ++i) {
-    k.lambda_n[i] = uniform(0, 1);
+    k.lambda_n(i) = uniform(0, 1);
     k.bias[i] = uniform(-0.5, 0.5);
   }
   solveBlock(k, k.nx, k.ny, a, b);
   for (int i = 0; i < k.count; ++i) {
     const double w =
-        contactVelocity(k, i, k.nx, k.ny, a, b).n + k.bias[i] + k.softness * k.lambda_n[i];
-    RC_ASSERT(k.lambda_n[i] >= 0.0);
+        contactVelocity(k, i, k.nx, k.ny, a, b).n + k.bias[i] + k.softness * k.lambda_n(i);
+    RC_ASSERT(k.lambda_n(i) >= 0.0);
     RC_ASSERT(w >= -1e-9);
-    RC_ASSERT(std::abs(w * k.lambda_n[i]) < 1e-9);
+    RC_ASSERT(std::abs(w * k.lambda_n(i)) < 1e-9);
   }
 }
 
@@ -55,12 +55,12 @@ RC_GTEST_PROP(ContactBlock, FrictionOpposesSlipAndStaysInItsCone, ()) {
   ContactBlock k;
   prepareBlock(k, anyGeometry(1), a, b);
   k.mu = uniform(0, 1);
-  k.lambda_n[0] = uniform(0, 1);
+  k.lambda_n(0) = uniform(0, 1);
   solveBlock(k, k.nx, k.ny, a, b);
-  const double limit = k.mu * k.lambda_n[0];
+  const double limit = k.mu * k.lambda_n(0);
   const double slip = contactVelocity(k, 0, k.nx, k.ny, a, b).t;
-  RC_ASSERT(std::abs(k.lambda_t[0]) <= limit);
-  if (std::abs(slip) > 1e-9) RC_ASSERT(std::abs(k.lambda_t[0] + std::copysign(limit, slip)) < 1e-9);
+  RC_ASSERT(std::abs(k.lambda_t(0)) <= limit);
+  if (std::abs(slip) > 1e-9) RC_ASSERT(std::abs(k.lambda_t(0) + std::copysign(limit, slip)) < 1e-9);
 }
 
 RC_GTEST_PROP(ContactBlock, ASweepKeepsMomentum, (bool rows)) {
@@ -87,10 +87,10 @@ RC_GTEST_PROP(ContactBlock, WhatIsSolvedIsNotChangedBySolvingItAgain, ()) {
   prepareBlock(k, anyGeometry(2), a, b);
   k.mu = 0.0;
   solveBlock(k, k.nx, k.ny, a, b);
-  const double first = k.lambda_n[0], second = k.lambda_n[1];
+  const double first = k.lambda_n(0), second = k.lambda_n(1);
   solveBlock(k, k.nx, k.ny, a, b);
-  RC_ASSERT(std::abs(k.lambda_n[0] - first) < 1e-10);
-  RC_ASSERT(std::abs(k.lambda_n[1] - second) < 1e-10);
+  RC_ASSERT(std::abs(k.lambda_n(0) - first) < 1e-10);
+  RC_ASSERT(std::abs(k.lambda_n(1) - second) < 1e-10);
 }
 
 TEST(ContactBlock, AMagnetPullsAndHoldsSideways) {
@@ -109,7 +109,7 @@ TEST(ContactBlock, AMagnetPullsAndHoldsSideways) {
   EXPECT_NEAR(b.vx, 0.0, 1e-12);
   EXPECT_NEAR(b.vy, 0.0, 1e-12);
   EXPECT_NEAR(b.omega, 0.0, 1e-12);
-  EXPECT_LT(k.lambda_n[0] + k.lambda_n[1], 0.0);
+  EXPECT_LT(k.lambda_n(0) + k.lambda_n(1), 0.0);
 }
 
 TEST(ContactBlock, TwoPointsInOnePlaceAreTreatedAsOne) {
