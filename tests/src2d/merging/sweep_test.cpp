@@ -95,14 +95,14 @@ spin = )" +
 [[spring]]
 body = "a"
 to_body = "b"
-to = [0, 0]
+to_anchor = [0, 0]
 stiffness = 20
 rest_length = 0.5
 )";
 }
 
 TEST(Sweep, HoldsASpinningMemberOnItsCircle) {
-  Simulation run(spinner(120.0), Mode::Merge);
+  Simulation run(spinner(60.0), Mode::Merge);
   run.until(5.0);
   ASSERT_TRUE(run.merged("a"));
   const Snapshot now = run.now();
@@ -110,7 +110,7 @@ TEST(Sweep, HoldsASpinningMemberOnItsCircle) {
   const double spring = 20.0 * (apart.norm() - 0.5);
   const double omega = now.collections.front().omega;
   const double centripetal = omega * omega * 0.5 * apart.norm();  // m ω² r
-  ASSERT_GT(centripetal, 2.0);
+  ASSERT_GT(centripetal, 0.5);
   const double pressed = normalForce(now, BodyId{0}, BodyId{1}, 0.01);
   EXPECT_NEAR((spring - pressed) / centripetal, 1.0, 5e-4);
 }

@@ -140,14 +140,43 @@ TEST(Unmerge, UnderThePapersRuleTheBoxNeverSlips) {
   EXPECT_NEAR(slipOnPlatform(Mode::Merge, kPaper), 0.0, 1e-3);
 }
 
+/// A box sleeps on a platform that then goes sideways with up to 8 m/s², more than μg.
+double slipAfterSleep(Mode mode) {
+  Simulation run(R"(
+format = 1
+[[body]]
+name = "platform"
+motion = "scripted"
+box = [40, 1]
+script = { keyframes = [[4, 0, -0.5, 0], [6, 5.333, -0.5, 0]] }
+[[body]]
+name = "box"
+at = [0, 0.5]
+box = [1, 1]
+)",
+                 mode);
+  run.until(4.0);
+  const double before = seenFrom(run.body("platform"), run.body("box")).position.x();
+  run.until(8.0);
+  return seenFrom(run.body("platform"), run.body("box")).position.x() - before;
+}
+
+TEST(Unmerge, ASleepingBoxSlipsWhenThePlatformBelowIsJerkedAway) {
+  const double reference = slipAfterSleep(Mode::Reference);
+  EXPECT_GT(std::abs(reference), 0.05);
+  for (const Mode mode : {Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {
+    EXPECT_NEAR(slipAfterSleep(mode), reference, 0.1 * std::abs(reference)) << name(mode);
+  }
+}
+
 /// How far the last of ten boxes in a row goes when the first is hit from the side [m].
 std::pair<double, double> rowHit(Mode mode, double impulse, const Overrides& overrides = {}) {
   Simulation run(kGround + R"(
 [[body]]
 name = "box"
-at = [0, 0.5]
-box = [1, 1]
-repeat = { count = [10, 1], spacing = [1, 1] }
+at = [0, 0.25]
+box = [0.5, 0.5]
+repeat = { count = [10, 1], spacing = [0.5, 1] }
 )",
                  mode, overrides);
   run.until(3.0);
@@ -174,11 +203,10 @@ const std::string kSeeSaw = kGround + R"(
 [[body]]
 name = "pivot"
 motion = "pinned"
-at = [0, 0.5]
-circle = 0.5
+polygon = [[-0.4, 0], [0.4, 0], [0, 0.5]]
 [[body]]
 name = "beam"
-at = [0.02, 1.1]
+at = [0.02, 0.6]
 box = [4, 0.2]
 )";
 
@@ -205,7 +233,7 @@ TEST(Unmerge, AWeldThatTurnsBreaksAfterTheGivenSteps) {  // Figure 4, Section 6.
   for (const int steps : {3, 6}) {
     Overrides overrides{{"merging.cycles", "\"off\""}, {"unmerging.steps", std::to_string(steps)}};
     std::string balanced = kSeeSaw;
-    balanced.replace(balanced.find("[0.02, 1.1]"), 11, "[0.00, 1.1]");
+    balanced.replace(balanced.find("[0.02, 0.6]"), 11, "[0.00, 0.6]");
     Simulation run(balanced + R"(
 [[force]]
 body = "beam"
@@ -256,7 +284,9 @@ friction = 0.05
 }
 
 TEST(Unmerge, APlankFallsWhenItsMagnetLetsGo) {
-  Simulation run(R"(
+  for (const Mode mode : {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {
+    SCOPED_TRACE(name(mode));
+    Simulation run(R"(
 format = 1
 [[body]]
 name = "crane"
@@ -271,47 +301,37 @@ box = [1.5, 0.2]
 body = "crane"
 on = [[0, 3]]
 )",
-                 Mode::MergeSleep);
-  run.until(3.0);
-  EXPECT_NEAR(run.body("plank").x.y(), 9.9, 0.02);
-  run.until(4.0);
-  EXPECT_NEAR(run.body("plank").x.y(), 9.9 - 0.5 * 9.81, 0.1);
+                   mode);
+    run.until(3.0);
+    EXPECT_NEAR(run.body("plank").x.y(), 9.9, 0.02);
+    run.until(4.0);
+    EXPECT_NEAR(run.body("plank").x.y(), 9.9 - 0.5 * 9.81, 0.1);
+  }
 }
 
 // ---- impacts ----
 
-std::string wallHitByBall(int columns, int rows) {
-  return kGround + R"(
-[[body]]
-name = "wall"
-at = [0, 0.5]
-box = [1, 1]
-repeat = { count = [)" +
-         std::to_string(columns) + ", " + std::to_string(rows) +
-         R"(], spacing = [1, 1], stagger = 0.5 }
-[[body]]
-name = "ball"
-at = [-52.5, 2.0]
-circle = 0.5
-mass = 20
-velocity = [20, 10.5]
-pinned_until = 2
-)";
-}
-
-int movedByBall(Mode mode, const Overrides& overrides = {}) {
-  Simulation run(wallHitByBall(10, 12), mode, overrides);
-  run.until(3.9);  // before the ball arrives
+int movedByBall(Mode mode, const Vec2& velocity) {
+  Scene scene = wall(12, 10);
+  BodyDesc ball = disc(0.5, {-9.0, 4.0});
+  ball.mass = 10.0;
+  ball.velocity = velocity;
+  ball.pinned_until = 2.5;
+  add(scene, named("ball", ball));
+  Simulation run(scene, mode);
+  run.until(2.5);
   const Snapshot before = run.now();
-  run.until(8.0);
+  run.until(6.0);
   return moved(before, run.now(), 0.1);
 }
 
 TEST(Unmerge, AProjectileMovesAsManyBodiesAsInTheReference) {
-  const int reference = movedByBall(Mode::Reference);
-  const int merged = movedByBall(Mode::MergeSleep);
-  EXPECT_GT(reference, 10);
-  EXPECT_NEAR(merged, reference, 0.25 * reference);
+  for (const Vec2& velocity : {Vec2(10.0, 1.0), Vec2(20.0, 1.0), Vec2(30.0, 8.0)}) {
+    const int reference = movedByBall(Mode::Reference, velocity);
+    EXPECT_GT(reference, 5);
+    EXPECT_NEAR(movedByBall(Mode::MergeSleep, velocity), reference, 0.25 * reference)
+        << "at " << velocity.x() << " m/s";
+  }
 }
 
 // ---- no flicker ----
@@ -321,8 +341,7 @@ int wallEvents(const Scene& scene) {
   run.until(5.0);
   const int before = run.count(EventType::Merge) + run.count(EventType::Unmerge);
   EXPECT_GT(before, 0);
-  const Stats stats = run.now().stats;
-  EXPECT_EQ(stats.collections, 1);
+  EXPECT_LE(run.world().stats().active_bodies, 2) << "all is merged";
   run.until(15.0);
   return run.count(EventType::Merge) + run.count(EventType::Unmerge) - before;
 }
@@ -335,30 +354,28 @@ TEST(Unmerge, AWallOnASwingingPlatformDoesNotFlicker) {
 
 // ---- ordering (Figure 10) ----
 
-int movedInTower(Mode mode, const char* ordering) {
-  Simulation run(kGround + R"(
-[[body]]
-name = "tower"
-at = [-4, 0.5]
-box = [1, 1]
-repeat = { count = [8, 20], spacing = [1, 1], stagger = 0.5 }
-[[impulse]]
-body = "tower[0,18]"
-at = [-4.4, 18.5]
-impulse = [40, 0]
-time = 1.5
-)",
-                 mode, {{"unmerging.ordering", ordering}});
-  run.until(1.4);
+int movedInTower(Mode mode, bool ordering) {
+  Scene scene = wall(20, 8);
+  scene.settings.unmerging.ordering = ordering;
+  Simulation run(scene, mode);
+  run.until(1.5);
   const Snapshot before = run.now();
+  const auto left = std::min_element(before.bodies.begin(), before.bodies.end(),
+                                     [](const BodyState& a, const BodyState& b) {
+                                       const Vec2 corner(-4.0, 18.5);
+                                       return (a.x - corner).norm() < (b.x - corner).norm();
+                                     });
+  run.world().applyImpulse(left->id, left->x, {20.0, 0.0});
   run.until(5.0);
   return moved(before, run.now(), 0.1);
 }
 
 TEST(Unmerge, BreadthFirstOrderFreesWhatAnImpulseMoves) {
-  const int reference = movedInTower(Mode::Reference, "true");
-  const int ordered = movedInTower(Mode::Merge, "true");
-  const int unordered = movedInTower(Mode::Merge, "false");
+  const int reference = movedInTower(Mode::Reference, true);
+  const int ordered = movedInTower(Mode::Merge, true);
+  const int unordered = movedInTower(Mode::Merge, false);
+  SCOPED_TRACE(testing::Message() << "reference " << reference << ", ordered " << ordered
+                                  << ", unordered " << unordered);
   EXPECT_GT(reference, 5);
   EXPECT_LE(std::abs(ordered - reference), std::max(2.0, 0.25 * reference));
   EXPECT_GT(std::abs(unordered - reference), std::abs(ordered - reference));
