@@ -115,7 +115,7 @@ class BodyPainter {
 }  // namespace
 
 Font FrameScene::font(float design, Weight weight) const {
-  return {std::max(10, static_cast<int>(std::lround(px(design)))), weight};
+  return {std::max(11, static_cast<int>(std::lround(px(design)))), weight};
 }
 
 const BodyState* FrameScene::body(BodyId id) const {
