@@ -22,10 +22,26 @@ void emitBodies(State& state, Actions& actions, Scratch& scratch) {
   }
 }
 
+/// A body, and all that it touches, must not sleep through this step.
+void wakeAround(const State& state, Scratch& scratch, BodyId body) {
+  scratch.woken.push_back(body);
+  const auto wakeOther = [&](BodyId a, BodyId b) {
+    if (a == body) scratch.woken.push_back(b);
+    if (b == body) scratch.woken.push_back(a);
+  };
+  for (const ContactTable::Entry& entry : state.contacts.order) {
+    wakeOther(entry.key.a, entry.key.b);
+  }
+  for (const Collection& c : state.collections) {
+    for (const Weld& weld : c.welds) wakeOther(weld.a, weld.b);
+  }
+}
+
 void letGo(State& state, Actions& actions, Scratch& scratch) {
   for (Actions::Launch& launch : actions.launches) {
     if (launch.done || !reached(state, state[launch.body].pinned_until)) continue;
     launch.done = true;
+    wakeAround(state, scratch, launch.body);
     state[rigidOf(launch.body)].anchor = kFloating;
     releaseBody(state, scratch, launch.body);
     Rigid& r = state[rigidOf(launch.body)];
@@ -34,11 +50,6 @@ void letGo(State& state, Actions& actions, Scratch& scratch) {
     r.v = launch.v;
     r.omega = launch.omega;
     r.resized = true;
-    for (const ContactTable::Entry& entry : state.contacts.order) {
-      if (entry.key.a == launch.body) scratch.woken.push_back(entry.key.b);
-      if (entry.key.b == launch.body) scratch.woken.push_back(entry.key.a);
-    }
-    scratch.woken.push_back(launch.body);
   }
 }
 
@@ -51,7 +62,7 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
     Body& body = state[id];
     if (body.magnet_on == on) continue;
     body.magnet_on = on;
-    scratch.woken.push_back(id);
+    wakeAround(state, scratch, id);
     // Contacts inside collections turn bilateral, or back.
     for (Collection& c : state.collections) {
       const bool concerned = std::any_of(c.welds.begin(), c.welds.end(), [&](const Weld& w) {
@@ -73,7 +84,6 @@ void beginStep(State& state, Actions& actions, Scratch& scratch) {
   letGo(state, actions, scratch);
   switchMagnets(state, actions, scratch);
   moveScripted(state, actions);
-  followAnchors(state);
   listLoads(state, actions, scratch);
   listKicks(state, actions, scratch);
 }

@@ -71,7 +71,6 @@ void World::Impl::step() {
 
   state.step += 1;
   state.time = static_cast<double>(state.step) * state.h;
-  followAnchors(state);
   countBodies(state, s);
 }
 

@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include "src2d/core/error.h"
+#include "src2d/merging/collection.h"
 
 namespace merge2d {
 
 void advanceVelocities(State& state, const Scratch& scratch) {
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
     Rigid& r = state.rigids[i];
-    if (!r.present() || !r.floating() || r.asleep) continue;
+    const bool anchored = !r.floating() && i >= state.bodies.size();  // takes its frame's velocity
+    if (!r.present() || r.asleep || !(r.floating() || anchored)) continue;
     r.v = {scratch.u[i].vx, scratch.u[i].vy};
     r.omega = scratch.u[i].omega;
   }
@@ -26,6 +28,7 @@ void advancePositions(State& state) {
     r.angle += state.h * r.omega;
     r.rotation = Rotation::of(r.angle);
   }
+  followAnchors(state);
 }
 
 void checkFinite(const State& state, const std::vector<BodyInfo>& bodies, Stage stage) {

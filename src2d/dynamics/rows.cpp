@@ -12,11 +12,18 @@ namespace {
 
 bool simulated(const Rigid& r) { return r.present() && !r.asleep && r.floating(); }
 
+/// The scripted body that a collection is welded to: it has this step's velocity already.
+const Rigid& anchorOf(const State& state, std::size_t i) {
+  return state[rigidOf(state.collections[i - state.bodies.size()].anchor)];
+}
+
 /// u₋ + h M⁻¹ f for everything in B; what is fixed or asleep keeps its velocity.
 void startVelocities(const State& state, Scratch& scratch) {
   scratch.u.resize(state.rigids.size());
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
-    const Rigid& r = state.rigids[i];
+    const bool anchored = i >= state.bodies.size() && !state.rigids[i].floating() &&
+                          state.rigids[i].anchor != kWorldFrame && state.rigids[i].present();
+    const Rigid& r = anchored ? anchorOf(state, i) : state.rigids[i];
     SolverVelocity& u = scratch.u[i];
     const bool free = simulated(r);
     u = {r.v.x(), r.v.y(), r.omega, free ? r.inv_mass : 0.0, free ? r.inv_inertia : 0.0};

@@ -87,7 +87,8 @@ SolverVelocity memberMasses(const State& state, const Collection& c, BodyId b) {
 /// Deviation: contacts inside a collection are rigid rows, without bias and softness: their overlap
 /// is frozen, and would ask for a ghost velocity whenever the load changes.
 /// Guarded by Sweep.HoldsAColumnsWeightExactly.
-ContactBlock makeBlock(const State& state, const Collection& c, const Contact& contact) {
+ContactBlock makeBlock(const State& state, const Collection& c, const InternalContact& inner) {
+  const Contact& contact = inner.contact;
   const auto origin = [&](BodyId b) {
     return state[b].rigid == c.rigid ? state[b].local : Vec2(Vec2::Zero());
   };
@@ -107,7 +108,7 @@ ContactBlock makeBlock(const State& state, const Collection& c, const Contact& c
     const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];
     k.lambda_n(i) = p.lambda_n;
     k.lambda_t(i) = p.lambda_t;
-    k.bias[i] = std::max(0.0, p.gap) / state.h;
+    k.bias[i] = inner.active[i] ? 0.0 : std::max(0.0, p.gap) / state.h;  // may not have met yet
   }
   prepareBlock(k, g, memberMasses(state, c, contact.key.a), memberMasses(state, c, contact.key.b));
   return k;
@@ -151,7 +152,7 @@ void layOutBlocks(const State& state, Collection& c) {
   c.pivots_stale = true;
   c.active_blocks = 0;
   for (const Item& item : items) {
-    c.blocks.push_back(makeBlock(state, c, c.contacts[item.contact].contact));
+    c.blocks.push_back(makeBlock(state, c, c.contacts[item.contact]));
     c.block_contact.push_back(item.contact);
     c.block_weld.push_back(weld_of[item.contact]);
     if (!item.dormant) ++c.active_blocks;

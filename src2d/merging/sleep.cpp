@@ -26,11 +26,15 @@ void markRestless(State& state, Scratch& scratch, std::vector<std::uint8_t>& res
     const double change = (body.load - body.load_asleep).norm();
     if (change > 1e-6 * (1.0 + body.load.norm()) && state.rigid(load.body).asleep) mark(load.body);
   }
+  const auto stirs = [](const Rigid& r) {
+    return r.anchor > kWorldFrame && (r.v.squaredNorm() > 0.0 || r.omega != 0.0);
+  };
+  for (const Collection& c : state.collections) {
+    if (c.id == kNoCollection || state[c.rigid].floating()) continue;
+    if (stirs(state[rigidOf(c.anchor)])) restless[index(c.rigid)] = 1;
+  }
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
-    const auto stirs = [](const Rigid& r) {
-      return r.anchor > kWorldFrame && (r.v.squaredNorm() > 0.0 || r.omega != 0.0);
-    };
     if (stirs(a)) mark(pair.b);
     if (stirs(b)) mark(pair.a);
   }

@@ -331,6 +331,24 @@ void orderContacts(const State& state, Scratch& scratch) {
   }
 }
 
+/// What a collection feels, those that touch it feel in the same step.
+void spreadDisturbance(const State& state, Scratch& scratch) {
+  const auto slotOf = [&](std::uint32_t b) -> std::uint8_t* {
+    const RigidId id = state.bodies[b].rigid;
+    return state.isCollection(id) ? &scratch.disturbed[index(id) - state.bodies.size()] : nullptr;
+  };
+  bool spread = true;
+  while (spread) {
+    spread = false;
+    for (const SweepContact& outer : scratch.sweep_contacts) {
+      std::uint8_t *a = slotOf(outer.block.a), *b = slotOf(outer.block.b);
+      if (!a || !b || *a == *b) continue;
+      *a = *b = 1;
+      spread = true;
+    }
+  }
+}
+
 void warmStartSweep(State& state, Scratch& scratch) {
   scratch.sweep_contacts.clear();
   const bool any = std::any_of(state.collections.begin(), state.collections.end(),
@@ -350,7 +368,10 @@ void sweepCollections(State& state, Scratch& scratch) {
   if (!scratch.sweeping) return;
   const bool disturbed = std::any_of(scratch.disturbed.begin(), scratch.disturbed.end(),
                                      [](std::uint8_t d) { return d != 0; });
-  if (disturbed) sweepDisturbed(state, scratch);
+  if (disturbed) {
+    spreadDisturbance(state, scratch);
+    sweepDisturbed(state, scratch);
+  }
   for (SweepContact& outer : scratch.sweep_contacts) {
     sweepBlock(outer.block, {}, scratch.sweep_u, state.settings.solver.method);
   }

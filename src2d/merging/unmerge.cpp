@@ -71,7 +71,7 @@ class WeldTest {
 
   /// Broken (Section 6.3) and on edge (Eqs. (19), (20)).
   void testContacts(std::uint32_t b) {
-    const ContactBlock& k = c_.blocks[b];
+    ContactBlock& k = c_.blocks[b];
     InternalContact& inner = c_.contacts[c_.block_contact[b]];
     const std::uint32_t weld = c_.block_weld[b];
     c_.watched[b] = 0;
@@ -80,6 +80,7 @@ class WeldTest {
       const bool was_lost = inner.lost[i], was_active = inner.active[i];
       if (pressed) {
         inner.active[i] = true;
+        k.bias[i] = 0.0;
         inner.lost[i] = false;
         inner.opening[i] = {};
       }
@@ -108,7 +109,7 @@ class WeldTest {
   /// True when the drift is too large. Evidence that more sweeps do not confirm is forgotten.
   bool exceeds(Drift& drift, double w, double threshold) const {
     if (confirming_) {
-      drift.sum = static_cast<float>(w * drift.steps);
+      drift.sum = static_cast<float>(w * std::max(drift.steps, 1));
       if (std::abs(drift.sum) > threshold) return true;
       drift = {};
       return false;
