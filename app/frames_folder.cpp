@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <optional>
 #include <vector>
 
@@ -16,18 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number in "frame_000012.png", or in the temporary name of such a file.
-std::optional<std::int64_t> frameNumber(std::string_view name) {
+/// "frame_000012.png", or the temporary name of such a file.
+bool isFrame(std::string_view name) {
   constexpr std::string_view kStart = "frame_";
   constexpr std::size_t kDigits = 6;
-  if (!name.starts_with(kStart) || name.size() < kStart.size() + kDigits) return std::nullopt;
+  if (!name.starts_with(kStart) || name.size() < kStart.size() + kDigits) return false;
   const std::string_view digits = name.substr(kStart.size(), kDigits);
   const std::string_view rest = name.substr(kStart.size() + kDigits);
-  if (rest != ".png" && rest != ".png.part") return std::nullopt;
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + kDigits, number);
-  if (error != std::errc() || end != digits.data() + kDigits) return std::nullopt;
-  return number;
+  return (rest == ".png" || rest == ".png.part") &&
+         std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
 }
 
 /// The names in a folder, sorted.
@@ -40,16 +35,10 @@ std::vector<std::string> namesIn(const fs::path& folder) {
   return names;
 }
 
-/// Removes the frames after `last`, all of them for -1; returns how many.
-int removeFrames(const fs::path& folder, std::int64_t last) {
-  int removed = 0;
-  for (const std::string& name : namesIn(folder)) {
-    const auto number = frameNumber(name);
-    if (!number || *number <= last) continue;
-    fs::remove(folder / name);
-    ++removed;
-  }
-  return removed;
+std::vector<std::string> framesIn(const fs::path& folder) {
+  std::vector<std::string> names = namesIn(folder);
+  std::erase_if(names, [](const std::string& name) { return !isFrame(name); });
+  return names;
 }
 
 /// Lessons are put beside the frames.
@@ -76,18 +65,28 @@ void prepareFolder(const fs::path& folder, const Json& film, const Film& frames,
   if (!earlier && !options.force) requireNothingForeign(folder);
 
   const std::string changed = earlier ? difference(film, *earlier) : "";
+  const std::string run_file = (folder / "run.json").string();
   if (options.resume && !changed.empty()) {
     throw UsageError(
         fmt::format("--resume continues the same rendering only, but {} differs from what {} says; "
                     "without --resume its frames are replaced",
-                    changed, (folder / "run.json").string()));
+                    changed, run_file));
   }
-  const bool same = earlier && changed.empty();
   const bool whole = frames.from == 0 && frames.to == frames.last;
-  const bool keep = same && (options.resume || !whole);
-  const int removed = removeFrames(folder, keep ? frames.last : -1);
-  if (removed > 0) {
-    console.note(fmt::format("{} earlier frames in {} are replaced", removed, folder.string()));
+  const bool same = earlier && changed.empty();
+  if (same && (options.resume || !whole)) return;
+
+  const std::vector<std::string> replaced = framesIn(folder);
+  if (!whole && replaced.size() > 1 && !options.force) {
+    throw UsageError(
+        fmt::format("{} frames in {} belong to another rendering: {} differs from what {} says; "
+                    "choose another folder with --output, or say --force to remove them",
+                    replaced.size(), folder.string(), changed, run_file));
+  }
+  for (const std::string& name : replaced) fs::remove(folder / name);
+  if (!replaced.empty()) {
+    console.note(
+        fmt::format("{} earlier frames in {} are replaced", replaced.size(), folder.string()));
   }
 }
 

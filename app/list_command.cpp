@@ -10,10 +10,12 @@ namespace merge2d {
 namespace {
 
 void list(const MessageOptions& options) {
+  check(options);
   const std::vector<BuiltinScene> scenes = builtinScenes();
   if (options.json) {
     nlohmann::ordered_json out;
-    out["scenes"] = out["lessons"] = nlohmann::ordered_json::array();
+    out["scenes"] = nlohmann::ordered_json::array();
+    out["lessons"] = nlohmann::ordered_json::array();
     for (const BuiltinScene& scene : scenes) {
       out["scenes"].push_back({{"name", scene.name}, {"title", scene.title}});
     }

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "app/simulation.h"
 #include "app/usage_error.h"
@@ -12,6 +13,8 @@
 
 namespace merge2d {
 namespace {
+
+constexpr const char* kGeneral = "General";
 
 Mode readMode(const std::string& text) {
   if (const auto mode = valueOf<Mode>(text)) return *mode;
@@ -27,6 +30,43 @@ void readOverride(const std::string& text, Overrides& overrides) {
         "--set needs key=value, such as --set merging.velocity=0.02, but got '{}'", text));
   }
   overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+}
+
+void addSimulationOptions(CLI::App& command, SceneOptions& options) {
+  constexpr const char* kGroup = "Simulation";
+  addOption(
+      command, "--steps", "N",
+      [&](const std::string& s) { options.steps = readInteger("--steps", s, 0, kMostSteps); },
+      "Number of time steps (default: the scene's duration)")
+      ->group(kGroup);
+  addOption(
+      command, "--seconds", "T",
+      [&](const std::string& s) { options.seconds = readNumber("--seconds", s, 0.0); },
+      "Simulated time in seconds, instead of --steps")
+      ->group(kGroup);
+  addOption(
+      command, "--mode", "MODE", [&](const std::string& s) { options.mode = readMode(s); },
+      "reference, sleep, merge or merge+sleep (default)")
+      ->group(kGroup);
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&](const std::vector<std::string>& all) {
+            for (const std::string& one : all) readOverride(one, options.overrides);
+          },
+          "Change a parameter of the scene, such as merging.velocity=0.02 or "
+          "body.ball.mass=50; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->group(kGroup);
+  addOption(
+      command, "--seed", "N",
+      [&](const std::string& s) {
+        const auto seed = readInteger("--seed", s, 0, std::numeric_limits<std::int64_t>::max());
+        options.overrides.emplace_back("seed", std::to_string(seed));
+      },
+      "Seed of everything random in the scene")
+      ->group(kGroup);
 }
 
 }  // namespace
@@ -70,9 +110,10 @@ std::string readPath(const std::string& option, const std::string& text) {
 }
 
 void addMessageOptions(CLI::App& command, MessageOptions& options) {
-  CLI::Option* quiet = command.add_flag("--quiet", options.quiet, "No messages but errors");
-  command.add_flag("--verbose", options.verbose, "More messages")->excludes(quiet);
-  command.add_flag("--json", options.json, "Print the result as JSON");
+  command.add_flag("--json", options.json, "Print the result as JSON")->group(kGeneral);
+  command.add_flag("--quiet", options.quiet, "No messages but errors")->group(kGeneral);
+  command.add_flag("--verbose", options.verbose, "More messages")->group(kGeneral);
+  command.set_help_flag("-h,--help", "Print this help and exit")->group(kGeneral);
 }
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
@@ -81,36 +122,25 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
                   "A built-in scene (see merge2d list), a .toml file, or a drawn .png file")
       ->type_name("")
       ->required();
-  CLI::Option* steps = addOption(
-      command, "--steps", "N",
-      [&](const std::string& s) { options.steps = readInteger("--steps", s, 0, kMostSteps); },
-      "Number of time steps (default: the scene's duration)");
-  addOption(
-      command, "--seconds", "T",
-      [&](const std::string& s) { options.seconds = readNumber("--seconds", s, 0.0); },
-      "Simulated time in seconds, instead of --steps")
-      ->excludes(steps);
-  addOption(
-      command, "--mode", "MODE", [&](const std::string& s) { options.mode = readMode(s); },
-      "reference, sleep, merge or merge+sleep (default)");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--set",
-          [&](const std::vector<std::string>& all) {
-            for (const std::string& one : all) readOverride(one, options.overrides);
-          },
-          "Change a parameter of the scene; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  addOption(
-      command, "--seed", "N",
-      [&](const std::string& s) {
-        const auto seed = readInteger("--seed", s, 0, std::numeric_limits<std::int64_t>::max());
-        options.overrides.emplace_back("seed", std::to_string(seed));
-      },
-      "Seed of everything random in the scene");
-  command.add_flag("--force", options.force, "Overwrite files that are not ours");
+  addSimulationOptions(command, options);
+}
+
+void addGeneralOptions(CLI::App& command, SceneOptions& options) {
+  command.add_flag("--force", options.force, "Overwrite files that are not ours")->group(kGeneral);
   addMessageOptions(command, options);
+}
+
+void check(const MessageOptions& options) {
+  if (options.quiet && options.verbose) {
+    throw UsageError("--quiet and --verbose exclude each other");
+  }
+}
+
+void check(const SceneOptions& options) {
+  check(static_cast<const MessageOptions&>(options));
+  if (options.steps && options.seconds) {
+    throw UsageError("--steps and --seconds both say how long to simulate; give one of them");
+  }
 }
 
 }  // namespace merge2d

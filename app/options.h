@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -28,8 +29,15 @@ struct SceneOptions : MessageOptions {
   bool force = false;
 };
 
-void addMessageOptions(CLI::App& command, MessageOptions& options);
+/// The scene and how it is simulated; a command's own options come next in its help, and then:
 void addSceneOptions(CLI::App& command, SceneOptions& options);
+/// --force and what `addMessageOptions` adds.
+void addGeneralOptions(CLI::App& command, SceneOptions& options);
+void addMessageOptions(CLI::App& command, MessageOptions& options);
+
+/// Throws UsageError for options that contradict each other.
+void check(const MessageOptions& options);
+void check(const SceneOptions& options);
 
 /// Adds an option whose text `read` turns into a value. `read` throws UsageError; of several
 /// occurrences the last one counts.

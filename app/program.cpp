@@ -1,63 +1,78 @@
 #include "app/program.h"
 
-#include <algorithm>
+#include <exception>
+#include <memory>
 #include <new>
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/help.h"
 #include "app/interrupt.h"
+#include "app/parse.h"
 #include "app/usage_error.h"
 #include "src2d/core/error.h"
-#include "src2d/core/suggest.h"
 
 namespace merge2d {
 namespace {
 
+constexpr const char* kExamples = R"(Examples:
+  merge2d list                          the built-in scenes
+  merge2d run tower-platform            simulate one, and sum it up
+  merge2d render tower-platform         draw it to frames/tower-platform/
+  merge2d validate my-scene.toml        check a scene of your own
+
+'merge2d COMMAND --help' tells more. The result goes to the standard output, messages to the
+standard error. Exit codes: 0 fine, 1 a check or the simulation failed, 2 wrong usage, 3 bad scene,
+4 rendering, reading or writing failed.)";
+
 void addCommands(CLI::App& program, Action& action) {
   program.name("merge2d");
-  program.set_version_flag("--version", "merge2d " MERGE2D_VERSION);
+  program.formatter(std::make_shared<HelpFormatter>());
+  program.set_help_flag("-h,--help", "Print this help and exit");
+  program.set_version_flag("--version", "merge2d " MERGE2D_VERSION, "Print the version and exit");
   program.require_subcommand(0, 1);
+  program.footer(kExamples);
   addListCommand(program, action);
+  addValidateCommand(program, action);
   addRunCommand(program, action);
   addRenderCommand(program, action);
+  addDoctorCommand(program, action);
+  for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
+}
+
+void run(std::vector<std::string> arguments) {
+  CLI::App program("Headless 2D simulator of adaptive merging of rigid bodies");
+  Action action;
+  addCommands(program, action);
+  if (parse(program, std::move(arguments))) action();
+  flushOutput();
+}
+
+int fail(const std::exception& error, ExitCode code) {
+  printError(error.what());
+  return code;
 }
 
 }  // namespace
 
 int runProgram(std::vector<std::string> arguments) {
-  CLI::App program("Headless 2D simulator of adaptive merging of rigid bodies");
-  Action action;
-  addCommands(program, action);
   try {
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
-    program.parse(std::move(arguments));
-    if (action) action();
-    flushOutput();
+    run(std::move(arguments));
     return kFine;
-  } catch (const CLI::CallForVersion&) {
-    print("merge2d " MERGE2D_VERSION "\n");
-    return kFine;
-  } catch (const CLI::CallForHelp&) {
-    print(program.help());
-    return kFine;
-  } catch (const CLI::ParseError& error) {
-    printError(error.what());
-    return kWrongUsage;
   } catch (const UsageError& error) {
-    printError(error.what());
-    return kWrongUsage;
+    return fail(error, kWrongUsage);
   } catch (const InputError& error) {
-    printError(error.what());
-    return kBadInput;
-  } catch (const IoError& error) {
-    printError(error.what());
-    return kOutputFailed;
+    return fail(error, kBadInput);
   } catch (const SimulationError& error) {
-    printError(error.what());
-    return kCheckFailed;
-  } catch (const Interrupted&) {
-    printError("interrupted");
+    return fail(error, kCheckFailed);
+  } catch (const Interrupted& interrupted) {
+    printError(interrupted.what());
     endByInterrupt();
+  } catch (const std::bad_alloc&) {
+    printError("there is not enough memory");
+    return kOutputFailed;
+  } catch (const std::exception& error) {  // IoError, and those of std::filesystem
+    return fail(error, kOutputFailed);
   }
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -54,6 +55,8 @@ class Rendering {
  private:
   const World& world() const { return simulation_.world(); }
   const Scene& scene() const { return world().scene(); }
+  /// Frames drawn per second.
+  double speed() const { return static_cast<double>(counts_.written) / std::max(seconds_, 1e-9); }
 
   FrameStyle makeStyle() const;
   void drawFrames();
@@ -61,7 +64,8 @@ class Rendering {
   void finish(bool complete, const std::string& failure = {});
   fs::path makeAnimation();
   FfmpegJob ffmpegJob() const;
-  void report(const fs::path& animation);
+  void noteSpeed() const;
+  void printProducts(const fs::path& animation) const;
 
   const RenderOptions& options_;
   Console console_;
@@ -145,42 +149,44 @@ fs::path Rendering::makeAnimation() {
   }
   const auto program = findFfmpeg();
   if (!program) {
-    console_.note(
-        fmt::format("ffmpeg is not installed; it can make the {} later:", nameOf(options_.format)));
+    console_.note(fmt::format("ffmpeg is not installed; where it is, this makes the {}:",
+                              nameOf(options_.format)));
     return {};
   }
   runFfmpeg(*program, ffmpegJob());
   return ffmpegJob().output();
 }
 
-void Rendering::report(const fs::path& animation) {
+void Rendering::noteSpeed() const {
   const std::int64_t frames = counts_.written + counts_.kept;
-  const double rate = static_cast<double>(counts_.written) / seconds_;
-  const fs::path product = options_.last_only  ? folder_ / frameName(film_.last)
-                           : animation.empty() ? folder_
-                                               : animation;
+  std::string note = fmt::format("{} frame{} of {}x{} in {:.1f} s", frames, frames == 1 ? "" : "s",
+                                 style_.width, style_.height, seconds_);
+  if (counts_.written > 0) note += fmt::format(", {:.0f} frames per second", speed());
+  if (counts_.kept > 0) note += fmt::format("; {} were there already", counts_.kept);
+  console_.note(note);
+}
+
+/// The folder, the picture or the animation, and how ffmpeg makes a film.
+void Rendering::printProducts(const fs::path& animation) const {
   const std::string ffmpeg = ffmpegJob().commandLine();
   if (options_.json) {
-    Json out{{"scene", scene().name},
-             {"folder", folder_.string()},
-             {"frames", {{"first", film_.from}, {"last", film_.to}}},
-             {"written", counts_.written},
-             {"kept", counts_.kept},
-             {"width", style_.width},
-             {"height", style_.height},
-             {"fps", film_.fps},
-             {"animation", animation.empty() ? Json() : Json(animation.string())},
-             {"ffmpeg", ffmpeg},
-             {"frames_per_second", rate}};
+    const Json out{{"scene", scene().name},
+                   {"folder", folder_.string()},
+                   {"frames", {{"first", film_.from}, {"last", film_.to}}},
+                   {"written", counts_.written},
+                   {"kept", counts_.kept},
+                   {"width", style_.width},
+                   {"height", style_.height},
+                   {"fps", film_.fps},
+                   {"animation", animation.empty() ? Json() : Json(animation.string())},
+                   {"ffmpeg", ffmpeg},
+                   {"frames_per_second", speed()}};
     print(out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-    return;
+  } else if (options_.last_only) {
+    print((folder_ / frameName(film_.last)).string() + "\n");
+  } else {
+    print((animation.empty() ? folder_ : animation).string() + "\n" + ffmpeg + "\n");
   }
-  const std::string kept = counts_.kept > 0 ? fmt::format(", {} kept", counts_.kept) : "";
-  console_.note(fmt::format("{} frame{} of {}x{} in {:.1f} s ({:.0f} frames per second{})", frames,
-                            frames == 1 ? "" : "s", style_.width, style_.height, seconds_, rate,
-                            kept));
-  print(product.string() + "\n");
-  if (!options_.last_only) print(ffmpeg + "\n");
 }
 
 void Rendering::run() {
@@ -195,7 +201,8 @@ void Rendering::run() {
     throw Interrupted("interrupted; --resume continues");
   }
   finish(true);
-  report(makeAnimation());
+  noteSpeed();
+  printProducts(makeAnimation());
 }
 
 void render(const RenderOptions& options) {

@@ -89,45 +89,56 @@ std::string overlayHelp() {
 }
 
 void addPictureOptions(CLI::App& command, RenderOptions& options) {
+  constexpr const char* kGroup = "Pictures";
   addOption(
       command, "-q,--quality", "l|m|h|p|k",
       [&](const std::string& s) { options.quality = readQuality(s); },
-      "480p15, 720p30 (default), 1080p60, 1440p60 or 2160p60");
+      "480p15, 720p30 (default), 1080p60, 1440p60 or 2160p60")
+      ->group(kGroup);
   addOption(
       command, "-r,--resolution", "WxH", [&](const std::string& s) { options.size = readSize(s); },
-      "Size of the pictures, such as 1280x720; odd sizes grow by one for the sake of H.264");
+      "Size of the pictures, such as 1280x720; odd sizes grow by one for the sake of H.264")
+      ->group(kGroup);
   addOption(
       command, "--fps", "N",
       [&](const std::string& s) {
         options.fps = static_cast<int>(readInteger("--fps", s, 1, kMostFps));
       },
-      "Frames per second: frame k shows the time k / fps");
+      "Frames per second: frame k shows the time k / fps")
+      ->group(kGroup);
   addOption(
       command, "--overlay", "LIST",
       [&](const std::string& s) { options.overlays = asUsage([&] { return parseOverlays(s); }); },
-      overlayHelp());
+      overlayHelp())
+      ->group(kGroup);
   addOption(
       command, "--theme", "NAME",
       [&](const std::string& s) { options.theme = asUsage([&] { return themeByName(s); }); },
-      "light (default), dark or print");
-  command.add_flag("-t,--transparent", options.transparent, "No background");
+      "light (default), dark or print")
+      ->group(kGroup);
+  command.add_flag("-t,--transparent", options.transparent, "No background")->group(kGroup);
 }
 
 void addFileOptions(CLI::App& command, RenderOptions& options) {
+  constexpr const char* kGroup = "Files";
   addOption(
       command, "-o,--output", "DIR",
       [&](const std::string& s) { options.folder = readPath("--output", s); },
-      "Folder for the frames (default: frames/<scene>)");
-  command.add_flag("-s,--last-frame", options.last_only, "Draw the last frame only");
+      "Folder for the frames (default: frames/<scene>)")
+      ->group(kGroup);
+  command.add_flag("-s,--last-frame", options.last_only, "Draw the last frame only")->group(kGroup);
   addOption(
       command, "-n,--frames", "FROM,TO",
       [&](const std::string& s) { options.range = readRange(s); },
-      "Draw the frames from FROM to TO only, both included; without TO, up to the last");
+      "Draw the frames from FROM to TO only, both included; without TO, up to the last")
+      ->group(kGroup);
   addOption(
       command, "--format", "FORMAT", [&](const std::string& s) { options.format = readFormat(s); },
-      "png (default), or the frames and from them also an apng, gif or mp4");
-  command.add_flag("--resume", options.resume,
-                   "Keep the frames that an interrupted rendering left");
+      "png (default), or the frames and from them also an apng, gif or mp4")
+      ->group(kGroup);
+  command
+      .add_flag("--resume", options.resume, "Keep the frames that an interrupted rendering left")
+      ->group(kGroup);
 }
 
 }  // namespace
@@ -136,9 +147,11 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
   addSceneOptions(command, options);
   addFileOptions(command, options);
   addPictureOptions(command, options);
+  addGeneralOptions(command, options);
 }
 
 void check(const RenderOptions& options) {
+  check(static_cast<const SceneOptions&>(options));
   if (options.last_only && options.range) {
     throw UsageError("--last-frame and --frames ask for different frames");
   }

@@ -32,6 +32,7 @@ struct RunOptions : SceneOptions {
 };
 
 void check(const RunOptions& options) {
+  check(static_cast<const SceneOptions&>(options));
   if (options.decisions && options.trace.empty()) {
     throw UsageError("--decisions go into the trace; name it with --trace FILE.jsonl");
   }
@@ -142,18 +143,26 @@ void addRunCommand(CLI::App& program, Action& action) {
   command->footer(kExamples);
   const auto options = std::make_shared<RunOptions>();
   addSceneOptions(*command, *options);
+  constexpr const char* kGroup = "Files";
   addOption(
       *command, "--trace", "FILE.jsonl",
       [options](const std::string& s) { options->trace = readPath("--trace", s); },
-      "Write every time step as a line of JSON; - is the standard output");
+      "Write every time step as a line of JSON; - is the standard output")
+      ->group(kGroup);
   addOption(
       *command, "--csv", "FILE.csv",
       [options](const std::string& s) { options->csv = readPath("--csv", s); },
-      "Write a table with a row per time step");
-  command->add_flag("--decisions", options->decisions,
-                    "Add every merge and unmerge decision to the trace");
-  command->add_flag("--no-timings", options->no_timings,
-                    "Leave out measured seconds, so that two runs give the same bytes");
+      "Write a table with a row per time step")
+      ->group(kGroup);
+  command
+      ->add_flag("--decisions", options->decisions,
+                 "Add every merge and unmerge decision to the trace")
+      ->group(kGroup);
+  command
+      ->add_flag("--no-timings", options->no_timings,
+                 "Leave out measured seconds, so that two runs give the same bytes")
+      ->group(kGroup);
+  addGeneralOptions(*command, *options);
   command->callback([&action, options] { action = [options] { run(*options); }; });
 }
 

@@ -15,9 +15,8 @@ namespace {
 constexpr const char* kFormat = "merge2d-run";
 constexpr int kVersion = 1;
 
-/// A number that changes with any part of the scene but its duration (FNV-1a).
-std::string digest(Scene scene) {
-  scene.duration = 0.0;
+/// A number that changes with any part of the scene (FNV-1a).
+std::string digest(const Scene& scene) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : toToml(scene)) {
     hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
@@ -45,13 +44,12 @@ Json picture(const RenderOptions& options, const FrameStyle& style) {
   return out;
 }
 
-/// The film without what may change from one rendering of it to the next.
+/// What has to be the same in two renderings of one film.
 Json fixedPart(const Json& film) {
   Json fixed;
-  for (const char* key : {"program", "scene", "digest", "mode", "parameters", "picture"}) {
+  for (const char* key : {"program", "scene", "mode", "parameters", "picture", "digest"}) {
     fixed[key] = film.value(key, Json());
   }
-  if (fixed["parameters"].is_object()) fixed["parameters"].erase("duration");
   return fixed;
 }
 
@@ -83,7 +81,8 @@ std::optional<Json> readRunFile(const std::filesystem::path& folder) {
 std::string difference(const Json& film, const Json& run_file) {
   const Json changes = Json::diff(fixedPart(film), fixedPart(run_file));
   if (changes.empty()) return {};
-  return changes[0]["path"].get<std::string>().substr(1);
+  const std::string path = changes[0]["path"].get<std::string>().substr(1);
+  return path == "digest" ? "the scene" : path;
 }
 
 void RunFile::add(const Snapshot& snapshot) {

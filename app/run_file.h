@@ -15,14 +15,14 @@ namespace merge2d {
 using Json = nlohmann::ordered_json;
 
 /// Everything that decides what a frame looks like: program, scene, parameters, picture. Two
-/// renderings of one film give the same frames; one may be longer than the other.
+/// renderings of one film give the same frames.
 Json filmJson(const Scene& scene, const RenderOptions& options, const FrameStyle& style);
 
 /// The run.json of a folder, if there is one and it is ours.
 std::optional<Json> readRunFile(const std::filesystem::path& folder);
 
-/// Where a film differs from the one in a run.json: "parameters/merging/velocity"; empty when they
-/// are the same.
+/// Where a film first differs from the one in a run.json: "parameters/merging/velocity"; empty when
+/// they are the same.
 std::string difference(const Json& film, const Json& run_file);
 
 /// Gathers what run.json says and writes it.

@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "app/ffmpeg.h"
+#include "render/canvas.h"
+#include "src2d/core/error.h"
+#include "src2d/scene/load.h"
+
+namespace merge2d {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One thing that merge2d builds on.
+struct Check {
+  std::string name;
+  bool works = false;
+  bool needed = true;
+  std::string detail;  ///< what was found, or what is wrong and how to mend it
+};
+
+/// Turns what `look` throws into a failed check; `remedy` says what to do about it.
+template <class F>
+Check attempt(const std::string& name, const std::string& remedy, F&& look) {
+  try {
+    return {name, true, true, look()};
+  } catch (const std::exception& error) {
+    return {name, false, true, fmt::format("{}; {}", error.what(), remedy)};
+  }
+}
+
+/// Draws a red picture and looks whether it is one.
+std::string checkDrawing() {
+  Canvas canvas(64, 64);
+  Drawing drawing;
+  drawing.background = Color{255, 0, 0, 255};
+  if (canvas.draw(drawing).at(32, 32) != Color{255, 0, 0, 255}) {
+    throw IoError("the pixels of a test picture are wrong");
+  }
+  return canvas.description();
+}
+
+std::string checkScenes() {
+  const std::size_t scenes = builtinScenes().size();
+  if (scenes == 0) throw IoError("there are no built-in scenes");
+  return fmt::format("{} built-in", scenes);
+}
+
+/// Where frames go unless -o says otherwise.
+Check checkFolder() {
+  const fs::path folder = fs::exists("frames") ? "frames" : ".";
+  const std::string where = fs::weakly_canonical(folder).string();
+  if (access(folder.c_str(), W_OK | X_OK) == 0) return {"folder", true, true, where};
+  return {"folder", false, false, fmt::format("{} is not writable; use --output DIR", where)};
+}
+
+Check checkFfmpeg() {
+  const auto program = findFfmpeg();
+  return {"ffmpeg", program.has_value(), false,
+          program ? program->string()
+                  : "not installed; only --format gif and mp4 need it (apt-get install ffmpeg)"};
+}
+
+std::vector<Check> examine() {
+  const std::string font_remedy = "install fonts-dejavu-core";
+  return {attempt("OpenGL", "install libosmesa6", checkDrawing),
+          attempt("font", font_remedy, [] { return fontFile(Weight::Regular).string(); }),
+          attempt("bold font", font_remedy, [] { return fontFile(Weight::Bold).string(); }),
+          attempt("scenes", "set MERGE2D_SCENES to their folder", checkScenes),
+          checkFolder(),
+          checkFfmpeg(),
+          {"processors", true, false, std::to_string(std::thread::hardware_concurrency())}};
+}
+
+std::string table(const std::vector<Check>& checks) {
+  std::string out = "merge2d " MERGE2D_VERSION "\n";
+  for (const Check& check : checks) {
+    const char* verdict = check.works ? "ok" : check.needed ? "FAILED" : "missing";
+    out += fmt::format("{:<12}{:<9}{}\n", check.name, verdict, check.detail);
+  }
+  return out;
+}
+
+std::string json(const std::vector<Check>& checks) {
+  nlohmann::ordered_json out;
+  out["version"] = MERGE2D_VERSION;
+  out["checks"] = nlohmann::ordered_json::array();
+  for (const Check& check : checks) {
+    out["checks"].push_back({{"name", check.name},
+                             {"ok", check.works},
+                             {"needed", check.needed},
+                             {"detail", check.detail}});
+  }
+  return out.dump() + "\n";
+}
+
+void examine(const MessageOptions& options) {
+  check(options);
+  const std::vector<Check> checks = examine();
+  print(options.json ? json(checks) : table(checks));
+  const auto failed = std::ranges::count_if(
+      checks, [](const Check& check) { return check.needed && !check.works; });
+  if (failed > 0) {
+    throw IoError(fmt::format("{} of {} checks failed", failed, checks.size()));
+  }
+}
+
+}  // namespace
+
+void addDoctorCommand(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("doctor", "Tell what works here: drawing, fonts, ffmpeg, folders");
+  command->footer("Examples:\n  merge2d doctor\n  merge2d doctor --json");
+  const auto options = std::make_shared<MessageOptions>();
+  addMessageOptions(*command, *options);
+  command->callback([&action, options] { action = [options] { examine(*options); }; });
+}
+
+}  // namespace merge2d

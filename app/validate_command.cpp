@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "app/output_file.h"
+#include "app/simulation.h"
+#include "app/usage_error.h"
+#include "src2d/core/error.h"
+#include "src2d/geometry/box.h"
+
+namespace merge2d {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kExamples = R"(Examples:
+  merge2d validate tower.toml
+  merge2d validate drawing.png --to scene.toml
+  merge2d validate pile --json --set step=0.005)";
+
+struct ValidateOptions : SceneOptions {
+  std::string to;  ///< file for the text scene, or empty
+};
+
+/// What a scene consists of.
+struct Inventory {
+  std::map<Motion, int> motions;
+  int held = 0;  ///< dynamic, but pinned at first
+  int discs = 0, polygons = 0;
+  int emitted = 0;    ///< bodies that appear later
+  double mass = 0.0;  ///< of the dynamic bodies [kg]
+  Aabb extent;
+};
+
+Inventory inventoryOf(const Scene& scene) {
+  Inventory found;
+  for (const BodyDesc& body : scene.bodies) {
+    ++found.motions[body.motion];
+    if (body.motion == Motion::Dynamic && body.pinned_until > 0.0) ++found.held;
+    for (const ConvexShape& shape : body.shapes) {
+      ++(std::holds_alternative<Circle>(shape) ? found.discs : found.polygons);
+      found.extent.include(bounds(shape, Pose::at(body.at, body.angle)));
+    }
+    if (body.motion != Motion::Dynamic) continue;
+    found.mass += body.mass.value_or(body.density * areaProperties(body.shapes).area);
+  }
+  for (const EmitterDesc& emitter : scene.emitters) found.emitted += emitter.count;
+  return found;
+}
+
+/// Bodies that overlap from the start jump apart, which is seldom what was meant.
+void warnOfOverlaps(Scene& scene) {
+  World world(scene, {.mode = Mode::Reference, .timings = false});
+  world.step();  // finds the contacts of the starting poses
+  const Snapshot snapshot = world.capture();
+  const double tolerance = std::max(scene.settings.solver.margin, 1e-3);
+  std::map<std::pair<BodyId, BodyId>, double> overlaps;  // [m]
+  for (const ContactView& contact : snapshot.contacts) {
+    if (-contact.gap <= tolerance) continue;
+    double& deepest = overlaps[{contact.a, contact.b}];
+    deepest = std::max(deepest, -contact.gap);
+  }
+  if (overlaps.empty()) return;
+  const auto& [pair, depth] = *std::ranges::max_element(
+      overlaps, [](const auto& x, const auto& y) { return x.second < y.second; });
+  const auto& bodies = world.bodies();
+  scene.warnings.push_back(fmt::format(
+      "'{}' and '{}' overlap by {:.3g} m at the start{}", bodies[index(pair.first)].name,
+      bodies[index(pair.second)].name, depth,
+      overlaps.size() > 1 ? fmt::format(", and {} more pairs by less", overlaps.size() - 1) : ""));
+}
+
+/// "1 disc", "2 discs".
+std::string counted(int number, const std::string& one, const std::string& many = "") {
+  const std::string plural = many.empty() ? one + "s" : many;
+  return fmt::format("{} {}", number, number == 1 ? one : plural);
+}
+
+/// The rows of the report: what, and how much of it.
+std::string table(const Scene& scene, const Inventory& found) {
+  std::string out = fmt::format("{}: {}\n", scene.name, scene.title);
+  const auto row = [&](const char* what, const std::string& value) {
+    out += fmt::format("  {:<10}{}\n", what, value);
+  };
+  const auto count = [&](const char* what, std::size_t number) {
+    if (number > 0) row(what, std::to_string(number));
+  };
+  std::string motions;
+  for (const auto& [motion, number] : found.motions) {
+    motions += fmt::format("{}{} {}", motions.empty() ? ": " : ", ", number, name(motion));
+  }
+  if (found.held > 0) motions += fmt::format(" ({} of them held at first)", found.held);
+  row("bodies", std::to_string(scene.bodies.size()) + motions);
+  row("shapes", fmt::format("{}: {}, {}", found.discs + found.polygons,
+                            counted(found.discs, "disc"), counted(found.polygons, "polygon")));
+  if (found.emitted > 0) {
+    row("emitters", fmt::format("{}: {} later", scene.emitters.size(),
+                                counted(found.emitted, "body", "bodies")));
+  }
+  count("springs", scene.springs.size());
+  count("impulses", scene.impulses.size());
+  count("forces", scene.forces.size());
+  count("magnets", scene.magnets.size());
+  row("mass", fmt::format("{:.6g} kg of dynamic bodies", found.mass));
+  if (!found.extent.empty()) {
+    row("extent",
+        fmt::format("x from {:.4g} to {:.4g} m, y from {:.4g} to {:.4g} m", found.extent.lower.x(),
+                    found.extent.upper.x(), found.extent.lower.y(), found.extent.upper.y()));
+  }
+  row("gravity", fmt::format("{}, {} m/s^2", scene.gravity.x(), scene.gravity.y()));
+  row("time",
+      fmt::format("{:.6g} s, {} steps of {} s", scene.duration, stepCount(scene), scene.step));
+  for (const std::string& warning : scene.warnings) out += fmt::format("warning: {}\n", warning);
+  return out;
+}
+
+std::string json(const Scene& scene, const Inventory& found) {
+  Json out;
+  out["scene"] = scene.name;
+  out["title"] = scene.title;
+  out["bodies"] = scene.bodies.size();
+  for (const Motion motion : {Motion::Dynamic, Motion::Pinned, Motion::Scripted}) {
+    const auto number = found.motions.find(motion);
+    out[name(motion)] = number == found.motions.end() ? 0 : number->second;
+  }
+  out["shapes"] = found.discs + found.polygons;
+  out["springs"] = scene.springs.size();
+  out["impulses"] = scene.impulses.size();
+  out["forces"] = scene.forces.size();
+  out["magnets"] = scene.magnets.size();
+  out["emitters"] = scene.emitters.size();
+  out["emitted_bodies"] = found.emitted;
+  out["mass"] = found.mass;
+  out["gravity"] = {scene.gravity.x(), scene.gravity.y()};
+  out["step"] = scene.step;
+  out["duration"] = scene.duration;
+  out["steps"] = stepCount(scene);
+  out["seed"] = scene.seed;
+  out["warnings"] = scene.warnings;
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void validate(const ValidateOptions& options) {
+  check(options);
+  if (options.json && options.to == "-") {
+    throw UsageError("--json and --to - would both write to the standard output");
+  }
+  const Console console(options);
+  Scene scene = loadScene(options, Console({.json = false, .quiet = true, .verbose = false}));
+  warnOfOverlaps(scene);
+  const Inventory found = inventoryOf(scene);
+  if (!options.to.empty()) writeFile(options.to, toToml(scene), {.everything = options.force});
+  if (options.json) {
+    print(json(scene, found));
+  } else if (options.to == "-") {
+    console.note(table(scene, found));
+  } else {
+    print(table(scene, found));
+  }
+}
+
+}  // namespace
+
+void addValidateCommand(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("validate", "Check a scene and say what is in it");
+  command->footer(kExamples);
+  const auto options = std::make_shared<ValidateOptions>();
+  addSceneOptions(*command, *options);
+  addOption(
+      *command, "--to", "FILE.toml",
+      [options](const std::string& s) { options->to = readPath("--to", s); },
+      "Write it as a text scene; - is the standard output")
+      ->group("Files");
+  addGeneralOptions(*command, *options);
+  command->callback([&action, options] { action = [options] { validate(*options); }; });
+}
+
+}  // namespace merge2d
