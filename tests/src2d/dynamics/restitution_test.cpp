@@ -56,12 +56,17 @@ TEST(Restitution, WithoutItABodyStaysOnTheFloor) {
   }
 }
 
+/// The discrete fall alone costs a few percent of the height at each bounce.
 TEST(Restitution, AFullyElasticBodyKeepsItsHeight) {
   for (const BodyDesc& body : {disc(0.5, {0, 0.5}), box(1, 1, {0, 0.5})}) {
     const auto peaks = bounces(body, 1.5, 1.0, 5);
     ASSERT_EQ(peaks.size(), 5u);
-    EXPECT_NEAR(peaks[0], 1.5, 0.04 * 1.5);
-    EXPECT_NEAR(peaks[4], 1.5, 0.12 * 1.5);
+    double before = 1.5;
+    for (const double peak : peaks) {
+      EXPECT_GT(peak, 0.95 * before);
+      EXPECT_LT(peak, 1.01 * before);
+      before = peak;
+    }
   }
 }
 
