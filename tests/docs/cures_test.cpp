@@ -1,0 +1,98 @@
+/// Guards for what docs/decisions/cures.md tells and no scene elsewhere would notice.
+
+#include <gtest/gtest.h>
+
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+const std::string kBox = kGround + R"(
+[[body]]
+name = "box"
+at = [0, 0.5]
+box = [1, 1]
+)";
+
+/// Why the box on the ground came free, if it did within the given steps.
+EventReason reasonOfUnmerge(Simulation& run, int steps) {
+  EventReason reason = EventReason::None;
+  run.steps(steps, [&] {
+    for (const Event& e : run.world().events()) {
+      if (e.type == EventType::Unmerge) reason = e.reason;
+    }
+  });
+  return reason;
+}
+
+// A push at the top, a little more than half the weight: the box tips over its right corner.
+const std::string kTipping = kBox + R"(
+[[force]]
+body = "box"
+at = [0, 0.5]
+force = [5.2, 0]
+from = 2
+)";
+
+TEST(Cures, ABoxThatKeepsOneContactIsNotBrokenButNoLongerFirm) {
+  Simulation run(kTipping, Mode::Merge);
+  run.until(2.0);
+  ASSERT_TRUE(run.merged("box"));
+  EXPECT_EQ(reasonOfUnmerge(run, 30), EventReason::Cycle);
+  run.until(4.0);
+  EXPECT_LT(run.body("box").angle, -0.1) << "it tips";
+}
+
+TEST(Cures, UnderThePapersRuleItsFirstLostContactBreaksTheWeld) {
+  Simulation run(kTipping, Mode::Merge, {{"unmerging.rule", "\"paper\""}});
+  run.until(2.0);
+  ASSERT_TRUE(run.merged("box"));
+  EXPECT_EQ(reasonOfUnmerge(run, 30), EventReason::Broken);
+}
+
+TEST(Cures, AContactThatCarriedNothingWhenItsPairMergedTakesALoadLater) {
+  // The box touches a post and is then knocked against it.
+  Simulation run(kBox + R"(
+friction = 0.1
+[[body]]
+name = "post"
+motion = "pinned"
+at = [1, 0.5]
+box = [1, 1]
+)",
+                 Mode::Merge);
+  run.until(2.0);
+  ASSERT_TRUE(run.merged("box"));
+  const double before = run.body("box").x.x();
+  run.kick("box", {2.0, 0.0});
+  EXPECT_EQ(reasonOfUnmerge(run, 50), EventReason::None);
+  EXPECT_EQ(run.body("box").x.x(), before);
+}
+
+/// The largest force [N] that is missing for a body to stay where it is.
+double largestImbalance(const World& world, const Snapshot& now) {
+  std::vector<Vec2> force(world.bodies().size(), Vec2::Zero());
+  for (const ContactView& c : now.contacts) {
+    const Vec2 impulse = c.lambda_n * c.normal + c.lambda_t * perpendicular(c.normal);
+    force[index(c.a)] -= impulse / world.scene().step;
+    force[index(c.b)] += impulse / world.scene().step;
+  }
+  double largest = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    const BodyInfo& body = world.bodies()[i];
+    if (body.motion != Motion::Dynamic) continue;
+    largest = std::max(largest, (force[i] - Vec2(0.0, body.mass * kGravity)).norm());
+  }
+  return largest;
+}
+
+TEST(Cures, ACollectionSleepsWhenTheForcesInsideCarryItsWeight) {
+  Simulation run(wall(5, 40), Mode::MergeSleep);
+  const int bodies = run.world().stats().bodies;
+  while (run.world().stats().asleep < bodies && run.world().time() < 10.0) run.steps(1);
+  ASSERT_EQ(run.world().stats().asleep, bodies);
+  EXPECT_LT(largestImbalance(run.world(), run.now()), 0.1 * kGravity);  // boxes weigh 1 kg
+}
+
+}  // namespace
+}  // namespace merge2d
