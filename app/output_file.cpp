@@ -23,6 +23,16 @@ bool beginsWith(const fs::path& file, std::string_view start) {
   return in && begin == start;
 }
 
+/// Where a link leads, so that the link stays one; also when there is nothing yet.
+fs::path linkTarget(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code ignored;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, ignored); ++i) {
+    path = path.parent_path() / fs::read_symlink(path, ignored);
+  }
+  return path;
+}
+
 [[noreturn]] void fail(const std::string& name, const std::string& why) {
   throw IoError(fmt::format("cannot write {}: {}", name, why));
 }
@@ -38,8 +48,7 @@ OutputFile::OutputFile(const std::string& path, const Replaces& replaces) : name
     return;
   }
   std::error_code ignored;
-  path_ = fs::weakly_canonical(path, ignored);  // a link stays one
-  if (path_.empty()) path_ = path;
+  path_ = linkTarget(path);
   const fs::file_status status = fs::status(path_, ignored);
   if (fs::is_directory(status)) fail(name_, "it is a folder");
   if (fs::is_regular_file(status) && !replaces.everything && !beginsWith(path_, replaces.ours)) {

@@ -52,7 +52,9 @@ struct Trace {
   Trace(const RunOptions& options, const World& world)
       : file(options.trace, {.everything = options.force, .ours = kTraceStart}),
         writer(file.stream(), world.scene(), options.mode, world.bodies(),
-               {.decisions = options.decisions, .timings = !options.no_timings}) {}
+               {.decisions = options.decisions, .timings = !options.no_timings}) {
+    file.check();
+  }
 };
 
 /// A table in its file.
@@ -62,7 +64,9 @@ struct Table {
 
   explicit Table(const RunOptions& options)
       : file(options.csv, {.everything = options.force, .ours = kCsvStart}),
-        writer(file.stream(), !options.no_timings) {}
+        writer(file.stream(), !options.no_timings) {
+    file.check();
+  }
 };
 
 /// Everything that is written down while a run goes on.

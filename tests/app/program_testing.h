@@ -1,0 +1,189 @@
+#pragma once
+/// Runs the real program in a folder of its own, as a shell would.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace merge2d {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Words = std::vector<std::string>;
+
+/// What a run of the program left.
+struct Outcome {
+  int code = -1;    ///< what it returned; -1 when a signal ended it
+  int signal = 0;   ///< that ended it
+  std::string out;  ///< standard output
+  std::string err;  ///< standard error
+
+  Json json() const { return Json::parse(out); }
+};
+
+inline std::string contentOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_TRUE(in) << "there is no file " << file;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline Words linesOf(const std::string& text) {
+  std::istringstream in(text);
+  Words lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The keys of an object, in order.
+inline Words keysOf(const Json& object) {
+  Words keys;
+  for (const auto& item : object.items()) keys.push_back(item.key());
+  return keys;
+}
+
+/// A test in an empty folder, which is gone afterwards; the program runs in there.
+class ProgramTest : public testing::Test {
+ protected:
+  ProgramTest() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    root_ = fs::path(testing::TempDir()) /
+            ("merge2d_app_" + std::string(test->test_suite_name()) + "_" + test->name());
+    fs::remove_all(root_);
+    fs::create_directories(folder());
+  }
+  ~ProgramTest() override {
+    std::error_code ignored;
+    fs::remove_all(root_, ignored);
+  }
+
+  /// Where the program runs.
+  fs::path folder() const { return root_ / "here"; }
+  fs::path operator/(const std::string& name) const { return folder() / name; }
+  std::string read(const std::string& name) const { return contentOf(folder() / name); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder() / name, std::ios::binary) << text;
+  }
+
+  /// All files and folders below the folder, by their names from there.
+  Words files(const std::string& below = ".") const {
+    Words names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder() / below)) {
+      names.push_back(fs::relative(entry.path(), folder() / below).string());
+    }
+    std::ranges::sort(names);
+    return names;
+  }
+
+  /// Variables of the environment for the runs that follow; an empty value unsets.
+  void setEnvironment(const std::string& name, const std::string& value) {
+    environment_[name] = value;
+  }
+
+  /// Starts the program and does not wait.
+  pid_t start(const Words& arguments) const {
+    const pid_t child = fork();
+    if (child != 0) return child;
+    redirect(STDIN_FILENO, "/dev/null", O_RDONLY);
+    redirect(STDOUT_FILENO, stdout_.empty() ? root_ / "out" : fs::path(stdout_), kWrite);
+    redirect(STDERR_FILENO, root_ / "err", kWrite);
+    for (const auto& [name, value] : environment_) {
+      value.empty() ? unsetenv(name.c_str()) : setenv(name.c_str(), value.c_str(), 1);
+    }
+    std::vector<char*> argv{const_cast<char*>("merge2d")};
+    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+    if (chdir(folder().c_str()) == 0) execv(MERGE2D_BINARY_DIR "/merge2d", argv.data());
+    _exit(127);
+  }
+
+  Outcome wait(pid_t child) const {
+    int status = 0;
+    waitpid(child, &status, 0);
+    Outcome outcome;
+    if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
+    if (stdout_.empty()) outcome.out = contentOf(root_ / "out");
+    outcome.err = contentOf(root_ / "err");
+    return outcome;
+  }
+
+  Outcome run(const Words& arguments) const { return wait(start(arguments)); }
+
+  /// Sends the standard output of the runs that follow to a device instead.
+  void sendOutputTo(const std::string& device) { stdout_ = device; }
+
+ private:
+  static constexpr int kWrite = O_WRONLY | O_CREAT | O_TRUNC;
+
+  static void redirect(int stream, const fs::path& file, int flags) {
+    const int opened = open(file.c_str(), flags, 0600);
+    if (opened < 0 || dup2(opened, stream) < 0) _exit(127);
+  }
+
+  fs::path root_;
+  std::map<std::string, std::string> environment_;
+  std::string stdout_;
+};
+
+/// Three boxes that fall on top of each other and merge.
+inline constexpr const char* kStack = R"(
+format = 1
+title = "Three boxes"
+duration = 0.5
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [10, 1]
+[[body]]
+name = "box"
+at = [0, 0.5]
+box = [1, 1]
+repeat = { count = [1, 3], spacing = [1, 1] }
+)";
+
+/// Springs as stiff as steel bridges on a body of a milligram, with levers of 100 km.
+inline constexpr const char* kDiverging = R"(
+format = 1
+step = 0.1
+duration = 500
+[[body]]
+name = "flea"
+mass = 1e-6
+box = [1, 1]
+at = [3, 0]
+[[spring]]
+body = "flea"
+anchor = [1e5, 0]
+to = [1e5, 4]
+stiffness = 0.001
+[[spring]]
+body = "flea"
+anchor = [0, -1e5]
+to = [0, 4]
+stiffness = 1e11
+damping = 1e11
+rest_length = 1e5
+[[spring]]
+body = "flea"
+anchor = [1e5, 0]
+to = [1e5, 4]
+stiffness = 1e11
+damping = 1e11
+)";
+
+}  // namespace merge2d

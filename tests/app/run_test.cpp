@@ -1,0 +1,223 @@
+#include <gmock/gmock.h>
+
+#include "tests/app/program_testing.h"
+
+namespace merge2d {
+namespace {
+
+using testing::AllOf;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+using testing::StartsWith;
+
+class Run : public ProgramTest {
+ protected:
+  Run() { write("stack.toml", kStack); }
+
+  /// The lines of a trace.
+  static std::vector<Json> parsed(const std::string& trace) {
+    std::vector<Json> lines;
+    for (const std::string& line : linesOf(trace)) lines.push_back(Json::parse(line));
+    return lines;
+  }
+};
+
+TEST_F(Run, PrintsASummary) {
+  const Outcome outcome = run({"run", "stack.toml"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("scene               stack\n"),
+                    HasSubstr("steps               50 of 0.01 s\n"), HasSubstr("x real time\n")));
+  EXPECT_THAT(outcome.err, IsEmpty()) << "no progress bar without a terminal";
+}
+
+TEST_F(Run, GivesTheKeysOfTheContractAsJson) {
+  const Json summary = run({"run", "stack.toml", "--json"}).json();
+  EXPECT_THAT(keysOf(summary),
+              ElementsAre("scene", "mode", "steps", "time", "bodies", "active_bodies",
+                          "collections", "asleep", "contacts", "internal_contacts", "merges",
+                          "unmerges", "max_penetration", "ms_per_step", "real_time_factor"));
+  EXPECT_THAT(keysOf(summary["ms_per_step"]), ElementsAre("mean", "median"));
+  EXPECT_EQ(summary["scene"], "stack");
+  EXPECT_EQ(summary["mode"], "merge+sleep");
+  EXPECT_EQ(summary["steps"], 50);
+  EXPECT_DOUBLE_EQ(summary["time"], 0.5);
+  EXPECT_EQ(summary["bodies"], 3);
+  EXPECT_GE(summary["merges"], 3) << "each box with what it stands on";
+  EXPECT_GT(summary["ms_per_step"]["mean"], 0.0);
+  EXPECT_GT(summary["real_time_factor"], 0.0);
+}
+
+TEST_F(Run, WithoutTimingsTheSummaryIsTheSameEachTime) {
+  const std::string first = run({"run", "stack.toml", "--json", "--no-timings"}).out;
+  EXPECT_EQ(run({"run", "stack.toml", "--json", "--no-timings"}).out, first);
+  EXPECT_TRUE(Json::parse(first)["real_time_factor"].is_null());
+}
+
+TEST_F(Run, TakesAsManyStepsAsAskedFor) {
+  EXPECT_EQ(run({"run", "stack.toml", "--json", "--steps", "7"}).json()["steps"], 7);
+  EXPECT_EQ(run({"run", "stack.toml", "--json", "--seconds", "0.3"}).json()["steps"], 30);
+  EXPECT_EQ(run({"run", "stack.toml", "--json", "--steps", "0"}).json()["steps"], 0);
+  EXPECT_EQ(run({"run", "stack.toml", "--json", "--set", "step=0.001"}).json()["steps"], 500);
+}
+
+TEST_F(Run, RefusesARunThatWouldNeverEnd) {
+  const Outcome outcome = run({"run", "stack.toml", "--seconds", "1e300"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("take fewer with --steps"));
+}
+
+TEST_F(Run, SimulatesInEachMode) {
+  for (const char* mode : {"reference", "sleep", "merge", "merge+sleep"}) {
+    const Json summary = run({"run", "stack.toml", "--json", "--mode", mode}).json();
+    EXPECT_EQ(summary["mode"], mode);
+    const bool merges = std::string(mode).starts_with("merge");
+    EXPECT_EQ(summary["collections"] > 0, merges) << mode;
+  }
+}
+
+TEST_F(Run, SetChangesAnyParameter) {
+  const auto header = [&](const Words& options) {
+    Words arguments = {"run", "stack.toml", "--steps", "1", "--trace", "-"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return parsed(run(arguments).out)[0];
+  };
+  const Json parameters = header({"--set", "merging.velocity=0.02", "--seed", "7", "--set",
+                                  "gravity=[0, -1.5]"})["parameters"];
+  EXPECT_EQ(parameters["merging"]["velocity"], 0.02);
+  EXPECT_EQ(parameters["seed"], 7);
+  EXPECT_EQ(parameters["gravity"], Json({0, -1.5}));
+  EXPECT_EQ(header({"--set", "body.ground.motion=scripted", "--set",
+                    "body.ground.script={velocity=[1,0]}"})["bodies"][0]["motion"],
+            "scripted");
+}
+
+TEST_F(Run, WritesATraceWithALineForEachStep) {
+  const Outcome outcome = run({"run", "stack.toml", "--trace", "stack.jsonl"});
+  EXPECT_EQ(outcome.code, 0);
+  const std::vector<Json> lines = parsed(read("stack.jsonl"));
+  ASSERT_THAT(lines, SizeIs(51));
+  EXPECT_EQ(lines[0]["type"], "header");
+  EXPECT_EQ(lines[0]["scene"], "stack");
+  EXPECT_EQ(lines[50]["step"], 50);
+  EXPECT_DOUBLE_EQ(lines[50]["t"], 0.5);
+  EXPECT_FALSE(lines[50].contains("decisions"));
+  EXPECT_THAT(files(), ElementsAre("stack.jsonl", "stack.toml")) << "nothing temporary is left";
+}
+
+TEST_F(Run, AddsDecisionsWhenAskedTo) {
+  run({"run", "stack.toml", "--trace", "stack.jsonl", "--decisions"});
+  const std::vector<Json> lines = parsed(read("stack.jsonl"));
+  std::size_t decisions = 0;
+  for (std::size_t k = 1; k < lines.size(); ++k) decisions += lines[k]["decisions"].size();
+  EXPECT_GT(decisions, 0U);
+}
+
+TEST_F(Run, TheSameRunGivesTheSameTrace) {
+  for (const char* file : {"a.jsonl", "b.jsonl"}) {
+    run({"run", "pile", "--steps", "150", "--trace", file, "--no-timings", "--decisions"});
+  }
+  EXPECT_EQ(read("a.jsonl"), read("b.jsonl"));
+  EXPECT_THAT(read("a.jsonl"), Not(HasSubstr("seconds")));
+}
+
+TEST_F(Run, DecisionsDoNotChangeTheRun) {
+  run({"run", "pile", "--steps", "150", "--trace", "a.jsonl", "--no-timings", "--decisions"});
+  run({"run", "pile", "--steps", "150", "--trace", "b.jsonl", "--no-timings"});
+  const auto with = parsed(read("a.jsonl")), without = parsed(read("b.jsonl"));
+  EXPECT_EQ(with.back()["bodies"], without.back()["bodies"]);
+}
+
+TEST_F(Run, WritesATableWithARowForEachStep) {
+  EXPECT_EQ(run({"run", "stack.toml", "--csv", "stack.csv"}).code, 0);
+  const Words rows = linesOf(read("stack.csv"));
+  ASSERT_THAT(rows, SizeIs(51));
+  const auto columns = std::ranges::count(rows[0], ',');
+  for (const std::string& row : rows) EXPECT_EQ(std::ranges::count(row, ','), columns);
+  EXPECT_THAT(rows[50], StartsWith("50,0.5,3,"));
+}
+
+TEST_F(Run, SendsATraceToTheStandardOutputAndTheRestElsewhere) {
+  const Outcome outcome = run({"run", "stack.toml", "--trace", "-"});
+  EXPECT_THAT(linesOf(outcome.out), AllOf(SizeIs(51), Each(StartsWith("{\"type\":"))));
+  EXPECT_THAT(outcome.err, HasSubstr("scene               stack\n"));
+  EXPECT_THAT(run({"run", "stack.toml", "--trace", "-", "--quiet"}).err, IsEmpty());
+}
+
+TEST_F(Run, ReplacesATraceButNothingElse) {
+  write("notes.txt", "precious");
+  for (const char* option : {"--trace", "--csv"}) {
+    const Outcome refused = run({"run", "stack.toml", option, "notes.txt"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("notes.txt exists and would be overwritten; say --force"));
+    EXPECT_EQ(read("notes.txt"), "precious");
+    EXPECT_EQ(run({"run", "stack.toml", option, "ours"}).code, 0);
+    EXPECT_EQ(run({"run", "stack.toml", option, "ours"}).code, 0) << "it is one of ours";
+    fs::remove(folder() / "ours");
+  }
+  EXPECT_EQ(run({"run", "stack.toml", "--trace", "notes.txt", "--force"}).code, 0);
+  EXPECT_THAT(read("notes.txt"), StartsWith("{\"type\":\"header\""));
+}
+
+TEST_F(Run, WritesThroughALink) {
+  fs::create_directory(folder() / "far");
+  fs::create_symlink("far/trace.jsonl", folder() / "link.jsonl");
+  EXPECT_EQ(run({"run", "stack.toml", "--trace", "link.jsonl"}).code, 0);
+  EXPECT_TRUE(fs::is_symlink(folder() / "link.jsonl"));
+  EXPECT_THAT(read("far/trace.jsonl"), StartsWith("{\"type\":\"header\""));
+}
+
+TEST_F(Run, FailsWhereItCannotWrite) {
+  for (const char* file : {"no/such/folder", "."}) {
+    const Outcome outcome = run({"run", "stack.toml", "--trace", file});
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("cannot write " + std::string(file)));
+  }
+  const Outcome full = run({"run", "stack.toml", "--trace", "/dev/full"});
+  EXPECT_EQ(full.code, 4);
+  EXPECT_THAT(full.err, HasSubstr("No space left on device"));
+  EXPECT_THAT(files(), ElementsAre("stack.toml"));
+}
+
+TEST_F(Run, LeavesNothingBehindWhenTheSceneIsBad) {
+  write("bad.toml", "format = 1\nbodies = 3\n");
+  EXPECT_EQ(run({"run", "bad.toml", "--trace", "bad.jsonl"}).code, 3);
+  EXPECT_THAT(files(), ElementsAre("bad.toml", "stack.toml"));
+}
+
+TEST_F(Run, WritesWhatItHasWhenTheSimulationFails) {
+  write("wild.toml", kDiverging);
+  const Outcome outcome = run({"run", "wild.toml", "--trace", "wild.jsonl", "--json"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, AllOf(StartsWith("error: "), HasSubstr("'flea'")));
+  const std::vector<Json> lines = parsed(read("wild.jsonl"));
+  EXPECT_EQ(lines.back()["step"], outcome.json()["steps"]);
+  EXPECT_THAT(read("wild.jsonl"), Not(HasSubstr("nan")));
+  EXPECT_THAT(files(), ElementsAre("stack.toml", "wild.jsonl", "wild.toml"));
+}
+
+TEST_F(Run, AnInterruptLeavesNoFileAndEndsByItsSignal) {
+  const pid_t child = start({"run", "pile", "--steps", "1000000000", "--trace", "pile.jsonl"});
+  while (!fs::exists(folder() / "pile.jsonl.part")) usleep(1000);
+  kill(child, SIGINT);
+  const Outcome outcome = wait(child);
+  EXPECT_EQ(outcome.signal, SIGINT);
+  EXPECT_THAT(outcome.err, HasSubstr("interrupted"));
+  EXPECT_THAT(files(), ElementsAre("stack.toml"));
+}
+
+TEST_F(Run, WarnsOnStderrUnlessQuiet) {
+  write("empty.toml", "format = 1\nduration = 0.1\n");
+  const Outcome outcome = run({"run", "empty.toml", "--json"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, StartsWith("warning: "));
+  EXPECT_EQ(outcome.json()["bodies"], 0);
+  EXPECT_THAT(run({"run", "empty.toml", "--quiet"}).err, IsEmpty());
+}
+
+}  // namespace
+}  // namespace merge2d
