@@ -1,4 +1,4 @@
-/// Runs what the pages show. Blocks marked `console` are sessions: after "$ " stands a command,
+/// Runs what the pages show. Blocks marked `console` are dialogues: after "$ " stands a command,
 /// below it what it prints, where "…" stands for anything. Commands in blocks marked `sh` are not
 /// run, but merge2d must know them and their options.
 
@@ -67,7 +67,7 @@ std::regex pattern(const std::string& text) {
 }
 
 TEST_F(Commands, PrintWhatThePagesShow) {
-  int sessions = 0;
+  int dialogues = 0;
   for (const Block& block : blocksOf("console")) {
     std::string command, expected;
     const auto check = [&] {
@@ -76,7 +76,7 @@ TEST_F(Commands, PrintWhatThePagesShow) {
       EXPECT_TRUE(std::regex_match(printed, pattern(expected))) << command << "\nprints\n"
                                                                 << printed << "\ninstead of\n"
                                                                 << expected;
-      ++sessions;
+      ++dialogues;
     };
     for (const std::string& line : linesOf(block.text)) {
       if (line.starts_with("$ ")) {
@@ -89,7 +89,7 @@ TEST_F(Commands, PrintWhatThePagesShow) {
     }
     check();
   }
-  EXPECT_GE(sessions, 2);
+  EXPECT_GE(dialogues, 2);
 }
 
 TEST_F(Commands, AreKnownWithTheirOptions) {
