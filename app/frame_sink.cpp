@@ -67,7 +67,7 @@ class PartialSink : public FrameSink {
  private:
   bool complete(const fs::path& file) const {
     if (!fs::is_regular_file(file)) return false;
-    const PngSummary found = inspectPng(readFile(file));
+    const PngSummary found = inspectPng(readFileBytes(file));
     return found.complete && found.width == style_.width && found.height == style_.height;
   }
 
