@@ -190,6 +190,8 @@ struct Collection {
   std::vector<Weld> welds;          ///< ascending by pair
   std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
   bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
+  Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
+  int frame_known = 0;              ///< steps since it was formed, up to 2
   bool settled = false;             ///< inner forces did not change in the last sweep
 };
 

@@ -249,9 +249,6 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
   return std::sqrt(largest);
 }
 
-/// Inner forces have settled when a sweep changes less than this part of a step's gravity.
-constexpr double kSettled = 1e-3;
-
 /// A collection that nothing disturbs is swept once; one that could sleep but for its inner forces
 /// a few times more, so that it soon can.
 void sweepUndisturbed(const State& state, Collection& c, Scratch& scratch) {
@@ -260,8 +257,7 @@ void sweepUndisturbed(const State& state, Collection& c, Scratch& scratch) {
       sleeps(state.mode) && state[c.rigid].quiet_steps >= state.settings.sleeping.steps;
   if (resting && !c.settled) sweepInside(state, c, scratch, settings.disturbed_sweeps);
   const double change = sweepInside(state, c, scratch, settings.sweeps);
-  c.settled = change <= std::max(kSettled * state.h * state.gravity.norm(),
-                                 state.settings.sleeping.velocity);
+  c.settled = change <= residualVelocity(state);
 }
 
 /// Several sweeps in the order given, accelerated as in the full solve.
@@ -308,7 +304,47 @@ bool isSwept(const State& state, const Collection& c) {
   return c.id != kNoCollection && !state[c.rigid].asleep;
 }
 
-void orderContacts(const State& state, Scratch& scratch) {
+/// True when the frame gains another velocity in this step than in the last one, by more than a
+/// hundredth of gravity: then one sweep cannot follow the load.
+bool frameJumps(const State& state, Collection& c) {
+  constexpr double kPart = 1e-2;
+  const Rigid& r = state[c.rigid];
+  const bool scripted = !r.floating() && r.anchor != kWorldFrame;
+  const Vec2 v = scripted ? state[rigidOf(c.anchor)].v : r.v;
+  const Vec2 gain = v - c.frame_v;
+  const double jump = (gain - c.frame_gain).norm();
+  const bool known = c.frame_known >= 2;
+  c.frame_v = v;
+  c.frame_gain = gain;
+  if (!known) ++c.frame_known;
+  return known && jump > kPart * state.h * std::max(state.gravity.norm(), 1.0);
+}
+
+/// Between two collections that are fixed to a frame the full solve has no row: what the sweep found
+/// there is all that is known.
+void keepFixedContacts(State& state, const Scratch& scratch) {
+  for (const SweepContact& outer : scratch.sweep_contacts) {
+    const ContactBlock& k = outer.block;
+    if (state.rigid(BodyId{k.a}).floating() || state.rigid(BodyId{k.b}).floating()) continue;
+    Contact& contact = state.contacts.slots[outer.slot];
+    for (int i = 0; i < k.count; ++i) {
+      ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
+      point.lambda_n = k.lambda_n(i);
+      point.lambda_t = k.lambda_t(i);
+      const ContactVelocity w =
+          contactVelocity(k, i, k.nx, k.ny, scratch.sweep_u[k.a], scratch.sweep_u[k.b]);
+      point.w_n = static_cast<float>(w.n);
+      point.w_t = static_cast<float>(w.t);
+    }
+  }
+}
+
+double residualVelocity(const State& state) {
+  constexpr double kPart = 1e-3;
+  return std::max(kPart * state.h * state.gravity.norm(), state.settings.sleeping.velocity);
+}
+
+void orderContacts(State& state, Scratch& scratch) {
   scratch.seeds.clear();
   scratch.disturbed.assign(state.collections.size(), 0);
   if (!state.settings.unmerging.ordering) return;
@@ -319,6 +355,11 @@ void orderContacts(const State& state, Scratch& scratch) {
       scratch.disturbed[index(id) - state.bodies.size()] = 1;
     }
   };
+  for (Collection& c : state.collections) {
+    if (isSwept(state, c) && frameJumps(state, c)) {
+      scratch.disturbed[index(c.rigid) - state.bodies.size()] = 1;
+    }
+  }
   for (const Kick& kick : scratch.kicks) seed(kick.body);
   for (const BodyPair& pair : scratch.pairs) {
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
@@ -379,6 +420,7 @@ void sweepCollections(State& state, Scratch& scratch) {
     Collection& c = state.collections[slot];
     if (isSwept(state, c) && !scratch.disturbed[slot]) sweepUndisturbed(state, c, scratch);
   }
+  keepFixedContacts(state, scratch);
 }
 
 void sweepAgain(State& state, Scratch& scratch, Collection& c) {

@@ -9,8 +9,9 @@
 namespace merge2d {
 
 /// ContactOrdering: the bodies at which something is new: a fresh contact that closes in this step,
-/// or an impulse; and the collections that they belong to.
-void orderContacts(const State& state, Scratch& scratch);
+/// or an impulse; and the collections that they belong to. A collection whose frame's acceleration
+/// jumps is disturbed as a whole.
+void orderContacts(State& state, Scratch& scratch);
 
 /// Sets up the velocities that the sweep starts from.
 void warmStartSweep(State& state, Scratch& scratch);
@@ -22,6 +23,10 @@ void sweepCollections(State& state, Scratch& scratch);
 /// More sweeps over one collection and the contacts outside, before one of its welds is cut:
 /// `unmerging.disturbed_sweeps` of them.
 void sweepAgain(State& state, Scratch& scratch, Collection& collection);
+
+/// Velocities below this are what a sweep leaves for the next one: a thousandth of what gravity adds
+/// in a step [m/s].
+double residualVelocity(const State& state);
 
 /// True for a collection whose inner forces are swept in this step.
 bool isSwept(const State& state, const Collection& collection);

@@ -109,6 +109,7 @@ class WeldTest {
   /// True when the drift is too large. Evidence that more sweeps do not confirm is forgotten.
   bool exceeds(Drift& drift, double w, double threshold) const {
     if (confirming_) {
+      if (std::abs(w) < residualVelocity(state_)) w = 0.0;
       drift.sum = static_cast<float>(w * std::max(drift.steps, 1));
       if (std::abs(drift.sum) > threshold) return true;
       drift = {};
@@ -315,7 +316,8 @@ void unmerge(State& state, Scratch& scratch) {
     if (!newCut(c, scratch) && !test.contactOpened()) continue;
     Parts parts = partsWithoutCuts(state, c);
     if (!fallsApart(state, c, parts)) continue;
-    if (state.settings.unmerging.rule == Rule::Default) {
+    const UnmergingSettings& settings = state.settings.unmerging;
+    if (settings.rule == Rule::Default && settings.ordering) {
       // One sweep may not have converged: before anything parts, look again after more.
       sweepAgain(state, scratch, c);
       test.confirmAll();
