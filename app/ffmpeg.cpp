@@ -63,7 +63,8 @@ fs::path FfmpegJob::output() const {
 std::vector<std::string> FfmpegJob::arguments(const fs::path& output) const {
   std::vector<std::string> all{"ffmpeg", "-framerate", std::to_string(fps)};
   if (first != 0) all.insert(all.end(), {"-start_number", std::to_string(first)});
-  all.insert(all.end(), {"-i", escapedPercents(folder.string()) + "/frame_%06d.png"});
+  const fs::path frames = fs::path(escapedPercents(folder.string())) / "frame_%06d.png";
+  all.insert(all.end(), {"-i", frames.string()});
   if (gif) {
     all.insert(all.end(), {"-vf",
                            "fps=25,split[a][b];[a]palettegen=stats_mode=diff[p];"

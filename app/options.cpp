@@ -72,8 +72,9 @@ void addSimulationOptions(CLI::App& command, SceneOptions& options) {
 }  // namespace
 
 CLI::Option* addOption(CLI::App& command, const std::string& names, const std::string& value_name,
-                       std::function<void(const std::string&)> read, const std::string& help) {
-  return command.add_option_function<std::string>(names, std::move(read), help)
+                       const std::function<void(const std::string&)>& read,
+                       const std::string& help) {
+  return command.add_option_function<std::string>(names, read, help)
       ->type_name(value_name)
       ->take_last();
 }

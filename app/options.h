@@ -42,7 +42,8 @@ void check(const SceneOptions& options);
 /// Adds an option whose text `read` turns into a value. `read` throws UsageError; of several
 /// occurrences the last one counts.
 CLI::Option* addOption(CLI::App& command, const std::string& names, const std::string& value_name,
-                       std::function<void(const std::string&)> read, const std::string& help);
+                       const std::function<void(const std::string&)>& read,
+                       const std::string& help);
 
 /// A whole number from `least` to `most`; otherwise a UsageError that names `option`.
 std::int64_t readInteger(const std::string& option, const std::string& text, std::int64_t least,

@@ -98,7 +98,8 @@ void writeFile(const std::string& path, std::string_view text, const Replaces& r
 std::string shellQuoted(const std::string& path) {
   constexpr std::string_view kPlain = "/._-+,:@%=";
   const bool plain = std::ranges::all_of(path, [&](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || kPlain.find(c) != kPlain.npos;
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           kPlain.find(c) != std::string_view::npos;
   });
   if (plain && !path.empty()) return path;
   std::string quoted = "'";

@@ -106,6 +106,8 @@ void simulate(Simulation& simulation, Record& record, const Console& console) {
     record.add(snapshot);
     progress.update(simulation.world().steps());
   }
+  console.detail(fmt::format("{:.3g} MB of memory for the simulation",
+                             1e-6 * static_cast<double>(simulation.world().memoryBytes())));
 }
 
 void report(const RunOptions& options, const Simulation& simulation, const Summary& summary) {

@@ -16,6 +16,8 @@ Scene loadScene(const SceneOptions& options, const Console& console) {
   for (const std::string& warning : scene.warnings) console.warn(warning);
   if (options.steps) scene.duration = static_cast<double>(*options.steps) * scene.step;
   if (options.seconds) scene.duration = *options.seconds;
+  console.detail(fmt::format("{}: {} bodies, {} steps of {} s, {}", scene.name, scene.bodies.size(),
+                             stepCount(scene), scene.step, name(options.mode)));
   return scene;
 }
 
