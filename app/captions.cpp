@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -22,16 +23,18 @@ std::string counted(int number, const std::string& one, const std::string& many)
   return fmt::format("{} {}", number, number == 1 ? one : many);
 }
 
-std::string counted(EventType type, int number) {
+std::string counted(EventType type, bool collection, int number) {
+  const std::string one = collection ? "collection" : "body";
+  const std::string many = collection ? "collections" : "bodies";
   switch (type) {
     case EventType::Merge:
       return counted(number, "merge", "merges");
     case EventType::Unmerge:
       return counted(number, "unmerge", "unmerges");
     case EventType::Sleep:
-      return counted(number, "body falls asleep", "bodies fall asleep");
+      return counted(number, one + " falls asleep", many + " fall asleep");
     case EventType::Wake:
-      return counted(number, "body wakes up", "bodies wake up");
+      return counted(number, one + " wakes up", many + " wake up");
     case EventType::Impact:
       return counted(number, "impact", "impacts");
     case EventType::Emit:
@@ -57,7 +60,8 @@ void Captions::add(const Snapshot& snapshot) {
   const auto number = static_cast<std::int64_t>(std::ceil(snapshot.time - 1e-9)) - 1;
   Second& second = seconds_[std::max<std::int64_t>(0, number)];
   for (const Event& event : snapshot.events) {
-    ++second.events[event.type];
+    const bool sleep = event.type == EventType::Sleep || event.type == EventType::Wake;
+    ++second.events[{event.type, sleep && event.collection != kNoCollection}];
     if (event.type == EventType::Unmerge) ++second.reasons[event.reason];
   }
   second.bodies = snapshot.stats.bodies;
@@ -67,8 +71,9 @@ void Captions::add(const Snapshot& snapshot) {
 
 std::string Captions::describe(const Second& second) {
   std::vector<std::string> parts;
-  for (const auto& [type, number] : second.events) {
-    parts.push_back(counted(type, number));
+  for (const auto& [kind, number] : second.events) {
+    const auto [type, collection] = kind;
+    parts.push_back(counted(type, collection, number));
     if (type != EventType::Unmerge) continue;
     std::vector<std::string> reasons;
     for (const auto& [reason, times] : second.reasons) {

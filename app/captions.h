@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "src2d/trace/snapshot.h"
 
@@ -19,7 +20,8 @@ class Captions {
 
  private:
   struct Second {
-    std::map<EventType, int> events;
+    /// Whole collections fall asleep and wake up: those are counted apart.
+    std::map<std::pair<EventType, bool>, int> events;
     std::map<EventReason, int> reasons;  ///< of the unmerges
     int bodies = 0, collections = 0, asleep = 0;
   };

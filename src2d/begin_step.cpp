@@ -65,9 +65,8 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
     wakeAround(state, scratch, id);
     // Contacts inside collections turn bilateral, or back.
     for (Collection& c : state.collections) {
-      const bool concerned = std::any_of(c.welds.begin(), c.welds.end(), [&](const Weld& w) {
-        return w.a == id || w.b == id;
-      });
+      const bool concerned = std::any_of(c.welds.begin(), c.welds.end(),
+                                         [&](const Weld& w) { return w.a == id || w.b == id; });
       if (c.id == kNoCollection || !concerned) continue;
       saveForces(c);
       c.stale = true;

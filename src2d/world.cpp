@@ -90,7 +90,9 @@ const Stats& World::stats() const { return impl_->scratch.stats; }
 const std::vector<Event>& World::events() const { return impl_->scratch.events; }
 void World::observe(Observer* observer) { impl_->observer = observer; }
 
-std::size_t World::memoryBytes() const { return merge2d::memoryBytes(impl_->setup.state, impl_->scratch); }
+std::size_t World::memoryBytes() const {
+  return merge2d::memoryBytes(impl_->setup.state, impl_->scratch);
+}
 
 void World::capture(Snapshot& out) const {
   captureState(impl_->setup.state, impl_->setup.actions, impl_->scratch, out);

@@ -11,8 +11,8 @@ namespace merge2d {
 void insertRigid(State& state, RigidId id);
 void removeRigid(State& state, RigidId id);
 
-/// Builds the tree of the shapes of a rigid thing, if it has more than one; `bodies` are its members
-/// (the body itself for a body).
+/// Builds the tree of the shapes of a rigid thing, if it has more than one; `bodies` are its
+/// members (the body itself for a body).
 void addShapes(State& state, RigidId id, const std::vector<BodyId>& bodies);
 void removeShapes(State& state, RigidId id, const std::vector<BodyId>& bodies);
 void dropShapeTree(State& state, RigidId id);

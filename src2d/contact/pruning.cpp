@@ -1,5 +1,5 @@
-/// Contact pruning per pair of bodies: compounds touch with several pairs of shapes, and a flat side
-/// made of many pieces would otherwise rest on many points (Section 2, "Collision Detection").
+/// Contact pruning per pair of bodies: compounds touch with several pairs of shapes, and a flat
+/// side made of many pieces would otherwise rest on many points (Section 2, "Collision Detection").
 
 #include <algorithm>
 
@@ -15,8 +15,8 @@ constexpr double kSameLine = 0.005;
 
 struct Region {
   Vec2 normal;
-  double height = 0.0;                 ///< of the line along the normal
-  ContactPoint* low = nullptr;         ///< outermost points along the tangent
+  double height = 0.0;          ///< of the line along the normal
+  ContactPoint* low = nullptr;  ///< outermost points along the tangent
   ContactPoint* high = nullptr;
   double low_at = 0.0, high_at = 0.0;
 };

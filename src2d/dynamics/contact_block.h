@@ -1,9 +1,9 @@
 #pragma once
 /// The kernel of every sweep: one manifold's contact rows, solved as a block.
 ///
-/// Source: projected Gauss-Seidel on Eqs. (4)-(7) and (9), with the two normals of a manifold solved
-/// together. A block holds the impulses of its points; a sweep changes them and the velocities of
-/// the two bodies, so that u = u₀ + M⁻¹Jᵀλ holds at any time.
+/// Source: projected Gauss-Seidel on Eqs. (4)-(7) and (9), with the two normals of a manifold
+/// solved together. A block holds the impulses of its points; a sweep changes them and the
+/// velocities of the two bodies, so that u = u₀ + M⁻¹Jᵀλ holds at any time.
 ///
 /// Letters (docs/symbols.md): λ impulse [N s], w relative velocity at the contact [m/s],
 /// K = J M⁻¹ Jᵀ [1/kg], C softness [1/kg], n normal from a to b, t = n turned by +90°.
@@ -30,17 +30,17 @@ struct alignas(64) SolverVelocity {
 /// of mass; they do not change when the whole pair is turned, so a block stays valid in the frame
 /// of a rigid collection and only its normal is turned.
 struct ContactBlock {
-  std::uint32_t a = 0, b = 0;  ///< indices into the velocities
-  std::int32_t count = 0;      ///< points, 1 or 2
-  bool bilateral = false;      ///< a magnet's contact: pulls, and does not slide
-  double nx = 1.0, ny = 0.0;   ///< normal
+  std::uint32_t a = 0, b = 0;                     ///< indices into the velocities
+  std::int32_t count = 0;                         ///< points, 1 or 2
+  bool bilateral = false;                         ///< a magnet's contact: pulls, and does not slide
+  double nx = 1.0, ny = 0.0;                      ///< normal
   double arm_an[2] = {0, 0}, arm_bn[2] = {0, 0};  ///< r × n [m]
   double arm_at[2] = {0, 0}, arm_bt[2] = {0, 0};  ///< r × t [m]
-  double k11 = 1.0, k12 = 0.0, k22 = 1.0;  ///< K + C of the normals
-  double inv_det = 1.0;                    ///< of that matrix
-  double inv_kt[2] = {0, 0};               ///< 1 / K of each tangent
-  double softness = 0.0;                   ///< C
-  double bias[2] = {0, 0};                 ///< wanted: w_n + bias + Cλ ≥ 0 [m/s]
+  double k11 = 1.0, k12 = 0.0, k22 = 1.0;         ///< K + C of the normals
+  double inv_det = 1.0;                           ///< of that matrix
+  double inv_kt[2] = {0, 0};                      ///< 1 / K of each tangent
+  double softness = 0.0;                          ///< C
+  double bias[2] = {0, 0};                        ///< wanted: w_n + bias + Cλ ≥ 0 [m/s]
   double mu = 0.0;
   std::array<double, 4> lambda{};  ///< both normals, then both tangents [N s]
 
@@ -97,8 +97,10 @@ inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& bo
                        SolverVelocity& body_b) {
   SolverVelocity a = body_a, b = body_b;
   if (k.count == 2) {
-    const double w1 = contactVelocity(k, 0, nx, ny, a, b).n + k.bias[0] + k.softness * k.lambda_n(0);
-    const double w2 = contactVelocity(k, 1, nx, ny, a, b).n + k.bias[1] + k.softness * k.lambda_n(1);
+    const double w1 =
+        contactVelocity(k, 0, nx, ny, a, b).n + k.bias[0] + k.softness * k.lambda_n(0);
+    const double w2 =
+        contactVelocity(k, 1, nx, ny, a, b).n + k.bias[1] + k.softness * k.lambda_n(1);
     double x1, x2;
     solveNormalPair(k, w1, w2, x1, x2);
     const double p1 = x1 - k.lambda_n(0), p2 = x2 - k.lambda_n(1);
@@ -133,7 +135,8 @@ inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& bo
 /// The paper's plain PGS: one row at a time, each normal followed by its friction.
 inline void solveRows(ContactBlock& k, double nx, double ny, SolverVelocity& a, SolverVelocity& b) {
   for (int i = 0; i < k.count; ++i) {
-    const double w_n = contactVelocity(k, i, nx, ny, a, b).n + k.bias[i] + k.softness * k.lambda_n(i);
+    const double w_n =
+        contactVelocity(k, i, nx, ny, a, b).n + k.bias[i] + k.softness * k.lambda_n(i);
     double x = k.lambda_n(i) - w_n / (i == 0 ? k.k11 : k.k22);
     if (!k.bilateral) x = std::max(0.0, x);
     applyImpulse(k, i, nx, ny, x - k.lambda_n(i), 0.0, a, b);

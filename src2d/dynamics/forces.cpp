@@ -58,9 +58,9 @@ void addSpring(const State& state, const TimedSpring& spring, Scratch& scratch) 
 
   // A spring without length damps every motion of its end, a long one only along itself.
   const Vec2 damped = spring.rest_length == 0.0 ? velocity : direction * velocity.dot(direction);
-  const Vec2 force = stableShare(state.h, spring.stiffness, spring.damping, inv_mass) *
-                     (spring.stiffness * (length - spring.rest_length) * direction +
-                      spring.damping * damped);
+  const Vec2 force =
+      stableShare(state.h, spring.stiffness, spring.damping, inv_mass) *
+      (spring.stiffness * (length - spring.rest_length) * direction + spring.damping * damped);
   scratch.loads.push_back(loadAt(state, body, from, force));
   if (other) scratch.loads.push_back(loadAt(state, to_body, to, -force));
   scratch.springs.push_back({from, to, force.dot(direction)});

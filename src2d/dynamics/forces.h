@@ -15,17 +15,17 @@ struct Actions {
     double time = 0.0;
     BodyId body{};
   };
-  std::vector<Emission> emissions;    ///< ascending in time
+  std::vector<Emission> emissions;  ///< ascending in time
   std::size_t next_impulse = 0, next_emission = 0;
   struct Scripted {
     BodyId body{};
     Script script;
-    Pose start;          ///< of the body frame
+    Pose start;  ///< of the body frame
     double start_angle = 0.0;
     Vec2 center = Vec2::Zero();  ///< centre of mass in the body frame
   };
   std::vector<Scripted> scripts;
-  std::vector<Kick> user_kicks;       ///< for the next step
+  std::vector<Kick> user_kicks;  ///< for the next step
   /// A body that was pinned at first, with the velocity that it is let go with.
   struct Launch {
     BodyId body{};

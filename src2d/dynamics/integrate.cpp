@@ -40,11 +40,11 @@ void checkFinite(const State& state, const std::vector<BodyInfo>& bodies, Stage 
     const BodyId body = i < state.bodies.size()
                             ? BodyId{static_cast<std::uint32_t>(i)}
                             : state.collections[i - state.bodies.size()].members.front();
-    throw SimulationError(fmt::format(
-        "body '{}' is no longer at a finite place after {} in step {} "
-        "(x = {}, {}; v = {}, {}; omega = {}); try a smaller step or softer springs",
-        bodies[index(body)].name, name(stage), state.step + 1, r.x.x(), r.x.y(), r.v.x(), r.v.y(),
-        r.omega));
+    throw SimulationError(
+        fmt::format("body '{}' is no longer at a finite place after {} in step {} "
+                    "(x = {}, {}; v = {}, {}; omega = {}); try a smaller step or softer springs",
+                    bodies[index(body)].name, name(stage), state.step + 1, r.x.x(), r.x.y(),
+                    r.v.x(), r.v.y(), r.omega));
   }
 }
 

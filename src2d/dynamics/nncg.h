@@ -27,7 +27,11 @@ class Nncg {
  public:
   Nncg(std::size_t blocks, BlockAt block, std::size_t bodies, VelocityAt velocity, Sweep sweep,
        NncgBuffers& buffers)
-      : blocks_(blocks), bodies_(bodies), block_(block), velocity_(velocity), sweep_(sweep),
+      : blocks_(blocks),
+        bodies_(bodies),
+        block_(block),
+        velocity_(velocity),
+        sweep_(sweep),
         m_(buffers) {
     reserveTightly(m_.before, blocks);
     reserveTightly(m_.direction, blocks);

@@ -42,8 +42,7 @@ void storeImpulses(const Scratch& scratch) {
     const RowSource& source = scratch.row_sources[scratch.block_order[i].source];
     for (int p = 0; p < k.count; ++p) {
       ContactPoint& point = *source.points[static_cast<std::size_t>(p)];
-      const ContactVelocity w =
-          contactVelocity(k, p, k.nx, k.ny, scratch.u[k.a], scratch.u[k.b]);
+      const ContactVelocity w = contactVelocity(k, p, k.nx, k.ny, scratch.u[k.a], scratch.u[k.b]);
       point.lambda_n = k.lambda_n(p);
       point.lambda_t = k.lambda_t(p);
       point.w_n = static_cast<float>(w.n);

@@ -42,13 +42,13 @@ struct Rigid {
   double omega = 0.0;          ///< [rad/s]
   double mass = 0.0, inertia = 0.0;
   double inv_mass = 0.0, inv_inertia = 0.0;  ///< 0 unless floating
-  FrameId anchor = kFloating;  ///< the frame it is fixed to
-  Aabb bounds;                 ///< in the frame [m]
-  OrientedBox box;             ///< in the frame [m]
-  int leaf = -1;               ///< in the broadphase; −1: not simulated as its own
-  int quiet_steps = 0;         ///< consecutive steps below the sleeping threshold
+  FrameId anchor = kFloating;                ///< the frame it is fixed to
+  Aabb bounds;                               ///< in the frame [m]
+  OrientedBox box;                           ///< in the frame [m]
+  int leaf = -1;                             ///< in the broadphase; −1: not simulated as its own
+  int quiet_steps = 0;                       ///< consecutive steps below the sleeping threshold
   bool asleep = false;
-  bool resized = false;        ///< bounds changed since the broadphase last looked
+  bool resized = false;  ///< bounds changed since the broadphase last looked
 
   bool present() const { return leaf >= 0; }
   bool floating() const { return anchor == kFloating; }
@@ -63,11 +63,12 @@ struct Body {
   double friction = 0.0, restitution = 0.0;
   double pinned_until = 0.0;
   Motion motion = Motion::Dynamic;
-  bool alive = true;         ///< false before its emission
+  bool alive = true;  ///< false before its emission
   bool magnet_on = false;
-  Vec2 load = Vec2::Zero(), load_asleep = Vec2::Zero();  ///< outer forces now, and when it slept [N]
-  RigidId rigid{};           ///< itself, or its collection
-  Vec2 local = Vec2::Zero(); ///< pose in the collection's frame
+  Vec2 load = Vec2::Zero(),
+       load_asleep = Vec2::Zero();  ///< outer forces now, and when it slept [N]
+  RigidId rigid{};                  ///< itself, or its collection
+  Vec2 local = Vec2::Zero();        ///< pose in the collection's frame
   double local_angle = 0.0;
   Rotation local_rotation;
 };
@@ -85,8 +86,8 @@ struct ContactPoint {
   double gap = 0.0;              ///< [m]
   float breath = 0.0F;           ///< change of the gap since the last step [m]
   std::uint32_t feature = 0;
-  bool fresh = false;            ///< was not there, or carried nothing, in the last step
-  float approach = 0.0F;         ///< fastest approach while it was still open [m/s]
+  bool fresh = false;                     ///< was not there, or carried nothing, in the last step
+  float approach = 0.0F;                  ///< fastest approach while it was still open [m/s]
   double lambda_n = 0.0, lambda_t = 0.0;  ///< impulse of the last step [N s]
   float w_n = 0.0F, w_t = 0.0F;           ///< velocity after it [m/s]
 };
@@ -99,7 +100,7 @@ struct Contact {
   std::array<ContactPoint, 2> points;
   double mu = 0.0;
   float restitution = 0.0F;
-  int quiet_steps = 0;          ///< consecutive steps in which the pair could have merged
+  int quiet_steps = 0;  ///< consecutive steps in which the pair could have merged
 };
 
 /// Contacts between different rigid things: slots that stay in place, and their order by key.
@@ -156,7 +157,7 @@ struct Drift {
 
 /// A contact inside a collection: its memory is cold, its block hot.
 struct InternalContact {
-  Contact contact;            ///< positions and normal in the collection's frame
+  Contact contact;                  ///< positions and normal in the collection's frame
   bool active[2] = {false, false};  ///< has carried a force, so that its loss is a break
   bool lost[2] = {false, false};    ///< has opened since
   Drift slip[2];     ///< along the tangent, over consecutive steps on the edge of the cone
@@ -167,8 +168,8 @@ struct InternalContact {
 struct Weld {
   BodyId a{}, b{};
   std::uint32_t first = 0, count = 0;
-  int loud_steps = 0;       ///< consecutive steps above the unmerging threshold
-  bool cut = false;         ///< found broken, sliding or moving in this step
+  int loud_steps = 0;  ///< consecutive steps above the unmerging threshold
+  bool cut = false;    ///< found broken, sliding or moving in this step
   EventReason reason = EventReason::None;
 };
 
@@ -176,8 +177,8 @@ struct Weld {
 struct Collection {
   CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
   RigidId rigid{};
-  BodyId anchor{};                  ///< when its rigid is not floating: a body of that frame
-  std::vector<BodyId> members;      ///< ascending; pinned and scripted bodies are never members
+  BodyId anchor{};              ///< when its rigid is not floating: a body of that frame
+  std::vector<BodyId> members;  ///< ascending; pinned and scripted bodies are never members
   std::vector<InternalContact> contacts;  ///< ascending by key
   std::vector<ContactBlock> blocks;       ///< one per contact, in the order of an undisturbed sweep
   std::vector<std::uint32_t> block_contact;  ///< which contact a block is
@@ -191,8 +192,8 @@ struct Collection {
   std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
   bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
   Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
-  int frame_known = 0;              ///< steps since it was formed, up to 2
-  bool settled = false;             ///< inner forces did not change in the last sweep
+  int frame_known = 0;                                     ///< steps since it was formed, up to 2
+  bool settled = false;  ///< inner forces did not change in the last sweep
 };
 
 struct TimedSpring {
@@ -210,17 +211,17 @@ struct State {
   Mode mode = Mode::MergeSleep;
   double h = 0.01;
   Vec2 gravity{0.0, -9.81};
-  std::vector<Collider> colliders;        ///< the different shapes, in the body frame
-  std::vector<Aabb> collider_bounds;      ///< in the body frame
+  std::vector<Collider> colliders;            ///< the different shapes, in the body frame
+  std::vector<Aabb> collider_bounds;          ///< in the body frame
   std::vector<std::uint32_t> shape_collider;  ///< per shape of a body: which of them it is
-  std::vector<BodyId> shape_body;         ///< per shape: whose it is
+  std::vector<BodyId> shape_body;             ///< per shape: whose it is
 
   // what moves
   std::int64_t step = 0;
   double time = 0.0;
   std::vector<Body> bodies;
-  std::vector<Rigid> rigids;              ///< bodies, then collections
-  std::vector<Collection> collections;    ///< slot i is rigid bodies.size() + i
+  std::vector<Rigid> rigids;            ///< bodies, then collections
+  std::vector<Collection> collections;  ///< slot i is rigid bodies.size() + i
   std::int32_t next_collection = 0;
   ContactTable contacts;
   Broadphase broadphase;
@@ -255,8 +256,8 @@ struct State {
 /// A force acting through this step: on a body, about its centre of mass.
 struct Load {
   BodyId body{};
-  Vec2 force = Vec2::Zero();    ///< [N]
-  double torque = 0.0;          ///< [N m]
+  Vec2 force = Vec2::Zero();  ///< [N]
+  double torque = 0.0;        ///< [N m]
 };
 
 /// An impulse given at the start of this step.
@@ -307,7 +308,7 @@ struct Scratch {
   std::vector<Load> loads;
   std::vector<Kick> kicks;
   std::vector<SpringView> springs;
-  std::vector<BodyPair> pairs;       ///< body pairs in contact, ascending
+  std::vector<BodyPair> pairs;  ///< body pairs in contact, ascending
   std::vector<Event> events;
   std::vector<Decision>* decisions = nullptr;  ///< null: nobody asks
   Stats stats;
@@ -320,33 +321,33 @@ struct Scratch {
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
 
   // ContactOrdering: breadth-first distance of each contact from what is new
-  std::vector<std::uint32_t> seeds;        ///< bodies
+  std::vector<std::uint32_t> seeds;  ///< bodies
 
   // SleepAndWake
-  std::vector<BodyId> woken;               ///< to be kept awake in this step
+  std::vector<BodyId> woken;                         ///< to be kept awake in this step
   std::vector<std::uint8_t> restless, island_awake;  ///< per rigid
 
   // SingleIterationPGS
-  bool sweeping = false;                   ///< some collection is swept
-  std::vector<SolverVelocity> sweep_u;     ///< per body
-  std::vector<Twist> sweep_before;         ///< per member
+  bool sweeping = false;                ///< some collection is swept
+  std::vector<SolverVelocity> sweep_u;  ///< per body
+  std::vector<Twist> sweep_before;      ///< per member
   std::vector<SweepContact> sweep_contacts;
   std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
-  std::vector<std::uint8_t> disturbed;     ///< per collection slot
+  std::vector<std::uint8_t> disturbed;        ///< per collection slot
 
   // Unmerge
   bool split = false;                      ///< some collection was taken apart
   std::vector<std::uint32_t> cuts_before;  ///< welds of the collection at hand
 
   // SolveLCP
-  std::vector<SolverVelocity> u;           ///< per rigid
-  std::vector<ContactBlock> blocks;        ///< by island, then by colour
-  std::vector<RowSource> row_sources;      ///< in the order of the pairs
+  std::vector<SolverVelocity> u;       ///< per rigid
+  std::vector<ContactBlock> blocks;    ///< by island, then by colour
+  std::vector<RowSource> row_sources;  ///< in the order of the pairs
   std::vector<Island> islands;
   std::vector<std::uint32_t> island_bodies;
-  std::vector<std::int32_t> island_of;     ///< per rigid; −1: touches nothing
+  std::vector<std::int32_t> island_of;  ///< per rigid; −1: touches nothing
   DisjointSets sets;
-  std::vector<std::uint64_t> colours;      ///< per rigid: those of its blocks, as bits
+  std::vector<std::uint64_t> colours;  ///< per rigid: those of its blocks, as bits
   std::vector<BlockOrder> block_order;
   NncgBuffers nncg;
 };

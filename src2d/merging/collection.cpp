@@ -55,8 +55,7 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   addShapes(state, to, source.members);
   const auto middle = static_cast<std::ptrdiff_t>(target.members.size());
   target.members.insert(target.members.end(), source.members.begin(), source.members.end());
-  std::inplace_merge(target.members.begin(), target.members.begin() + middle,
-                     target.members.end());
+  std::inplace_merge(target.members.begin(), target.members.begin() + middle, target.members.end());
   state[to].bounds.include(placed(relative, state[from].bounds));
   state[to].resized = true;
   target.stale = true;
@@ -129,12 +128,12 @@ void addMotion(Rigid& c, const Rigid& b) {
       c.inertia + c.mass * r_c.squaredNorm() + b.inertia + b.mass * r_b.squaredNorm();
   c.omega = (c.inertia * c.omega + c.mass * cross(r_c, c.v) + b.inertia * b.omega +
              b.mass * cross(r_b, b.v)) /
-            inertia;                                  // Eq. (10)
-  c.v = (c.mass * c.v + b.mass * b.v) / mass;         // Eq. (11)
+            inertia;                           // Eq. (10)
+  c.v = (c.mass * c.v + b.mass * b.v) / mass;  // Eq. (11)
   c.center += c.rotation.inverse() * (x - c.x);
-  c.mass = mass;                                      // Eq. (12)
-  c.inertia = inertia;                                // Eq. (13)
-  c.x = x;                                            // Eq. (14)
+  c.mass = mass;        // Eq. (12)
+  c.inertia = inertia;  // Eq. (13)
+  c.x = x;              // Eq. (14)
   c.inv_mass = 1.0 / mass;
   c.inv_inertia = 1.0 / inertia;
 }
@@ -171,9 +170,7 @@ RigidId anchorRigid(State& state, RigidId id, BodyId anchor) {
   return id;
 }
 
-FrameId frameOf(const State& state, BodyId body) {
-  return state[rigidOf(body)].anchor;
-}
+FrameId frameOf(const State& state, BodyId body) { return state[rigidOf(body)].anchor; }
 
 std::size_t memberIndex(const Collection& collection, BodyId body) {
   const auto at = std::lower_bound(collection.members.begin(), collection.members.end(), body);

@@ -161,7 +161,8 @@ void layOutBlocks(const State& state, Collection& c) {
 
 }  // namespace
 
-// The push is the start of the next sweep, so that no pass over the rows is needed for a warm start.
+// The push is the start of the next sweep, so that no pass over the rows is needed for a warm
+// start.
 void layOutPush(const State& state, Collection& c) {
   c.push.assign(c.members.size(), {});
   const auto add = [&](BodyId b, double sign, const Vec2& impulse, double moment) {

@@ -34,9 +34,9 @@ double relativeMotion(const Rigid& a, const Rigid& b) {
 /// What the contacts of one pair say.
 struct PairContacts {
   int active = 0;
-  double fastest_slip = 0.0;      ///< of active contacts [m/s]
-  double largest_breath = 0.0;    ///< change of the overlap since the last step [m]
-  int on_edge = 0;                ///< active contacts at the limit of their cone
+  double fastest_slip = 0.0;    ///< of active contacts [m/s]
+  double largest_breath = 0.0;  ///< change of the overlap since the last step [m]
+  int on_edge = 0;              ///< active contacts at the limit of their cone
 };
 
 PairContacts lookAt(const State& state, const BodyPair& pair) {
@@ -55,9 +55,9 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
   return seen;
 }
 
-/// All active contacts are on the edge of their cones: is there a motion of b against a, keeping all
-/// of them closed, in which every one slips against its friction? A body wedged into a corner is on
-/// the edge too, but goes nowhere.
+/// All active contacts are on the edge of their cones: is there a motion of b against a, keeping
+/// all of them closed, in which every one slips against its friction? A body wedged into a corner
+/// is on the edge too, but goes nowhere.
 bool aboutToSlide(const State& state, const BodyPair& pair) {
   const Pose pose = state.pose(pair.b);
   const double size = state[rigidOf(pair.b)].box.half.norm();
@@ -83,7 +83,8 @@ bool aboutToSlide(const State& state, const BodyPair& pair) {
   if (free != 1) return free > 1;
   const Eigen::Vector3d motion = modes.eigenvectors().col(0);
   const auto along = [&](const Eigen::Vector3d& row) { return row.dot(motion); };
-  return std::all_of(tangents.begin(), tangents.end(), [&](const auto& r) { return along(r) > 0; }) ||
+  return std::all_of(tangents.begin(), tangents.end(),
+                     [&](const auto& r) { return along(r) > 0; }) ||
          std::all_of(tangents.begin(), tangents.end(), [&](const auto& r) { return along(r) < 0; });
 }
 
@@ -185,8 +186,8 @@ std::vector<BodyPair> pairsToWeld(const State& state, const Scratch& scratch) {
     edges.push_back({graph.node(pair.a), graph.node(pair.b), activePoints(state, pair)});
   }
   if (ready.empty()) return ready;
-  const auto group = rigidGroups(graph.nodes(), edges,
-                                 m.rule == Rule::Paper ? CycleCriterion::Off : m.cycles);
+  const auto group =
+      rigidGroups(graph.nodes(), edges, m.rule == Rule::Paper ? CycleCriterion::Off : m.cycles);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < ready.size(); ++i) {
     if (group[edges[i].a] == group[edges[i].b]) ready[kept++] = ready[i];
@@ -238,10 +239,10 @@ void merge(State& state, Scratch& scratch) {
   if (pairs.empty()) return;
   for (const BodyPair& pair : pairs) {
     if (!weld(state, pair)) continue;
-    const RigidId id = state.isCollection(state[pair.a].rigid) ? state[pair.a].rigid
-                                                               : state[pair.b].rigid;
-    scratch.events.push_back({EventType::Merge, pair.a, pair.b, state.collection(id).id,
-                              EventReason::None});
+    const RigidId id =
+        state.isCollection(state[pair.a].rigid) ? state[pair.a].rigid : state[pair.b].rigid;
+    scratch.events.push_back(
+        {EventType::Merge, pair.a, pair.b, state.collection(id).id, EventReason::None});
   }
   absorbContacts(state);
   layOutCollections(state);

@@ -2,15 +2,16 @@
 /// AccumulateRelativeMotion and Merge (Section 5).
 ///
 /// Deviation under `merging.rule = "default"`: a pair with a contact on the edge of its friction
-/// cone is not ready (it is about to slide), and a pair with a single contact is welded only as part
-/// of a rigid group. Guarded by tests/src2d/merging/merge_test.cpp.
+/// cone is not ready (it is about to slide), and a pair with a single contact is welded only as
+/// part of a rigid group. Guarded by tests/src2d/merging/merge_test.cpp.
 
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
 
-/// Counts, for each pair in contact, the consecutive steps in which it could merge: relative motion,
-/// Eqs. (15)-(17); sliding, Eq. (18); breathing; and for sleep each rigid thing's own motion.
+/// Counts, for each pair in contact, the consecutive steps in which it could merge: relative
+/// motion, Eqs. (15)-(17); sliding, Eq. (18); breathing; and for sleep each rigid thing's own
+/// motion.
 void accumulateRelativeMotion(State& state, Scratch& scratch);
 
 /// Welds the pairs that were ready for `merging.steps` steps.

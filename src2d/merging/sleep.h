@@ -1,9 +1,9 @@
 #pragma once
 /// SleepAndWake (Section 7), per island of rigid things that touch.
 ///
-/// Deviation: the paper lets each body of B sleep by itself. Here an island sleeps when all of it is
-/// at rest and the forces inside its collections have settled, and wakes as a whole: a sleeper is
-/// never left hanging when its support wakes. Guarded by tests/src2d/merging/sleep_test.cpp.
+/// Deviation: the paper lets each body of B sleep by itself. Here an island sleeps when all of it
+/// is at rest and the forces inside its collections have settled, and wakes as a whole: a sleeper
+/// is never left hanging when its support wakes. Guarded by tests/src2d/merging/sleep_test.cpp.
 
 #include "src2d/dynamics/state.h"
 

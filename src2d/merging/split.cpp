@@ -45,8 +45,8 @@ void inheritMotion(State& state, RigidId id, const Rigid& whole, bool anchored) 
   r.omega = whole.omega;
 }
 
-RigidId newPart(State& state, const std::vector<BodyId>& members, const Rigid& whole,
-                BodyId anchor, bool anchored) {
+RigidId newPart(State& state, const std::vector<BodyId>& members, const Rigid& whole, BodyId anchor,
+                bool anchored) {
   const RigidId id = newCollection(state);
   Collection& c = state.collection(id);
   c.members = members;

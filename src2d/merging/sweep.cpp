@@ -211,8 +211,8 @@ std::vector<SweepItem> disturbedOrder(State& state, Scratch& scratch) {
   for (std::size_t i = 0; i < passable.size(); ++i) {
     passable[i] = scratch.sweep_u[i].inv_mass > 0.0;
   }
-  const auto order = breadthFirst(static_cast<std::uint32_t>(state.bodies.size()), edges,
-                                  scratch.seeds, passable);
+  const auto order =
+      breadthFirst(static_cast<std::uint32_t>(state.bodies.size()), edges, scratch.seeds, passable);
   std::vector<SweepItem> ordered;
   ordered.reserve(order.size());
   for (const std::uint32_t i : order) ordered.push_back(items[i]);
@@ -273,8 +273,7 @@ void sweepConverging(const State& state, Scratch& scratch, const std::vector<Swe
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   Nncg iteration(
-      items.size(), [&](std::size_t i) -> ContactBlock& { return *items[i].block; },
-      bodies.size(),
+      items.size(), [&](std::size_t i) -> ContactBlock& { return *items[i].block; }, bodies.size(),
       [&](std::size_t i) -> SolverVelocity& { return scratch.sweep_u[bodies[i]]; },
       [&] {
         for (const SweepItem& item : items) {
@@ -320,8 +319,8 @@ bool frameJumps(const State& state, Collection& c) {
   return known && jump > kPart * state.h * std::max(state.gravity.norm(), 1.0);
 }
 
-/// Between two collections that are fixed to a frame the full solve has no row: what the sweep found
-/// there is all that is known.
+/// Between two collections that are fixed to a frame the full solve has no row: what the sweep
+/// found there is all that is known.
 void keepFixedContacts(State& state, const Scratch& scratch) {
   for (const SweepContact& outer : scratch.sweep_contacts) {
     const ContactBlock& k = outer.block;

@@ -24,8 +24,8 @@ void sweepCollections(State& state, Scratch& scratch);
 /// `unmerging.disturbed_sweeps` of them.
 void sweepAgain(State& state, Scratch& scratch, Collection& collection);
 
-/// Velocities below this are what a sweep leaves for the next one: a thousandth of what gravity adds
-/// in a step [m/s].
+/// Velocities below this are what a sweep leaves for the next one: a thousandth of what gravity
+/// adds in a step [m/s].
 double residualVelocity(const State& state);
 
 /// True for a collection whose inner forces are swept in this step.

@@ -125,13 +125,14 @@ class WeldTest {
     const bool literal = rule() == Rule::Paper;
     const double threshold = literal ? 0.0 : state_.settings.unmerging.sliding;
     const bool lost = exceeds(opening, std::max(0.0, w_n), threshold) || literal;
-    record(scratch_, c_.welds[weld], "broken", "Section 6.3", opening.sum, threshold,
-           opening.steps, 0, lost);
+    record(scratch_, c_.welds[weld], "broken", "Section 6.3", opening.sum, threshold, opening.steps,
+           0, lost);
     if (lost && literal) cutWeld(c_.welds[weld], EventReason::Broken);
     return lost;
   }
 
-  /// A weld all of whose contacts have opened is broken; one that keeps a single contact is a pivot.
+  /// A weld all of whose contacts have opened is broken; one that keeps a single contact is a
+  /// pivot.
   void testLost(Weld& weld) {
     if (activeContacts(c_, weld) == 0 && hadContact(weld)) cutWeld(weld, EventReason::Broken);
   }
@@ -195,8 +196,7 @@ class WeldTest {
   Rotation turn_;
   bool confirming_ = false;
   bool opened_ = false;  ///< some contact was lost that held before
-  bool whole_ = false;  ///< dormant contacts were swept too
-
+  bool whole_ = false;   ///< dormant contacts were swept too
 };
 
 /// What still hangs together without the cut welds. Node 0 is the frame; it holds bodies in place
@@ -245,8 +245,8 @@ Parts partsWithoutCuts(const State& state, const Collection& c) {
 void reportCuts(const State& state, const Collection& before, Scratch& scratch) {
   for (const Weld& weld : before.welds) {
     const bool together = state[weld.a].rigid == state[weld.b].rigid;
-    const bool on_frame = !state.rigid(weld.a).floating() &&
-                          state.rigid(weld.a).anchor == state.rigid(weld.b).anchor;
+    const bool on_frame =
+        !state.rigid(weld.a).floating() && state.rigid(weld.a).anchor == state.rigid(weld.b).anchor;
     if (together || on_frame) continue;
     scratch.events.push_back({EventType::Unmerge, weld.a, weld.b, before.id,
                               weld.cut ? weld.reason : EventReason::Cycle});

@@ -5,8 +5,8 @@
 /// Deviations under `unmerging.rule = "default"` (docs/decisions/cures.md), each with its test in
 /// tests/src2d/merging/unmerge_test.cpp:
 /// – slip and opening are summed over consecutive steps before they are compared with the
-///   threshold: a sweep's velocity is thrown away each step, so a single one only sees accelerations
-///   above ε/h;
+///   threshold: a sweep's velocity is thrown away each step, so a single one only sees
+///   accelerations above ε/h;
 /// – after a cut, what remains together must be rigid, not merely connected.
 
 #include "src2d/dynamics/state.h"

@@ -61,8 +61,8 @@ void captureContacts(const State& state, Snapshot& out) {
   for (const ContactTable::Entry& entry : state.contacts.order) {
     const Contact& contact = state.contacts[entry];
     for (int i = 0; i < contact.count; ++i) {
-      out.contacts.push_back(view(contact, contact.points[static_cast<std::size_t>(i)],
-                                  state.pose(contact.key.a)));
+      out.contacts.push_back(
+          view(contact, contact.points[static_cast<std::size_t>(i)], state.pose(contact.key.a)));
     }
   }
   for (const Collection& c : state.collections) {
@@ -101,8 +101,8 @@ CollectionView view(const State& state, const Collection& c) {
   }
   seen.x /= seen.mass;
   for (const BodyId b : c.members) {
-    seen.inertia += state[b].inertia +
-                    state[b].mass * (state.pose(b).position - seen.x).squaredNorm();
+    seen.inertia +=
+        state[b].inertia + state[b].mass * (state.pose(b).position - seen.x).squaredNorm();
   }
   seen.v = r.velocityAt(seen.x);
   seen.omega = r.omega;
@@ -138,7 +138,8 @@ void measure(const State& state, const Actions& actions, const Snapshot& seen, S
   stats.kinetic_energy = stats.potential_energy = stats.angular_momentum = 0.0;
   stats.momentum.setZero();
   for (const BodyState& b : seen.bodies) {
-    if (state[rigidOf(b.id)].anchor != kFloating && !state.isCollection(state[b.id].rigid)) continue;
+    if (state[rigidOf(b.id)].anchor != kFloating && !state.isCollection(state[b.id].rigid))
+      continue;
     const Body& body = state[b.id];
     stats.kinetic_energy +=
         0.5 * (body.mass * b.v.squaredNorm() + body.inertia * b.omega * b.omega);
@@ -200,17 +201,17 @@ void countBodies(const State& state, Scratch& scratch) {
 
 std::size_t memoryBytes(const State& state, const Scratch& scratch) {
   std::size_t total = bytes(state.colliders) + bytes(state.shape_body) +
-                      bytes(state.collider_bounds) + bytes(state.shape_collider) + bytes(state.bodies) + bytes(state.rigids) +
-                      bytes(state.contacts.slots) + bytes(state.contacts.order) +
-                      bytes(state.broadphase.near) + bytes(state.broadphase.shape_leaves);
+                      bytes(state.collider_bounds) + bytes(state.shape_collider) +
+                      bytes(state.bodies) + bytes(state.rigids) + bytes(state.contacts.slots) +
+                      bytes(state.contacts.order) + bytes(state.broadphase.near) +
+                      bytes(state.broadphase.shape_leaves);
   for (const Collection& c : state.collections) {
     total += sizeof(Collection) + bytes(c.members) + bytes(c.contacts) + bytes(c.blocks) +
              bytes(c.block_contact) + bytes(c.welds) + bytes(c.push);
   }
-  total += bytes(scratch.u) + bytes(scratch.blocks) +
-           bytes(scratch.row_sources) + bytes(scratch.nncg.before) +
-           bytes(scratch.nncg.direction) + bytes(scratch.nncg.u_before) +
-           bytes(scratch.nncg.u_direction) +
+  total += bytes(scratch.u) + bytes(scratch.blocks) + bytes(scratch.row_sources) +
+           bytes(scratch.nncg.before) + bytes(scratch.nncg.direction) +
+           bytes(scratch.nncg.u_before) + bytes(scratch.nncg.u_direction) +
            bytes(scratch.block_order) + bytes(scratch.sweep_u) + bytes(scratch.sweep_contacts) +
            bytes(scratch.sweep_before) + bytes(scratch.pairs);
   // Two nodes per leaf of each tree.

@@ -4,10 +4,9 @@ namespace merge2d {
 
 const char* name(Stage stage) {
   static constexpr const char* kNames[kStages] = {
-      "ContactDetection",   "ContactOrdering", "SleepAndWake",
-      "WarmStart",          "SingleIterationPGS", "Unmerge",
-      "SolveLCP",           "AdvanceVelocities", "AccumulateRelativeMotion",
-      "AdvancePositions",   "Merge"};
+      "ContactDetection",         "ContactOrdering",  "SleepAndWake", "WarmStart",
+      "SingleIterationPGS",       "Unmerge",          "SolveLCP",     "AdvanceVelocities",
+      "AccumulateRelativeMotion", "AdvancePositions", "Merge"};
   return kNames[static_cast<std::size_t>(stage)];
 }
 

@@ -34,7 +34,7 @@ struct BodyState {
   double omega = 0.0;     ///< [rad/s]
   CollectionId collection = kNoCollection;
   bool asleep = false;
-  bool pinned = false;     ///< does not move now (motion pinned, or before its `pinned_until`)
+  bool pinned = false;  ///< does not move now (motion pinned, or before its `pinned_until`)
   bool magnet_on = false;
 
   Pose pose() const { return Pose::at(x, angle); }
@@ -45,30 +45,30 @@ enum class ContactState { Broken, Sticking, Sliding };
 struct ContactView {
   BodyId a{}, b{};
   std::uint32_t feature = 0;
-  Vec2 x = Vec2::Zero();       ///< world point [m]
-  Vec2 normal = Vec2::UnitX(); ///< from a to b
-  double gap = 0.0;            ///< [m]
-  double lambda_n = 0.0;       ///< impulse of this step along the normal [N s]
-  double lambda_t = 0.0;       ///< along the tangent, the normal turned by +90° [N s]
-  double w_n = 0.0;            ///< relative velocity of b against a along the normal [m/s]
-  double w_t = 0.0;            ///< the same along the tangent [m/s]
+  Vec2 x = Vec2::Zero();        ///< world point [m]
+  Vec2 normal = Vec2::UnitX();  ///< from a to b
+  double gap = 0.0;             ///< [m]
+  double lambda_n = 0.0;        ///< impulse of this step along the normal [N s]
+  double lambda_t = 0.0;        ///< along the tangent, the normal turned by +90° [N s]
+  double w_n = 0.0;             ///< relative velocity of b against a along the normal [m/s]
+  double w_t = 0.0;             ///< the same along the tangent [m/s]
   double mu = 0.0;
   ContactState state = ContactState::Broken;
-  bool internal = false;       ///< inside a collection
-  bool fresh = false;          ///< new in this step
+  bool internal = false;  ///< inside a collection
+  bool fresh = false;     ///< new in this step
 };
 
 struct CollectionView {
   CollectionId id{};
-  std::vector<BodyId> bodies;    ///< ascending
-  bool anchored = false;         ///< welded to a pinned or scripted body
-  BodyId anchor{};               ///< that body, when anchored
-  double mass = 0.0;             ///< of the members [kg]
-  double inertia = 0.0;          ///< about the centre of mass [kg m²]
+  std::vector<BodyId> bodies;  ///< ascending
+  bool anchored = false;       ///< welded to a pinned or scripted body
+  BodyId anchor{};             ///< that body, when anchored
+  double mass = 0.0;           ///< of the members [kg]
+  double inertia = 0.0;        ///< about the centre of mass [kg m²]
   Vec2 x = Vec2::Zero();
   Vec2 v = Vec2::Zero();
   double omega = 0.0;
-  OrientedBox box;               ///< in the world
+  OrientedBox box;  ///< in the world
   bool asleep = false;
 };
 
@@ -89,7 +89,7 @@ enum class EventReason { None, Broken, Sliding, RelativeMotion, Cycle, User };
 
 struct Event {
   EventType type = EventType::Merge;
-  BodyId a{}, b{};                        ///< the pair; equal where one body is meant
+  BodyId a{}, b{};  ///< the pair; equal where one body is meant
   CollectionId collection = kNoCollection;
   EventReason reason = EventReason::None;
 };
@@ -102,9 +102,9 @@ struct Decision {
   std::string equation;   ///< "(17)"
   double value = 0.0;
   double threshold = 0.0;
-  int count = 0;          ///< consecutive steps so far
+  int count = 0;  ///< consecutive steps so far
   int needed = 0;
-  std::string verdict;    ///< "merge", "wait", "apart", "keep", "unmerge", …
+  std::string verdict;  ///< "merge", "wait", "apart", "keep", "unmerge", …
 };
 
 /// The eleven stages of Algorithm 1, in order.
@@ -124,24 +124,24 @@ enum class Stage {
 inline constexpr std::size_t kStages = 11;
 
 struct Stats {
-  int bodies = 0;             ///< alive, dynamic
-  int active_bodies = 0;      ///< |B|: free bodies and collections that are simulated, awake
+  int bodies = 0;         ///< alive, dynamic
+  int active_bodies = 0;  ///< |B|: free bodies and collections that are simulated, awake
   int collections = 0;
-  int asleep = 0;             ///< bodies asleep
-  int contacts = 0;           ///< contact points in the full solve
-  int internal_contacts = 0;  ///< contact points swept once inside collections
-  double residual = 0.0;      ///< of the full solve after its last sweep: |Δλ| / |λ|
-  double max_penetration = 0.0;  ///< [m]
-  double kinetic_energy = 0.0;   ///< [J]
-  double potential_energy = 0.0; ///< of gravity about y = 0 and of springs [J]
-  Vec2 momentum = Vec2::Zero();  ///< [N s]
-  double angular_momentum = 0.0; ///< about the world's origin [N m s]
+  int asleep = 0;                         ///< bodies asleep
+  int contacts = 0;                       ///< contact points in the full solve
+  int internal_contacts = 0;              ///< contact points swept once inside collections
+  double residual = 0.0;                  ///< of the full solve after its last sweep: |Δλ| / |λ|
+  double max_penetration = 0.0;           ///< [m]
+  double kinetic_energy = 0.0;            ///< [J]
+  double potential_energy = 0.0;          ///< of gravity about y = 0 and of springs [J]
+  Vec2 momentum = Vec2::Zero();           ///< [N s]
+  double angular_momentum = 0.0;          ///< about the world's origin [N m s]
   std::array<double, kStages> seconds{};  ///< wall time per stage
 };
 
 struct Snapshot {
-  std::int64_t step = 0;  ///< 0: before the first step
-  double time = 0.0;      ///< [s]
+  std::int64_t step = 0;          ///< 0: before the first step
+  double time = 0.0;              ///< [s]
   std::vector<BodyState> bodies;  ///< those alive, ascending ids
   std::vector<ContactView> contacts;
   std::vector<CollectionView> collections;  ///< ascending ids
