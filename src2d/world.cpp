@@ -27,7 +27,7 @@ struct World::Impl {
   Setup setup;
   Scratch scratch;
   Observer* observer = nullptr;
-  std::vector<Decision> decisions;
+  Notes notes;
 
   void step();
 
@@ -53,8 +53,8 @@ struct World::Impl {
 void World::Impl::step() {
   State& state = setup.state;
   Scratch& s = scratch;
-  decisions.clear();
-  s.decisions = options.decisions ? &decisions : nullptr;
+  notes.clear();
+  s.notes = options.decisions ? &notes : nullptr;
   beginStep(state, setup.actions, s);
 
   run(Stage::ContactDetection, [&] { detectContacts(state, s); });
@@ -88,6 +88,8 @@ Mode World::mode() const { return impl_->options.mode; }
 const std::vector<BodyInfo>& World::bodies() const { return impl_->setup.bodies; }
 const Stats& World::stats() const { return impl_->scratch.stats; }
 const std::vector<Event>& World::events() const { return impl_->scratch.events; }
+void World::takeNotes(bool on) { impl_->options.decisions = on; }
+const Notes& World::notes() const { return impl_->notes; }
 void World::observe(Observer* observer) { impl_->observer = observer; }
 
 std::size_t World::memoryBytes() const {
@@ -96,7 +98,7 @@ std::size_t World::memoryBytes() const {
 
 void World::capture(Snapshot& out) const {
   captureState(impl_->setup.state, impl_->setup.actions, impl_->scratch, out);
-  out.decisions = impl_->decisions;
+  out.decisions = impl_->notes.decisions;
 }
 
 Snapshot World::capture() const {

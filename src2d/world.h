@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src2d/scene/scene.h"
+#include "src2d/trace/notes.h"
 #include "src2d/trace/snapshot.h"
 
 namespace merge2d {
@@ -24,7 +25,7 @@ class Observer {
 struct WorldOptions {
   Mode mode = Mode::MergeSleep;
   bool timings = true;     ///< measure the seconds per stage
-  bool decisions = false;  ///< record every test of a criterion
+  bool decisions = false;  ///< note every test of a criterion, and what else `notes` holds
 };
 
 class World {
@@ -52,6 +53,11 @@ class World {
   /// Statistics and events of the last step alone: cheap.
   const Stats& stats() const;
   const std::vector<Event>& events() const;
+
+  /// Whether the following steps note their decisions.
+  void takeNotes(bool on);
+  /// What the stages of the last step wrote down; empty when nobody asked.
+  const Notes& notes() const;
 
   /// Called after each stage of each step; null for none. The world does not own it.
   void observe(Observer* observer);

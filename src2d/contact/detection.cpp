@@ -1,5 +1,7 @@
 #include "src2d/contact/detection.h"
 
+#include <algorithm>
+
 #include "src2d/contact/broadphase.h"
 
 namespace merge2d {
@@ -34,6 +36,29 @@ void inherit(ContactPoint& point, const Contact& old) {
     return;
   }
   point.fresh = true;
+}
+
+/// Keeps the outermost points of a pair; those that go are noted when somebody asks.
+void prune(State& state, const BodyPair& pair, Notes* notes) {
+  const Pose frame = state.pose(pair.a);
+  const auto points = [&] {
+    std::vector<Vec2> all;
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      const Contact& contact = state.contacts[state.contacts.order[i]];
+      for (int k = 0; k < contact.count; ++k) {
+        all.push_back(frame * contact.points[static_cast<std::size_t>(k)].position);
+      }
+    }
+    return all;
+  };
+  const std::vector<Vec2> found = notes ? points() : std::vector<Vec2>{};
+  prunePair(state.contacts, pair, frame);
+  if (!notes) return;
+  const std::vector<Vec2> kept = points();
+  for (const Vec2& x : found) {
+    if (std::find(kept.begin(), kept.end(), x) != kept.end()) continue;
+    notes->pruned.push_back({.a = pair.a, .b = pair.b, .x = x});
+  }
 }
 
 bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
@@ -86,7 +111,7 @@ void detectContacts(State& state, Scratch& scratch) {
   }
   collectPairs(state, scratch);
   for (const BodyPair& pair : scratch.pairs) {
-    if (pair.count > 1) prunePair(state.contacts, pair, state.pose(pair.a));
+    if (pair.count > 1) prune(state, pair, scratch.notes);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "src2d/geometry/collide.h"
 #include "src2d/geometry/tree.h"
 #include "src2d/scene/scene.h"
+#include "src2d/trace/notes.h"
 #include "src2d/trace/snapshot.h"
 
 namespace merge2d {
@@ -310,7 +311,7 @@ struct Scratch {
   std::vector<SpringView> springs;
   std::vector<BodyPair> pairs;  ///< body pairs in contact, ascending
   std::vector<Event> events;
-  std::vector<Decision>* decisions = nullptr;  ///< null: nobody asks
+  Notes* notes = nullptr;  ///< null: nobody asks
   Stats stats;
 
   // ContactDetection

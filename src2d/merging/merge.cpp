@@ -23,11 +23,27 @@ OrientedBox worldBox(const Rigid& r) {
   return box;
 }
 
+/// The corners of a box and how the two move against each other there, for who asks.
+void noteCorners(Notes* notes, const BodyPair& pair, const OrientedBox& box, const Rigid& a,
+                 const Rigid& b) {
+  if (!notes) return;
+  NotedCorners seen{.a = pair.a, .b = pair.b, .at = box.corners()};
+  for (std::size_t i = 0; i < seen.at.size(); ++i) {
+    seen.velocity[i] = fieldOf(a).at(seen.at[i]) - fieldOf(b).at(seen.at[i]);
+  }
+  notes->corners.push_back(seen);
+}
+
 /// Eq. (15); the box of what is fixed to the world or to a script is not looked at.
-double relativeMotion(const Rigid& a, const Rigid& b) {
+double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
+  const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
   double fastest = 0.0;
-  if (a.floating()) fastest = fastestCorner(worldBox(a), fieldOf(a), fieldOf(b));
-  if (b.floating()) fastest = std::max(fastest, fastestCorner(worldBox(b), fieldOf(a), fieldOf(b)));
+  for (const Rigid* r : {&a, &b}) {
+    if (!r->floating()) continue;
+    const OrientedBox box = worldBox(*r);
+    fastest = std::max(fastest, fastestCorner(box, fieldOf(a), fieldOf(b)));
+    noteCorners(notes, pair, box, a, b);
+  }
   return fastest;
 }
 
@@ -91,42 +107,61 @@ bool aboutToSlide(const State& state, const BodyPair& pair) {
 /// Tests the merge criteria of one pair, and writes them down when somebody asks.
 class PairTest {
  public:
-  PairTest(const State& state, Scratch& scratch, const BodyPair& pair)
-      : state_(state), scratch_(scratch), pair_(pair) {}
+  PairTest(const State& state, const BodyPair& pair, Notes* notes)
+      : state_(state), pair_(pair), notes_(notes), first_(notes ? notes->decisions.size() : 0) {}
 
-  bool ready(int count) {
+  bool ready() {
     const MergingSettings& m = state_.settings.merging;
     const PairContacts seen = lookAt(state_, pair_);
-    count_ = count;
     bool ok = seen.active > 0;
-    if (!ok) return false;
+    if (!ok) return note("pressed", "Section 5.3", seen.active, 1.0, false);
     if (m.rule == Rule::Default) {
       const bool slides = seen.on_edge == seen.active && aboutToSlide(state_, pair_);
-      ok &= holds("edge", "(20)", slides ? 1.0 : 0.0, 0.5);
+      ok &= note("edge", "(20)", seen.on_edge, seen.active, !slides);
     }
-    if (!ok && !scratch_.decisions) return false;
-    ok &= holds("sliding", "(18)", seen.fastest_slip, m.sliding);
-    ok &= holds("breathing", "Section 5.3", seen.largest_breath, m.breathing);
-    if (!ok && !scratch_.decisions) return false;
-    const double motion = relativeMotion(state_.rigid(pair_.a), state_.rigid(pair_.b));
-    return holds("relative-motion", "(17)", motion, m.velocity) && ok;
+    if (!ok && !notes_) return false;
+    ok &= below("sliding", "(18)", seen.fastest_slip, m.sliding);
+    ok &= below("breathing", "Section 5.3", seen.largest_breath, m.breathing);
+    if (!ok && !notes_) return false;
+    return below("relative-motion", "(17)", relativeMotion(state_, pair_, notes_), m.velocity) &&
+           ok;
+  }
+
+  /// What all criteria together make of the count.
+  void noteCount(int before, int now) const {
+    if (!notes_) return;
+    for (std::size_t i = first_; i < notes_->decisions.size(); ++i) {
+      notes_->decisions[i].before = before;
+      notes_->decisions[i].count = now;
+    }
   }
 
  private:
-  bool holds(const char* criterion, const char* equation, double value, double threshold) {
-    const bool ok = value < threshold;
-    if (scratch_.decisions) {
-      scratch_.decisions->push_back({pair_.a, pair_.b, "AccumulateRelativeMotion", criterion,
-                                     equation, value, threshold, ok ? count_ + 1 : 0,
-                                     state_.settings.merging.steps, ok ? "below" : "apart"});
+  bool below(std::string_view criterion, std::string_view equation, double value,
+             double threshold) {
+    return note(criterion, equation, value, threshold, value < threshold);
+  }
+
+  bool note(std::string_view criterion, std::string_view equation, double value, double threshold,
+            bool ok) {
+    if (notes_) {
+      notes_->decisions.push_back({.a = pair_.a,
+                                   .b = pair_.b,
+                                   .stage = "AccumulateRelativeMotion",
+                                   .criterion = criterion,
+                                   .equation = equation,
+                                   .value = value,
+                                   .threshold = threshold,
+                                   .needed = state_.settings.merging.steps,
+                                   .verdict = ok ? "below" : "apart"});
     }
     return ok;
   }
 
   const State& state_;
-  Scratch& scratch_;
   const BodyPair& pair_;
-  int count_ = 0;
+  Notes* notes_;
+  std::size_t first_;  ///< of this pair's decisions
 };
 
 void countQuietPairs(State& state, Scratch& scratch) {
@@ -135,7 +170,9 @@ void countQuietPairs(State& state, Scratch& scratch) {
     if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) continue;
     Contact& first = state.contacts[state.contacts.order[pair.first]];
     const int count = first.quiet_steps;
-    const int now = PairTest(state, scratch, pair).ready(count) ? count + 1 : 0;
+    PairTest test(state, pair, scratch.notes);
+    const int now = test.ready() ? count + 1 : 0;
+    test.noteCount(count, now);
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
       state.contacts[state.contacts.order[i]].quiet_steps = now;
     }
@@ -143,12 +180,31 @@ void countQuietPairs(State& state, Scratch& scratch) {
 }
 
 /// Section 7: each rigid thing against the inertial frame.
-void countQuietRigids(State& state) {
+void countQuietRigids(State& state, Notes* notes) {
+  const SleepingSettings& sleeping = state.settings.sleeping;
   const VelocityField still;
-  for (Rigid& r : state.rigids) {
+  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
+    Rigid& r = state.rigids[i];
     if (!r.present() || r.asleep) continue;
     const double motion = fastestCorner(worldBox(r), fieldOf(r), still);
-    r.quiet_steps = motion < state.settings.sleeping.velocity ? r.quiet_steps + 1 : 0;
+    const int before = r.quiet_steps;
+    const bool quiet = motion < sleeping.velocity;
+    r.quiet_steps = quiet ? r.quiet_steps + 1 : 0;
+    const bool collection = i >= state.bodies.size();
+    if (!notes || !(r.floating() || collection)) continue;
+    const BodyId body = collection ? state.collections[i - state.bodies.size()].members.front()
+                                   : BodyId{static_cast<std::uint32_t>(i)};
+    notes->decisions.push_back({.a = body,
+                                .b = body,
+                                .stage = "AccumulateRelativeMotion",
+                                .criterion = "rest",
+                                .equation = "Section 7",
+                                .value = motion,
+                                .threshold = sleeping.velocity,
+                                .count = r.quiet_steps,
+                                .needed = sleeping.steps,
+                                .verdict = quiet ? "below" : "awake",
+                                .before = before});
   }
 }
 
@@ -173,6 +229,24 @@ class MergeGraph {
   const State& state_;
 };
 
+/// Writes down whether a pair that counts is welded.
+void noteMerge(const State& state, Notes* notes, const BodyPair& pair, std::string_view criterion,
+               double value, double threshold, bool merges) {
+  if (!notes) return;
+  const int count = state.contacts[state.contacts.order[pair.first]].quiet_steps;
+  notes->decisions.push_back({.a = pair.a,
+                              .b = pair.b,
+                              .stage = "Merge",
+                              .criterion = criterion,
+                              .equation = criterion == "cycle" ? "Section 8.2" : "Section 5.1",
+                              .value = value,
+                              .threshold = threshold,
+                              .count = count,
+                              .needed = state.settings.merging.steps,
+                              .verdict = merges ? "merge" : "wait",
+                              .before = count});
+}
+
 /// The pairs to weld: ready, and rigid in the group that they would form.
 std::vector<BodyPair> pairsToWeld(const State& state, const Scratch& scratch) {
   const MergingSettings& m = state.settings.merging;
@@ -181,16 +255,24 @@ std::vector<BodyPair> pairsToWeld(const State& state, const Scratch& scratch) {
   std::vector<ContactEdge> edges;
   for (const BodyPair& pair : scratch.pairs) {
     const Contact& first = state.contacts[state.contacts.order[pair.first]];
-    if (first.quiet_steps < m.steps) continue;
+    const bool counted = first.quiet_steps >= m.steps;
+    if (first.quiet_steps > 0) {
+      noteMerge(state, scratch.notes, pair, "count", first.quiet_steps, m.steps, counted);
+    }
+    if (!counted) continue;
     ready.push_back(pair);
     edges.push_back({graph.node(pair.a), graph.node(pair.b), activePoints(state, pair)});
   }
   if (ready.empty()) return ready;
-  const auto group =
-      rigidGroups(graph.nodes(), edges, m.rule == Rule::Paper ? CycleCriterion::Off : m.cycles);
+  const CycleCriterion cycles = m.rule == Rule::Paper ? CycleCriterion::Off : m.cycles;
+  const auto group = rigidGroups(graph.nodes(), edges, cycles);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < ready.size(); ++i) {
-    if (group[edges[i].a] == group[edges[i].b]) ready[kept++] = ready[i];
+    const bool rigid = group[edges[i].a] == group[edges[i].b];
+    if (cycles != CycleCriterion::Off) {
+      noteMerge(state, scratch.notes, ready[i], "cycle", edges[i].contacts, 2.0, rigid);
+    }
+    if (rigid) ready[kept++] = ready[i];
   }
   ready.resize(kept);
   return ready;
@@ -230,7 +312,7 @@ void releaseRows(Scratch& scratch) {
 
 void accumulateRelativeMotion(State& state, Scratch& scratch) {
   if (merges(state.mode)) countQuietPairs(state, scratch);
-  if (sleeps(state.mode)) countQuietRigids(state);
+  if (sleeps(state.mode)) countQuietRigids(state, scratch.notes);
 }
 
 void merge(State& state, Scratch& scratch) {

@@ -4,7 +4,8 @@ namespace merge2d {
 
 std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const GraphEdge> edges,
                                         std::span<const std::uint32_t> seeds,
-                                        std::span<const std::uint8_t> passable) {
+                                        std::span<const std::uint8_t> passable,
+                                        std::vector<std::uint32_t>* depth) {
   // Edges at each node, in the order given.
   std::vector<std::uint32_t> first(nodes + 1, 0);
   for (const GraphEdge& e : edges) ++first[e.a + 1], ++first[e.b + 1];
@@ -16,15 +17,17 @@ std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const Gra
   }
 
   // The walk.
-  std::vector<std::uint8_t> reached(nodes, 0), placed(edges.size(), 0);
+  std::vector<std::uint32_t> reached(nodes, 0);  // 1 + edges from the nearest seed
+  std::vector<std::uint8_t> placed(edges.size(), 0);
+  if (depth) depth->assign(edges.size(), 0);
   std::vector<std::uint32_t> queue, order;
   order.reserve(edges.size());
-  const auto reach = [&](std::uint32_t node) {
+  const auto reach = [&](std::uint32_t node, std::uint32_t distance) {
     if (reached[node] || !passable[node]) return;
-    reached[node] = 1;
+    reached[node] = distance + 1;
     queue.push_back(node);
   };
-  for (const std::uint32_t seed : seeds) reach(seed);
+  for (const std::uint32_t seed : seeds) reach(seed, 0);
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const std::uint32_t node = queue[head];
     for (std::uint32_t i = first[node]; i < first[node + 1]; ++i) {
@@ -32,7 +35,8 @@ std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const Gra
       if (placed[edge]) continue;
       placed[edge] = 1;
       order.push_back(edge);
-      reach(edges[edge].a == node ? edges[edge].b : edges[edge].a);
+      if (depth) (*depth)[edge] = reached[node];
+      reach(edges[edge].a == node ? edges[edge].b : edges[edge].a, reached[node]);
     }
   }
 

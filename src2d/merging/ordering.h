@@ -15,9 +15,11 @@ struct GraphEdge {
 
 /// The edges in breadth-first order from the seed nodes: first those at a seed, in the order given,
 /// then those at the nodes reached by these, and so on; the rest in the order given. `passable[n]`:
-/// the walk goes on at node n. Each index of `edges` appears once.
+/// the walk goes on at node n. Each index of `edges` appears once. `depth`, when given, gets per
+/// edge how many edges it is away from the nearest seed: 1 at a seed, 0 where the walk does not go.
 std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const GraphEdge> edges,
                                         std::span<const std::uint32_t> seeds,
-                                        std::span<const std::uint8_t> passable);
+                                        std::span<const std::uint8_t> passable,
+                                        std::vector<std::uint32_t>* depth = nullptr);
 
 }  // namespace merge2d

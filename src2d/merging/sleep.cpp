@@ -68,6 +68,42 @@ void wakeUp(State& state, Scratch& scratch, std::size_t i) {
       {EventType::Wake, first, first, c ? c->id : kNoCollection, EventReason::None});
 }
 
+/// Writes down what becomes of a rigid thing, and the one test that decided it.
+void noteSleep(const State& state, Notes* notes, std::size_t i, bool restless, bool stays_awake) {
+  const Rigid& r = state.rigids[i];
+  if (!notes || (r.asleep && !stays_awake)) return;
+  const bool collection = i >= state.bodies.size();
+  const Collection* c = collection ? &state.collections[i - state.bodies.size()] : nullptr;
+  const BodyId first = c ? c->members.front() : BodyId{static_cast<std::uint32_t>(i)};
+  const int needed = state.settings.sleeping.steps;
+  Decision d{.a = first,
+             .b = first,
+             .stage = "SleepAndWake",
+             .criterion = "rest",
+             .equation = "Section 7",
+             .value = static_cast<double>(r.quiet_steps),
+             .threshold = static_cast<double>(needed),
+             .count = r.quiet_steps,
+             .needed = needed,
+             .verdict = r.asleep      ? "wake"
+                        : stays_awake ? "wait"
+                                      : "sleep",
+             .before = r.quiet_steps};
+  const auto because = [&](std::string_view criterion) {
+    d.criterion = criterion;
+    d.value = 1.0;
+    d.threshold = 0.0;
+  };
+  if (restless) {
+    because("disturbed");
+  } else if (r.asleep) {
+    because("neighbours");
+  } else if (r.quiet_steps >= needed && stays_awake) {
+    because(c && !c->settled ? "inner-forces" : "neighbours");
+  }
+  notes->decisions.push_back(d);
+}
+
 bool ready(const State& state, std::size_t i, bool restless) {
   const Rigid& r = state.rigids[i];
   if (restless) return false;
@@ -103,6 +139,7 @@ void sleepAndWake(State& state, Scratch& scratch) {
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
     if (!canSleep(state.rigids[i], state, i)) continue;
     const bool stays_awake = awake[sets.find(static_cast<std::uint32_t>(i))] != 0;
+    noteSleep(state, scratch.notes, i, restless[i] != 0, stays_awake);
     if (state.rigids[i].asleep && stays_awake) wakeUp(state, scratch, i);
     if (!state.rigids[i].asleep && !stays_awake) fallAsleep(state, scratch, i);
   }

@@ -15,18 +15,32 @@ constexpr double kGentle = 1e-3;
 
 bool isMember(const State& state, BodyId b) { return state.isCollection(state[b].rigid); }
 
-/// A contact that was open in the last step and closes in this one.
-bool closesAnew(const State& state, const Contact& contact) {
+/// How fast a contact closes that was open in the last step and meets in this one [m/s]; 0 for any
+/// other.
+double closingSpeed(const State& state, const Contact& contact) {
   const Pose pose_a = state.pose(contact.key.a);
   const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
+  double fastest = 0.0;
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
     if (!point.fresh) continue;
     const Vec2 p = pose_a * point.position;
     const double w_n = (pose_a.rotation * contact.normal).dot(b.velocityAt(p) - a.velocityAt(p));
-    if (w_n + std::max(0.0, point.gap) / state.h < -kGentle) return true;
+    if (w_n + std::max(0.0, point.gap) / state.h >= -kGentle) continue;
+    fastest = std::max(fastest, -w_n);
   }
-  return false;
+  return fastest;
+}
+
+/// A contact that was open in the last step and closes in this one.
+bool closesAnew(const State& state, const Contact& contact) {
+  return closingSpeed(state, contact) > 0.0;
+}
+
+/// Pairs that meet faster than this are an impact: gravity alone does not do it within two steps,
+/// so a resting body that lost its contact for a moment is none [m/s].
+double impactSpeed(const State& state) {
+  return std::max(2.0 * state.h * state.gravity.norm(), state.settings.unmerging.velocity);
 }
 
 /// Velocity of a member before the last position update: Deviation from the start with today's
@@ -211,8 +225,15 @@ std::vector<SweepItem> disturbedOrder(State& state, Scratch& scratch) {
   for (std::size_t i = 0; i < passable.size(); ++i) {
     passable[i] = scratch.sweep_u[i].inv_mass > 0.0;
   }
-  const auto order =
-      breadthFirst(static_cast<std::uint32_t>(state.bodies.size()), edges, scratch.seeds, passable);
+  std::vector<std::uint32_t> depth;
+  const auto order = breadthFirst(static_cast<std::uint32_t>(state.bodies.size()), edges,
+                                  scratch.seeds, passable, scratch.notes ? &depth : nullptr);
+  if (scratch.notes) {
+    for (const std::uint32_t i : order) {
+      scratch.notes->order.push_back(
+          {BodyId{edges[i].a}, BodyId{edges[i].b}, static_cast<int>(depth[i])});
+    }
+  }
   std::vector<SweepItem> ordered;
   ordered.reserve(order.size());
   for (const std::uint32_t i : order) ordered.push_back(items[i]);
@@ -343,7 +364,35 @@ double residualVelocity(const State& state) {
   return std::max(kPart * state.h * state.gravity.norm(), state.settings.sleeping.velocity);
 }
 
+/// An event for each pair that touched nowhere in the last step and hits in this one.
+void reportImpacts(const State& state, Scratch& scratch) {
+  const double threshold = impactSpeed(state);
+  for (const BodyPair& pair : scratch.pairs) {
+    double fastest = 0.0;
+    bool touched = false;
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count && !touched; ++i) {
+      const Contact& contact = state.contacts[state.contacts.order[i]];
+      const auto held = [](const ContactPoint& p) { return !p.fresh; };
+      touched = std::any_of(contact.points.begin(), contact.points.begin() + contact.count, held);
+      if (!touched) fastest = std::max(fastest, closingSpeed(state, contact));
+    }
+    if (touched || fastest == 0.0) continue;
+    const bool hits = fastest > threshold;
+    if (hits) scratch.events.push_back({EventType::Impact, pair.a, pair.b});
+    if (!scratch.notes) continue;
+    scratch.notes->decisions.push_back({.a = pair.a,
+                                        .b = pair.b,
+                                        .stage = "ContactOrdering",
+                                        .criterion = "impact",
+                                        .equation = "Section 6.2",
+                                        .value = fastest,
+                                        .threshold = threshold,
+                                        .verdict = hits ? "impact" : "touch"});
+  }
+}
+
 void orderContacts(State& state, Scratch& scratch) {
+  reportImpacts(state, scratch);
   scratch.seeds.clear();
   scratch.disturbed.assign(state.collections.size(), 0);
   if (!state.settings.unmerging.ordering) return;
@@ -368,6 +417,9 @@ void orderContacts(State& state, Scratch& scratch) {
       seed(pair.b);
       break;
     }
+  }
+  if (scratch.notes) {
+    for (const std::uint32_t s : scratch.seeds) scratch.notes->seeds.push_back(BodyId{s});
   }
 }
 

@@ -19,13 +19,12 @@ bool onEdge(const ContactBlock& k, int i) {
   return !k.bilateral && std::abs(k.lambda_t(i)) >= kOnEdge * k.mu * k.lambda_n(i);
 }
 
-/// Records one decision if somebody asks.
-void record(const Scratch& scratch, const Weld& weld, const char* criterion, const char* equation,
-            double value, double threshold, int count, int needed, bool cut) {
-  if (!scratch.decisions) return;
-  scratch.decisions->push_back({weld.a, weld.b, "Unmerge", criterion, equation, value, threshold,
-                                count, needed, cut ? "unmerge" : "keep"});
-}
+/// The result of summing one more velocity.
+struct Evidence {
+  double sum = 0.0;  ///< its size [m/s]
+  int steps = 0;
+  bool exceeds = false;
+};
 
 class WeldTest {
  public:
@@ -41,7 +40,7 @@ class WeldTest {
   void testAll() {
     const std::size_t blocks = whole_ ? c_.blocks.size() : c_.active_blocks;
     for (std::uint32_t i = 0; i < blocks; ++i) {
-      if (c_.watched[i] || scratch_.decisions || atLimit(c_.blocks[i])) testContacts(i);
+      if (c_.watched[i] || scratch_.notes || atLimit(c_.blocks[i])) testContacts(i);
     }
     if (c_.pivots_stale) listPivots(c_);
     for (const std::uint32_t pivot : c_.pivots) {
@@ -85,11 +84,15 @@ class WeldTest {
         inner.opening[i] = {};
       }
       if (!edge) inner.slip[i] = {};
-      if (edge || !pressed || scratch_.decisions) {
+      if (scratch_.notes) {
+        at_ = state_[c_.rigid].frame() * inner.contact.points[static_cast<std::size_t>(i)].position;
+      }
+      if (edge || !pressed) {
         const ContactVelocity w = lookAtPoint(k, inner.contact, i);
         if (!pressed && inner.active[i]) inner.lost[i] = testBroken(weld, inner.opening[i], w.n);
-        if (pressed) testSliding(weld, inner.slip[i], w.t, edge);
+        if (edge) testSliding(weld, inner.slip[i], w.t);
       }
+      if (pressed) noteCone(weld, k, i, edge);
       c_.watched[b] |= edge || !pressed;
       opened_ |= inner.lost[i] && !was_lost;
       c_.pivots_stale |= was_lost != inner.lost[i] || was_active != inner.active[i];
@@ -106,27 +109,36 @@ class WeldTest {
     return w;
   }
 
-  /// True when the drift is too large. Evidence that more sweeps do not confirm is forgotten.
-  bool exceeds(Drift& drift, double w, double threshold) const {
+  /// Adds to what was summed. Evidence that more sweeps do not confirm is forgotten.
+  Evidence weigh(Drift& drift, double w, double threshold) const {
     if (confirming_) {
       if (std::abs(w) < residualVelocity(state_)) w = 0.0;
       drift.sum = static_cast<float>(w * std::max(drift.steps, 1));
-      if (std::abs(drift.sum) > threshold) return true;
-      drift = {};
-      return false;
+    } else {
+      drift.sum += static_cast<float>(w);
+      drift.steps += 1;
     }
-    drift.sum += static_cast<float>(w);
-    drift.steps += 1;
-    return std::abs(drift.sum) > threshold;
+    const double sum = std::abs(drift.sum);
+    const Evidence found{sum, drift.steps, sum > threshold};
+    if (confirming_ && !found.exceeds) drift = {};
+    return found;
   }
 
   /// True when the contact has opened.
   bool testBroken(std::uint32_t weld, Drift& opening, double w_n) {
     const bool literal = rule() == Rule::Paper;
     const double threshold = literal ? 0.0 : state_.settings.unmerging.sliding;
-    const bool lost = exceeds(opening, std::max(0.0, w_n), threshold) || literal;
-    record(scratch_, c_.welds[weld], "broken", "Section 6.3", opening.sum, threshold, opening.steps,
-           0, lost);
+    const Evidence found = weigh(opening, std::max(0.0, w_n), threshold);
+    const bool lost = found.exceeds || literal;
+    note(c_.welds[weld], {.criterion = "opening",
+                          .equation = "Section 6.3",
+                          .value = found.sum,
+                          .threshold = threshold,
+                          .count = found.steps,
+                          .verdict = !lost     ? "wait"
+                                     : literal ? "unmerge"
+                                               : "lost",
+                          .at = at_});
     if (lost && literal) cutWeld(c_.welds[weld], EventReason::Broken);
     return lost;
   }
@@ -134,7 +146,14 @@ class WeldTest {
   /// A weld all of whose contacts have opened is broken; one that keeps a single contact is a
   /// pivot.
   void testLost(Weld& weld) {
-    if (activeContacts(c_, weld) == 0 && hadContact(weld)) cutWeld(weld, EventReason::Broken);
+    const int held = activeContacts(c_, weld);
+    if (!hadContact(weld)) return;
+    if (held == 0) cutWeld(weld, EventReason::Broken);
+    note(weld, {.criterion = "broken",
+                .equation = "Section 6.3",
+                .value = static_cast<double>(held),
+                .threshold = 1.0,
+                .verdict = held == 0 ? "unmerge" : "keep"});
   }
 
   bool hadContact(const Weld& weld) const {
@@ -144,13 +163,28 @@ class WeldTest {
     return false;
   }
 
-  void testSliding(std::uint32_t weld, Drift& slip, double w_t, bool edge) {
+  /// A contact on the edge of its cone.
+  void testSliding(std::uint32_t weld, Drift& slip, double w_t) {
     const double threshold = state_.settings.unmerging.sliding;
     if (rule() == Rule::Paper) slip = {};
-    const bool cut = edge && exceeds(slip, w_t, threshold);
-    record(scratch_, c_.welds[weld], "sliding", "(19), (20)", std::abs(slip.sum), threshold,
-           slip.steps, 0, cut);
-    if (cut) cutWeld(c_.welds[weld], EventReason::Sliding);
+    const Evidence found = weigh(slip, w_t, threshold);
+    note(c_.welds[weld], {.criterion = "sliding",
+                          .equation = "(19)",
+                          .value = found.sum,
+                          .threshold = threshold,
+                          .count = found.steps,
+                          .verdict = found.exceeds ? "unmerge" : "wait",
+                          .at = at_});
+    if (found.exceeds) cutWeld(c_.welds[weld], EventReason::Sliding);
+  }
+
+  void noteCone(std::uint32_t weld, const ContactBlock& k, int i, bool edge) {
+    note(c_.welds[weld], {.criterion = "cone",
+                          .equation = "(20)",
+                          .value = std::abs(k.lambda_t(i)),
+                          .threshold = k.mu * k.lambda_n(i),
+                          .verdict = edge ? "edge" : "keep",
+                          .at = at_});
   }
 
   /// Relative motion (Section 6.4): only pairs with fewer than two contacts can turn in 2D.
@@ -158,10 +192,19 @@ class WeldTest {
     if (weld.cut || !hadContact(weld)) return;
     const UnmergingSettings& settings = state_.settings.unmerging;
     const double value = relativeMotion(weld);
+    const int before = weld.loud_steps;
     weld.loud_steps = value > settings.velocity ? weld.loud_steps + (confirming_ ? 0 : 1) : 0;
     const bool cut = weld.loud_steps >= settings.steps;
-    record(scratch_, weld, "relative-motion", "(17)", value, settings.velocity, weld.loud_steps,
-           settings.steps, cut);
+    note(weld, {.criterion = "relative-motion",
+                .equation = "(17)",
+                .value = value,
+                .threshold = settings.velocity,
+                .count = weld.loud_steps,
+                .needed = settings.steps,
+                .verdict = cut                   ? "unmerge"
+                           : weld.loud_steps > 0 ? "wait"
+                                                 : "keep",
+                .before = before});
     if (cut) cutWeld(weld, EventReason::RelativeMotion);
   }
 
@@ -181,6 +224,15 @@ class WeldTest {
     return fastest;
   }
 
+  /// Writes one test down if somebody asks.
+  void note(const Weld& weld, Decision test) {
+    if (!scratch_.notes) return;
+    test.a = weld.a;
+    test.b = weld.b;
+    test.stage = "Unmerge";
+    scratch_.notes->decisions.push_back(test);
+  }
+
   void cutWeld(Weld& weld, EventReason reason) {
     if (weld.cut) return;
     weld.cut = true;
@@ -195,8 +247,9 @@ class WeldTest {
   Collection& c_;
   Rotation turn_;
   bool confirming_ = false;
-  bool opened_ = false;  ///< some contact was lost that held before
-  bool whole_ = false;   ///< dormant contacts were swept too
+  bool opened_ = false;     ///< some contact was lost that held before
+  bool whole_ = false;      ///< dormant contacts were swept too
+  Vec2 at_ = Vec2::Zero();  ///< the contact point at hand, for the notes
 };
 
 /// What still hangs together without the cut welds. Node 0 is the frame; it holds bodies in place
@@ -250,6 +303,27 @@ void reportCuts(const State& state, const Collection& before, Scratch& scratch) 
     if (together || on_frame) continue;
     scratch.events.push_back({EventType::Unmerge, weld.a, weld.b, before.id,
                               weld.cut ? weld.reason : EventReason::Cycle});
+    if (weld.cut || !scratch.notes) continue;
+    scratch.notes->decisions.push_back({.a = weld.a,
+                                        .b = weld.b,
+                                        .stage = "Unmerge",
+                                        .criterion = "cycle",
+                                        .equation = "Section 8.2",
+                                        .value = static_cast<double>(activeContacts(before, weld)),
+                                        .threshold = 2.0,
+                                        .verdict = "unmerge"});
+  }
+}
+
+/// What was decided about welds may not be what came of it: `from` one verdict `to` another, in the
+/// decisions from `first` on, where the pair stayed together.
+void restate(const State& state, Notes* notes, std::size_t first, std::string_view to) {
+  if (!notes) return;
+  for (std::size_t i = first; i < notes->decisions.size(); ++i) {
+    Decision& d = notes->decisions[i];
+    const Rigid &a = state.rigid(d.a), &b = state.rigid(d.b);
+    const bool together = &a == &b || (!a.floating() && a.anchor == b.anchor);
+    if (together && d.verdict == "unmerge") d.verdict = to;
   }
 }
 
@@ -261,6 +335,7 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
   Collection before;
   before.id = state.collection(id).id;
   before.welds = state.collection(id).welds;
+  if (scratch.notes) before.contacts = state.collection(id).contacts;
   splitCollection(state, id, parts.part, parts.anchored);
   reportCuts(state, before, scratch);
   scratch.split = true;
@@ -272,6 +347,32 @@ bool newCut(const Collection& c, const Scratch& scratch) {
     const auto& before = scratch.cuts_before;
     return std::find(before.begin(), before.end(), weld) == before.end();
   });
+}
+
+/// Tests the welds of one collection, and splits it where it falls apart.
+void testCollection(State& state, Scratch& scratch, std::size_t slot) {
+  Collection& c = state.collections[slot];
+  scratch.cuts_before.assign(c.cut_welds.begin(), c.cut_welds.end());
+  for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
+  c.cut_welds.clear();
+  const std::size_t first = scratch.notes ? scratch.notes->decisions.size() : 0;
+  WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
+  test.testAll();
+  // Broken welds that do not part the graph are found again in each step: look anew only when
+  // there is one more.
+  if (!newCut(c, scratch) && !test.contactOpened()) return;
+  Parts parts = partsWithoutCuts(state, c);
+  if (!fallsApart(state, c, parts)) return;
+  const UnmergingSettings& settings = state.settings.unmerging;
+  if (settings.rule == Rule::Default && settings.ordering) {
+    // One sweep may not have converged: before anything parts, look again after more.
+    restate(state, scratch.notes, first, "recheck");
+    sweepAgain(state, scratch, c);
+    test.confirmAll();
+    parts = partsWithoutCuts(state, c);
+    if (!fallsApart(state, c, parts)) return;
+  }
+  splitAtCuts(state, scratch, c.rigid, parts);
 }
 
 void finishSplits(State& state, Scratch& scratch) {
@@ -305,26 +406,9 @@ void unmerge(State& state, Scratch& scratch) {
   const std::size_t slots = state.collections.size();
   for (std::size_t slot = 0; slot < slots; ++slot) {
     if (!isSwept(state, state.collections[slot])) continue;
-    Collection& c = state.collections[slot];
-    scratch.cuts_before.assign(c.cut_welds.begin(), c.cut_welds.end());
-    for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
-    c.cut_welds.clear();
-    WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
-    test.testAll();
-    // Broken welds that do not part the graph are found again in each step: look anew only when
-    // there is one more.
-    if (!newCut(c, scratch) && !test.contactOpened()) continue;
-    Parts parts = partsWithoutCuts(state, c);
-    if (!fallsApart(state, c, parts)) continue;
-    const UnmergingSettings& settings = state.settings.unmerging;
-    if (settings.rule == Rule::Default && settings.ordering) {
-      // One sweep may not have converged: before anything parts, look again after more.
-      sweepAgain(state, scratch, c);
-      test.confirmAll();
-      parts = partsWithoutCuts(state, c);
-      if (!fallsApart(state, c, parts)) continue;
-    }
-    splitAtCuts(state, scratch, c.rigid, parts);
+    const std::size_t first = scratch.notes ? scratch.notes->decisions.size() : 0;
+    testCollection(state, scratch, slot);
+    restate(state, scratch.notes, first, "cut");  // cut, but held together by others
   }
   finishSplits(state, scratch);
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src2d/core/ids.h"
@@ -87,6 +88,10 @@ struct WeldView {
 enum class EventType { Merge, Unmerge, Sleep, Wake, Impact, Emit };
 enum class EventReason { None, Broken, Sliding, RelativeMotion, Cycle, User };
 
+/// What happened. A `Merge` is a join: of two things one was made, so that n bodies need n − 1 of
+/// them, however many contacts hold them together afterwards. An `Unmerge` is the end of one weld,
+/// with its reason: a body that leaves two neighbours gives two of them. An `Impact` is a pair that
+/// meets faster than gravity could have made it in two steps.
 struct Event {
   EventType type = EventType::Merge;
   BodyId a{}, b{};  ///< the pair; equal where one body is meant
@@ -94,17 +99,20 @@ struct Event {
   EventReason reason = EventReason::None;
 };
 
-/// One test of one criterion about a pair: the number, the threshold, and what followed.
+/// One test of one criterion about a pair: the number, the threshold, and what followed. The words
+/// for it are in docs/records.md.
 struct Decision {
-  BodyId a{}, b{};
-  std::string stage;      ///< as in Algorithm 1: "Merge", "Unmerge", …
-  std::string criterion;  ///< "relative-motion", "sliding", "breathing", …
-  std::string equation;   ///< "(17)"
+  BodyId a{}, b{};           ///< the pair; in SleepAndWake both are the first body of what sleeps
+  std::string_view stage{};  ///< as in Algorithm 1: "Merge", "Unmerge", …
+  std::string_view criterion{};  ///< "relative-motion", "sliding", "breathing", …
+  std::string_view equation{};   ///< "(17)"
   double value = 0.0;
   double threshold = 0.0;
-  int count = 0;  ///< consecutive steps so far
+  int count = 0;  ///< consecutive steps, this one included; 0: starts anew
   int needed = 0;
-  std::string verdict;  ///< "merge", "wait", "apart", "keep", "unmerge", …
+  std::string_view verdict{};  ///< "merge", "wait", "apart", "keep", "unmerge", …
+  int before = 0;              ///< the count up to the last step
+  Vec2 at = Vec2::Zero();      ///< of tests of one contact: where it is, in the world [m]
 };
 
 /// The eleven stages of Algorithm 1, in order.

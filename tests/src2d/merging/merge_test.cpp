@@ -84,9 +84,12 @@ TEST(Merge, EveryMergedPairWasBelowAllThresholdsForTheGivenSteps) {
       if (d.stage != "AccumulateRelativeMotion") continue;
       const auto pair = std::pair(d.a, d.b);
       if (!ok.contains(pair)) ok[pair] = true;
-      ok[pair] = ok[pair] && d.value < d.threshold;
-      if (!thresholds.contains(d.criterion)) continue;
-      EXPECT_EQ(d.threshold, thresholds.at(d.criterion));
+      const bool under = d.verdict == "below";
+      ok[pair] = ok[pair] && under;
+      const auto threshold = thresholds.find(std::string(d.criterion));
+      if (threshold == thresholds.end()) continue;
+      EXPECT_EQ(d.threshold, threshold->second);
+      EXPECT_EQ(under, d.value < d.threshold);
     }
     for (auto& [pair, count] : below) count = ok.contains(pair) && ok[pair] ? count : 0;
     for (const auto& [pair, good] : ok) below[pair] = good ? below[pair] + 1 : 0;
