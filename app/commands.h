@@ -13,6 +13,7 @@ void addListCommand(CLI::App& program, Action& action);
 void addValidateCommand(CLI::App& program, Action& action);
 void addRunCommand(CLI::App& program, Action& action);
 void addRenderCommand(CLI::App& program, Action& action);
+void addCompareCommand(CLI::App& program, Action& action);
 void addDoctorCommand(CLI::App& program, Action& action);
 
 }  // namespace merge2d

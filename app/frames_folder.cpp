@@ -41,10 +41,10 @@ std::vector<std::string> framesIn(const fs::path& folder) {
   return names;
 }
 
-/// Lessons are put beside the frames.
+/// Lessons and comparisons are put beside the frames.
 void requireNothingForeign(const fs::path& folder) {
   for (const std::string& name : namesIn(folder)) {
-    if (name == "lesson.html" || name == "stages") continue;
+    if (name == "lesson.html" || name == "stages" || name == "compare") continue;
     throw UsageError(
         fmt::format("{} holds files that merge2d did not write, such as {}; choose another folder "
                     "with --output, or say --force to put frames there all the same",

@@ -19,6 +19,7 @@ constexpr const char* kExamples = R"(Examples:
   merge2d list                          the built-in scenes
   merge2d run tower-platform            simulate one, and sum it up
   merge2d render tower-platform         draw it to frames/tower-platform/
+  merge2d compare dominoes              how fast each mode is, and how near the reference
   merge2d validate my-scene.toml        check a scene of your own
 
 'merge2d COMMAND --help' tells more. The result goes to the standard output, messages to the
@@ -36,6 +37,7 @@ void addCommands(CLI::App& program, Action& action) {
   addValidateCommand(program, action);
   addRunCommand(program, action);
   addRenderCommand(program, action);
+  addCompareCommand(program, action);
   addDoctorCommand(program, action);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
 }

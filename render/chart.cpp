@@ -32,29 +32,51 @@ struct Range {
 /// Draws one chart.
 class ChartPainter {
  public:
-  ChartPainter(Painter& painter, const Chart& chart, const Theme& theme, float width, float height)
-      : painter_(painter), chart_(chart), theme_(theme) {
-    unit_ = std::clamp(height / 480.0F, 0.6F, 6.0F);
+  /// `unit`: design pixels to pixels.
+  ChartPainter(Painter& painter, const Chart& chart, const Theme& theme, const PixelBox& panel,
+               float unit)
+      : painter_(painter), chart_(chart), theme_(theme), panel_(panel), unit_(unit) {
     font_ = {std::max(10, static_cast<int>(std::lround(13.0F * unit_))), Weight::Regular};
     findRanges();
-    findArea(width, height);
+    findArea();
   }
 
   void draw() {
     const Font title{std::max(11, static_cast<int>(std::lround(17.0F * unit_))), Weight::Bold};
-    painter_.write(chart_.title, title, {px(20.0F), std::round(px(30.0F))}, theme_.ink);
-    painter_.write(chart_.y_label, font_, {px(20.0F), std::round(px(54.0F))}, theme_.ink_soft);
+    const float left = std::round(panel_.x + px(20.0F));
+    painter_.write(chart_.title, title, {left, std::round(panel_.y + px(30.0F))}, theme_.ink);
+    painter_.write(chart_.y_label, font_, {left, std::round(panel_.y + px(54.0F))},
+                   theme_.ink_soft);
     painter_.write(chart_.x_label, font_, {area_.right(), std::round(area_.bottom() + px(42.0F))},
                    theme_.ink_soft, Align::Right);
-    drawAxes();
-    for (std::size_t i = 0; i < chart_.series.size(); ++i) drawSeries(i);
-    drawNames();
+    drawGrid();
+    if (chart_.stacked) {
+      painter_.beginLayer(area_);
+      drawAreas();
+      painter_.beginLayer();
+      drawMarks();
+      drawAreaNames();
+    } else {
+      drawMarks();
+      painter_.beginLayer(grown(area_, px(2.0F)));
+      for (std::size_t i = 0; i < chart_.series.size(); ++i) drawSeries(i);
+      painter_.beginLayer();
+      drawNames();
+    }
+    drawAxis();
   }
 
  private:
   float px(float design) const { return design * unit_; }
 
+  static PixelBox grown(const PixelBox& b, float by) {
+    return {b.x - by, b.y - by, b.width + 2.0F * by, b.height + 2.0F * by};
+  }
+
   Color lineColor(std::size_t i) const { return theme_.lines[i % theme_.lines.size()]; }
+  Color areaColor(std::size_t i) const {
+    return theme_.collections[i % theme_.collections.size()].fill;
+  }
 
   bool usable(double y) const { return std::isfinite(y) && (!chart_.log_y || y > 0.0); }
 
@@ -65,7 +87,7 @@ class ChartPainter {
       for (std::size_t i = 0; i < series.x.size(); ++i) {
         if (!usable(series.y[i])) continue;
         x_.include(series.x[i]);
-        y_.include(series.y[i]);
+        y_.include(chart_.stacked ? stackedUpTo(chart_.series.size(), i) : series.y[i]);
       }
     }
     x_ = x_.orElse(0.0, 1.0);
@@ -77,10 +99,18 @@ class ChartPainter {
       y_.include(0.0);  // lengths from zero can be compared by eye
       y_ = y_.orElse(0.0, 1.0);
       y_.high += 0.04 * (y_.high - y_.low);
+      if (chart_.y_high) y_.high = *chart_.y_high;
     }
   }
 
-  void findArea(float width, float height) {
+  /// The sum of the first `n` series at their k-th place.
+  double stackedUpTo(std::size_t n, std::size_t k) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) sum += chart_.series[i].y[k];
+    return sum;
+  }
+
+  void findArea() {
     float names = 0.0F, numbers = 0.0F;
     for (const Series& series : chart_.series) {
       names = std::max(names, painter_.text().width(series.name, font_));
@@ -88,8 +118,10 @@ class ChartPainter {
     for (const double y : yTicks()) {
       numbers = std::max(numbers, painter_.text().width(fmt::format("{:g}", y), font_));
     }
-    const float left = std::round(px(30.0F) + numbers), top = std::round(px(72.0F));
-    const float right = width - px(50.0F) - names, bottom = std::round(height - px(56.0F));
+    const float left = std::round(panel_.x + px(30.0F) + numbers);
+    const float top = std::round(panel_.y + px(chart_.marks.empty() ? 72.0F : 88.0F));
+    const float right = std::round(panel_.right() - px(50.0F) - names);
+    const float bottom = std::round(panel_.bottom() - px(56.0F));
     area_ = {left, top, std::max(1.0F, right - left), std::max(1.0F, bottom - top)};
   }
 
@@ -108,17 +140,23 @@ class ChartPainter {
             area_.bottom() - static_cast<float>(v) * area_.height};
   }
 
-  void drawAxes() {
-    const float line = std::max(1.0F, std::round(px(1.0F)));
+  float hairline() const { return std::max(1.0F, std::round(px(1.0F))); }
+
+  void drawGrid() {
+    const float line = hairline();
     const float drop = std::round(0.5F * painter_.text().capHeight(font_));
     const Paint grid{.fill = mix(theme_.background, theme_.ink, 0.12)};
-    const Paint axis{.fill = theme_.ink};
     for (const double y : yTicks()) {
       const float row = std::round(at(x_.low, y).y);
       painter_.box({area_.x, row, area_.width, line}, 0.0F, grid);
       painter_.write(fmt::format("{:g}", y), font_, {area_.x - px(8.0F), row + drop},
                      theme_.ink_soft, Align::Right);
     }
+  }
+
+  void drawAxis() {
+    const float line = hairline();
+    const Paint axis{.fill = theme_.ink};
     painter_.box({area_.x, std::round(area_.bottom()), area_.width, line}, 0.0F, axis);
     for (const double x : ticks(x_.low, x_.high, 6)) {
       const float column = std::round(at(x, y_.low).x);
@@ -126,6 +164,56 @@ class ChartPainter {
       painter_.write(fmt::format("{:g}", x), font_,
                      {column, std::round(area_.bottom() + px(22.0F))}, theme_.ink_soft,
                      Align::Center);
+    }
+  }
+
+  /// Names that would overlap the one before are left out; their lines stay.
+  void drawMarks() {
+    const float line = hairline();
+    float free = area_.x;
+    for (const ChartMark& mark : chart_.marks) {
+      if (mark.x < x_.low || mark.x > x_.high) continue;
+      const float column = std::round(at(mark.x, y_.low).x);
+      for (float y = area_.y; y < area_.bottom(); y += px(6.0F)) {
+        painter_.box({column, std::round(y), line, std::round(px(3.0F))}, 0.0F,
+                     {.fill = theme_.ink_soft});
+      }
+      const float half = 0.5F * painter_.text().width(mark.name, font_);
+      const float middle =
+          std::clamp(column, area_.x + half, std::max(area_.x + half, area_.right() - half));
+      if (middle - half < free) continue;
+      free = middle + half + px(10.0F);
+      painter_.write(mark.name, font_, {std::round(middle), std::round(area_.y - px(5.0F))},
+                     theme_.ink_soft, Align::Center);
+    }
+  }
+
+  /// Each value reaches half-way to its neighbours.
+  void drawAreas() {
+    if (chart_.series.empty()) return;
+    const std::vector<double>& x = chart_.series.front().x;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double from = k == 0 ? x[k] : 0.5 * (x[k - 1] + x[k]);
+      const double to = k + 1 == x.size() ? x[k] : 0.5 * (x[k] + x[k + 1]);
+      const float left = std::round(at(from, y_.low).x), right = std::round(at(to, y_.low).x);
+      for (std::size_t i = 0; i < chart_.series.size(); ++i) {
+        const float bottom = std::round(at(x[k], stackedUpTo(i, k)).y);
+        const float top = std::round(at(x[k], stackedUpTo(i + 1, k)).y);
+        painter_.box({left, top, right - left, bottom - top}, 0.0F, {.fill = areaColor(i)});
+      }
+    }
+  }
+
+  /// From the top, in the order of the areas.
+  void drawAreaNames() {
+    const float height = static_cast<float>(font_.size) * 1.5F;
+    const float side = std::round(0.75F * static_cast<float>(font_.size));
+    float y = area_.y + side;
+    for (std::size_t i = chart_.series.size(); i-- > 0; y += height) {
+      const Pixel corner{std::round(area_.right() + px(10.0F)), std::round(y)};
+      painter_.box({corner.x, corner.y - side, side, side}, 0.0F, {.fill = areaColor(i)});
+      painter_.write(chart_.series[i].name, font_,
+                     corner + Pixel{std::round(side + px(5.0F)), 0.0F}, theme_.ink);
     }
   }
 
@@ -181,6 +269,7 @@ class ChartPainter {
   Painter& painter_;
   const Chart& chart_;
   const Theme& theme_;
+  PixelBox panel_;
   float unit_ = 1.0F;
   Font font_;
   Range x_, y_;
@@ -201,13 +290,25 @@ std::vector<double> ticks(double low, double high, int wanted) {
 }
 
 Picture drawChart(Canvas& canvas, const Chart& chart, const Theme& theme) {
+  return drawCharts(canvas, {&chart, 1}, 1, theme);
+}
+
+Picture drawCharts(Canvas& canvas, std::span<const Chart> charts, int columns, const Theme& theme) {
+  MERGE2D_ASSERT(columns > 0, "{} columns", columns);
   Drawing drawing;
   drawing.background = theme.background;
   Painter painter(drawing, canvas.text());
   painter.beginLayer();
-  ChartPainter(painter, chart, theme, static_cast<float>(canvas.width()),
-               static_cast<float>(canvas.height()))
-      .draw();
+  const int rows = (static_cast<int>(charts.size()) + columns - 1) / columns;
+  const float width = static_cast<float>(canvas.width()) / static_cast<float>(columns);
+  const float height = static_cast<float>(canvas.height()) / static_cast<float>(std::max(1, rows));
+  const float unit = std::clamp(height / (rows > 1 ? 360.0F : 480.0F), 0.6F, 6.0F);
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    const auto column = static_cast<float>(i % static_cast<std::size_t>(columns));
+    const auto row = static_cast<float>(i / static_cast<std::size_t>(columns));
+    const PixelBox panel{column * width, row * height, width, height};
+    ChartPainter(painter, charts[i], theme, panel, unit).draw();
+  }
   return canvas.draw(drawing);
 }
 

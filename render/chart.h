@@ -1,6 +1,8 @@
 #pragma once
-/// Line charts: a few quantities over time, for comparisons.
+/// Charts of a few quantities over time, for comparisons: lines, or areas on top of each other.
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,11 +16,20 @@ struct Series {
   std::vector<double> x, y;  ///< of one length, x ascending
 };
 
+/// Something that happened: a thin upright line with a name.
+struct ChartMark {
+  double x = 0.0;
+  std::string name;
+};
+
 struct Chart {
   std::string title;
-  std::string x_label, y_label;  ///< with their units: "time [s]"
-  bool log_y = false;            ///< values that are not positive are left out
-  std::vector<Series> series;
+  std::string x_label{}, y_label{};  ///< with their units: "time [s]"
+  bool log_y = false;                ///< values that are not positive are left out
+  bool stacked = false;            ///< areas that add up, the first at the bottom; all share one x
+  std::optional<double> y_high{};  ///< the axis ends here, and what is higher is cut off
+  std::vector<Series> series{};
+  std::vector<ChartMark> marks{};
 };
 
 /// Round numbers with equal steps (1, 2 or 5 times a power of ten) that lie in [low, high], about
@@ -26,6 +37,11 @@ struct Chart {
 std::vector<double> ticks(double low, double high, int wanted);
 
 /// Fills the canvas. Each line has its name at its end; there are four colours (Theme::lines).
+/// Areas have the colours of collections, and their names stand beside the chart.
 Picture drawChart(Canvas& canvas, const Chart& chart, const Theme& theme = lightTheme());
+
+/// Several charts of one size in one picture, row by row.
+Picture drawCharts(Canvas& canvas, std::span<const Chart> charts, int columns,
+                   const Theme& theme = lightTheme());
 
 }  // namespace merge2d

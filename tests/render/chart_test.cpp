@@ -59,6 +59,61 @@ TEST(Chart, CanBeLogarithmicAndLeavesOutWhatHasNoLogarithm) {
   EXPECT_GT(rowsWith(drawChart(canvas, chart), lightTheme().lines[1]), 8);
 }
 
+/// How many pixels have this colour in the left half of the picture, where no names stand.
+int pixelsOf(const Picture& picture, Color color) {
+  int pixels = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width / 2; ++x) pixels += picture.at(x, y) == color;
+  }
+  return pixels;
+}
+
+Chart stackOf(double first, double second) {
+  Chart chart;
+  chart.stacked = true;
+  chart.series = {{"first", {0.0, 1.0, 2.0}, {first, first, first}},
+                  {"second", {0.0, 1.0, 2.0}, {second, second, second}}};
+  return chart;
+}
+
+TEST(Chart, StacksAreasInProportionToTheirValues) {
+  Canvas canvas(640, 400);
+  const Picture picture = drawChart(canvas, stackOf(1.0, 3.0));
+  const int first = pixelsOf(picture, lightTheme().collections[0].fill);
+  const int second = pixelsOf(picture, lightTheme().collections[1].fill);
+  EXPECT_GT(first, 1000);
+  EXPECT_NEAR(static_cast<double>(second) / first, 3.0, 0.1);
+}
+
+TEST(Chart, CutsOffWhatIsAboveItsAxis) {
+  Canvas canvas(640, 400);
+  Chart chart = stackOf(1.0, 1e6);
+  chart.y_high = 2.0;
+  const Picture picture = drawChart(canvas, chart);
+  EXPECT_NEAR(pixelsOf(picture, lightTheme().collections[0].fill),
+              pixelsOf(picture, lightTheme().collections[1].fill), 400);
+  EXPECT_EQ(picture.at(200, 54), lightTheme().background) << "above the axis";
+}
+
+TEST(Chart, MarksWhatHappens) {
+  Canvas canvas(640, 400);
+  Chart chart = sample();
+  const int before = rowsWith(drawChart(canvas, chart), lightTheme().ink_soft);
+  chart.marks = {{10.0, "impact"}, {1e9, "never"}};
+  EXPECT_GT(rowsWith(drawChart(canvas, chart), lightTheme().ink_soft), before + 50);
+}
+
+TEST(Charts, StandInRowsAndColumns) {
+  Canvas canvas(640, 800);
+  const std::vector<Chart> charts = {stackOf(1.0, 1.0), stackOf(1.0, 1.0), stackOf(1.0, 1.0)};
+  const Picture picture = drawCharts(canvas, charts, 2);
+  const Color first = lightTheme().collections[0].fill;
+  EXPECT_EQ(picture.at(100, 330), first);
+  EXPECT_EQ(picture.at(420, 330), first);
+  EXPECT_EQ(picture.at(100, 730), first);
+  EXPECT_EQ(picture.at(420, 730), lightTheme().background) << "there are only three";
+}
+
 TEST(Chart, DoesWithoutData) {
   Canvas canvas(320, 200);
   EXPECT_EQ(drawChart(canvas, {}).width, 320);

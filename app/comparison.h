@@ -1,0 +1,88 @@
+#pragma once
+/// One scene in the four modes, side by side.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/simulation.h"
+
+namespace merge2d {
+
+inline constexpr std::array<Mode, 4> kModes = {Mode::Reference, Mode::Sleep, Mode::Merge,
+                                               Mode::MergeSleep};
+
+/// What one step took and did.
+struct StepRow {
+  double ms = 0.0;                        ///< [ms]
+  std::array<float, kStages> stage_ms{};  ///< [ms]; zero without timings
+  int active_bodies = 0, contacts = 0, internal_contacts = 0;
+  int merges = 0, unmerges = 0;
+};
+
+/// How far the bodies' centres are from where they are in the reference.
+struct Distance {
+  double time = 0.0;     ///< [s]
+  double mean = 0.0;     ///< over the dynamic bodies [m]
+  double largest = 0.0;  ///< [m]
+};
+
+/// What a mode did.
+struct ModeRun {
+  Mode mode = Mode::Reference;
+  std::vector<StepRow> steps;
+  std::vector<Distance> distances;  ///< a sample every so many steps
+  /// When bodies had turned by more than 45° from how they began, ascending [s]: the k-th domino
+  /// falls at tipping_times[k].
+  std::vector<double> tipping_times;
+  int flicker = 0;               ///< welds that formed and broke again within kFlickerSteps
+  Stats last;                    ///< after the last step
+  double max_penetration = 0.0;  ///< in the samples [m]
+
+  double meanMs() const;
+  double medianMs() const;
+  int merges() const;
+  int unmerges() const;
+  /// Merges and unmerges in the last quarter of the run: none, once a scene has settled.
+  int lateEvents() const;
+  /// The mean over the steps of one of their numbers.
+  double mean(int StepRow::*number) const;
+};
+
+inline constexpr int kFlickerSteps = 20;
+
+/// Steps the four worlds in turns of so many steps, so that a machine that is busy for a moment is
+/// busy for all of them.
+class Comparison {
+ public:
+  Comparison(const Scene& scene, bool timings);
+  ~Comparison();
+
+  /// Takes a turn in each mode. Throws SimulationError, which names the mode, or Interrupted.
+  void advance();
+  bool done() const;
+
+  const Scene& scene() const { return scene_; }
+  bool timings() const { return timings_; }
+  std::int64_t steps() const { return steps_; }  ///< in all
+  std::int64_t stepsDone() const;                ///< of each mode
+  /// In the order of kModes.
+  const std::array<ModeRun, kModes.size()>& runs() const { return runs_; }
+
+ private:
+  class Lane;
+
+  void measureDistances();
+
+  Scene scene_;
+  bool timings_;
+  std::int64_t steps_ = 0, stride_ = 1;
+  std::array<std::unique_ptr<Lane>, kModes.size()> lanes_;
+  std::array<ModeRun, kModes.size()> runs_;
+};
+
+}  // namespace merge2d

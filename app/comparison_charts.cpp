@@ -1,0 +1,216 @@
+#include "app/comparison_charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "render/chart.h"
+#include "render/png.h"
+
+namespace merge2d {
+namespace {
+
+constexpr std::size_t kBins = 400;       // along the time axis
+constexpr double kLeastDistance = 1e-7;  // [m]; what is less cannot be told apart
+
+/// Stages that are shown as one, from the bottom of the stack.
+struct StageGroup {
+  const char* name;
+  std::vector<Stage> stages;
+};
+const std::vector<StageGroup>& stageGroups() {
+  static const std::vector<StageGroup> groups = {
+      {"detection", {Stage::ContactDetection, Stage::ContactOrdering}},
+      {"full solve", {Stage::WarmStart, Stage::SolveLCP}},
+      {"single sweep", {Stage::SingleIterationPGS}},
+      {"merging, sleeping",
+       {Stage::SleepAndWake, Stage::Unmerge, Stage::AccumulateRelativeMotion, Stage::Merge}},
+      {"integration", {Stage::AdvanceVelocities, Stage::AdvancePositions}}};
+  return groups;
+}
+
+/// The steps of a run in bins of about equal length.
+class Bins {
+ public:
+  explicit Bins(const Comparison& comparison)
+      : steps_(static_cast<std::size_t>(comparison.stepsDone())),
+        size_(std::max<std::size_t>(1, (steps_ + kBins - 1) / kBins)),
+        h_(comparison.scene().step) {}
+
+  std::size_t stepsPerBin() const { return size_; }
+
+  /// A point for each bin: `number` of its first step and the one past its last.
+  Series series(const std::string& name,
+                const std::function<double(std::size_t, std::size_t)>& number) const {
+    Series out{name, {}, {}};
+    for (std::size_t from = 0; from < steps_; from += size_) {
+      const std::size_t to = std::min(steps_, from + size_);
+      out.x.push_back(0.5 * h_ * static_cast<double>(from + to + 1));
+      out.y.push_back(number(from, to));
+    }
+    return out;
+  }
+
+  /// The sum of a number of each step.
+  Series sums(const std::string& name, const std::vector<StepRow>& rows,
+              int StepRow::*number) const {
+    return series(name, [&](std::size_t from, std::size_t to) {
+      double sum = 0.0;
+      for (std::size_t i = from; i < to; ++i) sum += rows[i].*number;
+      return sum;
+    });
+  }
+
+  Series means(const std::string& name, const std::vector<StepRow>& rows,
+               int StepRow::*number) const {
+    Series out = sums(name, rows, number);
+    for (std::size_t k = 0; k < out.y.size(); ++k) {
+      out.y[k] /= static_cast<double>(std::min(size_, steps_ - k * size_));
+    }
+    return out;
+  }
+
+ private:
+  std::size_t steps_, size_;
+  double h_;
+};
+
+/// Of the steps of a bin the one that took the median time: a pause of the machine is no matter.
+const StepRow& medianStep(const std::vector<StepRow>& rows, std::size_t from, std::size_t to) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = from; i < to; ++i) order.push_back(i);
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
+  std::ranges::nth_element(order, middle, {}, [&](std::size_t i) { return rows[i].ms; });
+  return rows[*middle];
+}
+
+/// What the scene itself makes happen.
+std::vector<ChartMark> marksOf(const Scene& scene) {
+  std::vector<ChartMark> marks;
+  const auto& body = scene.bodies;
+  for (const ImpulseDesc& impulse : scene.impulses) {
+    marks.push_back({impulse.time, "impulse on " + body[impulse.body].name});
+  }
+  for (const ForceDesc& force : scene.forces) {
+    if (force.from > 0.0) marks.push_back({force.from, "force on " + body[force.body].name});
+    if (force.until < scene.duration) marks.push_back({force.until, "force ends"});
+  }
+  for (const BodyDesc& one : body) {
+    if (one.pinned_until > 0.0) marks.push_back({one.pinned_until, one.name + " let go"});
+  }
+  for (const MagnetDesc& magnet : scene.magnets) {
+    for (const MagnetDesc::Interval& on : magnet.on) {
+      if (on.from > 0.0) marks.push_back({on.from, "magnet on"});
+      if (on.until < scene.duration) marks.push_back({on.until, "off"});
+    }
+  }
+  std::ranges::stable_sort(marks, {}, &ChartMark::x);
+  const auto same = std::ranges::unique(marks, {}, &ChartMark::x);
+  marks.erase(same.begin(), same.end());
+  return marks;
+}
+
+/// Stacked time per stage in each mode, on one scale. The slowest hundredth is cut off rather than
+/// making all else look small.
+std::vector<Chart> timeCharts(const Comparison& comparison) {
+  const Bins bins(comparison);
+  std::vector<Chart> charts;
+  double high = 0.0;
+  for (const ModeRun& run : comparison.runs()) {
+    Chart chart{.title = name(run.mode), .x_label = "time [s]", .y_label = "ms per step"};
+    if (bins.stepsPerBin() > 1) {
+      chart.y_label += fmt::format(", median of {} steps", bins.stepsPerBin());
+    }
+    chart.stacked = true;
+    chart.marks = marksOf(comparison.scene());
+    for (const StageGroup& group : stageGroups()) {
+      chart.series.push_back(bins.series(group.name, [&](std::size_t from, std::size_t to) {
+        const StepRow& row = medianStep(run.steps, from, to);
+        double ms = 0.0;
+        for (const Stage stage : group.stages) ms += row.stage_ms[static_cast<std::size_t>(stage)];
+        return ms;
+      }));
+    }
+    std::vector<double> totals(chart.series.front().x.size());
+    for (const Series& series : chart.series) {
+      std::ranges::transform(totals, series.y, totals.begin(), std::plus());
+    }
+    std::ranges::sort(totals);
+    if (!totals.empty()) high = std::max(high, totals[totals.size() * 99 / 100]);
+    charts.push_back(std::move(chart));
+  }
+  for (Chart& chart : charts) chart.y_high = high > 0.0 ? 1.2 * high : 1.0;
+  return charts;
+}
+
+Chart numberChart(const Comparison& comparison, const char* title, const char* label,
+                  int StepRow::*number) {
+  const Bins bins(comparison);
+  Chart chart{.title = title, .x_label = "time [s]", .y_label = label};
+  chart.marks = marksOf(comparison.scene());
+  for (const ModeRun& run : comparison.runs()) {
+    chart.series.push_back(bins.means(name(run.mode), run.steps, number));
+  }
+  return chart;
+}
+
+Chart eventChart(const Comparison& comparison) {
+  const Bins bins(comparison);
+  Chart chart{.title = "Merges and unmerges in merge+sleep", .x_label = "time [s]"};
+  chart.y_label = bins.stepsPerBin() == 1 ? "events in a step"
+                                          : fmt::format("events in {} steps", bins.stepsPerBin());
+  chart.stacked = true;
+  chart.marks = marksOf(comparison.scene());
+  const std::vector<StepRow>& rows = comparison.runs().back().steps;
+  chart.series = {bins.sums("unmerges", rows, &StepRow::unmerges),
+                  bins.sums("merges", rows, &StepRow::merges)};
+  return chart;
+}
+
+Chart distanceChart(const Comparison& comparison, const char* title, double Distance::*number) {
+  Chart chart{.title = title, .x_label = "time [s]", .y_label = "metres", .log_y = true};
+  chart.marks = marksOf(comparison.scene());
+  for (const ModeRun& run : comparison.runs()) {
+    Series& series = chart.series.emplace_back(Series{name(run.mode), {}, {}});
+    if (run.mode == Mode::Reference) {
+      series.name.clear();  // nothing to draw, but the others keep their colours
+      continue;
+    }
+    for (const Distance& distance : run.distances) {
+      series.x.push_back(distance.time);
+      series.y.push_back(std::max(distance.*number, kLeastDistance));
+    }
+  }
+  return chart;
+}
+
+}  // namespace
+
+std::vector<std::string> drawComparison(const Comparison& comparison,
+                                        const std::filesystem::path& folder,
+                                        const ChartStyle& style) {
+  Canvas canvas(style.width, style.height);
+  std::filesystem::create_directories(folder);
+  std::vector<std::string> files;
+  const auto draw = [&](const char* file, const std::vector<Chart>& charts) {
+    const std::filesystem::path path = folder / file;
+    PngOptions options;
+    options.description = fmt::format("{}: {}", comparison.scene().title, file);
+    savePng(path, drawCharts(canvas, charts, 1, style.theme), options);
+    files.push_back(path.string());
+  };
+  if (comparison.timings()) draw("time.png", timeCharts(comparison));
+  draw("counts.png",
+       {numberChart(comparison, "Bodies that are simulated", "free bodies and collections, awake",
+                    &StepRow::active_bodies),
+        numberChart(comparison, "Contacts in the full solve", "contact points", &StepRow::contacts),
+        eventChart(comparison)});
+  draw("distance.png", {distanceChart(comparison, "Mean distance of the bodies from the reference",
+                                      &Distance::mean),
+                        distanceChart(comparison, "Largest distance of a body from the reference",
+                                      &Distance::largest)});
+  return files;
+}
+
+}  // namespace merge2d

@@ -1,0 +1,25 @@
+#pragma once
+/// A comparison as charts, in the manner of the paper's Figs. 5, 8, 11 and 12.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/comparison.h"
+#include "render/theme.h"
+
+namespace merge2d {
+
+struct ChartStyle {
+  int width = 1280, height = 1120;  ///< of each picture [px]
+  Theme theme = lightTheme();
+};
+
+/// Writes time.png (stacked time per stage, a chart per mode; not without timings), counts.png
+/// (bodies, contacts and events over time) and distance.png (from the reference) into the folder,
+/// which is made when it is missing. Returns their paths. Throws IoError.
+std::vector<std::string> drawComparison(const Comparison& comparison,
+                                        const std::filesystem::path& folder,
+                                        const ChartStyle& style);
+
+}  // namespace merge2d

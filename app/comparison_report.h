@@ -1,0 +1,24 @@
+#pragma once
+/// A comparison as text, as JSON and as a table for spreadsheets.
+
+#include <string>
+#include <string_view>
+
+#include "app/comparison.h"
+
+namespace merge2d {
+
+/// How every table of a comparison begins.
+inline constexpr std::string_view kComparisonCsvStart = "mode,step,t,active_bodies,";
+
+/// A column per mode, the numbers with their units.
+std::string comparisonTable(const Comparison& comparison);
+
+/// One object; `charts` are the files that were drawn. Without timings, what was measured in
+/// seconds is null.
+std::string comparisonJson(const Comparison& comparison, const std::vector<std::string>& charts);
+
+/// A row per mode and step; distances only in rows where they were measured.
+std::string comparisonCsv(const Comparison& comparison);
+
+}  // namespace merge2d
