@@ -32,6 +32,10 @@ if(MERGE2D_APP)
   install(TARGETS merge2d RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/
           DESTINATION ${CMAKE_INSTALL_DATADIR}/merge2d/scenes)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/lessons/
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/merge2d/lessons
+          FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN "player.js" PATTERN "player.css"
+          PATTERN node_modules EXCLUDE PATTERN src EXCLUDE PATTERN tests EXCLUDE)
 endif()
 
 # The package: from the build tree, where it lies at the top, and installed.

@@ -1,0 +1,78 @@
+#include <memory>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "app/interrupt.h"
+#include "app/output_file.h"
+#include "app/progress.h"
+#include "app/simulation.h"
+#include "lessons/page.h"
+
+namespace merge2d {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExamples = R"(Examples:
+  merge2d lesson tower-platform
+  merge2d lesson my-scene.toml -o page.html
+
+The page is one file with everything in it: it needs no network, and sends nothing anywhere.)";
+
+/// How the pages begin, so that one may replace another.
+constexpr std::string_view kPageStart =
+    "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n"
+    "<meta charset=\"utf-8\">\n<meta name=\"viewport\"";
+
+struct LessonOptions : SceneOptions {
+  std::string output;  ///< empty: frames/<name>/lesson.html
+};
+
+/// Runs a scene in one mode.
+Recording recorded(const Scene& scene, Mode mode, Detail detail, const Console& console) {
+  const std::int64_t steps = stepCount(scene);
+  Progress progress(console, "step", steps);
+  return record(
+      scene, {.mode = mode, .detail = detail, .steps = steps, .progress = [&](std::int64_t step) {
+                stopIfInterrupted();
+                progress.update(step);
+              }});
+}
+
+void run(const LessonOptions& options) {
+  check(options);
+  const Console console(options);
+  catchInterrupts();
+  const Scene scene = loadScene(options, console);
+  const std::string path = options.output.empty()
+                               ? (fs::path("frames") / scene.name / "lesson.html").string()
+                               : options.output;
+  PageContent content{.title = scene.title, .lesson = "null", .traces = {}};
+  content.traces.push_back(
+      {std::string(name(options.mode)), recorded(scene, options.mode, Detail::Full, console)});
+  if (options.mode != Mode::Reference) {
+    content.traces.push_back(
+        {"reference", recorded(scene, Mode::Reference, Detail::Motion, console)});
+  }
+  if (options.output.empty()) fs::create_directories(fs::path(path).parent_path());
+  writeFile(path, makePage(content), {.everything = options.force, .ours = kPageStart});
+  if (path != "-") print(fmt::format("{}\n", path));
+}
+
+}  // namespace
+
+void addLessonCommand(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand(
+      "lesson", "Write a page that plays, steps and explains, for a browser");
+  command->footer(kExamples);
+  const auto options = std::make_shared<LessonOptions>();
+  addSceneOptions(*command, *options);
+  addOption(
+      *command, "-o,--output", "FILE.html",
+      [options](const std::string& s) { options->output = readPath("--output", s); },
+      "The page; by default frames/NAME/lesson.html; - is the standard output");
+  addGeneralOptions(*command, *options);
+  command->callback([&action, options] { action = [options] { run(*options); }; });
+}
+
+}  // namespace merge2d

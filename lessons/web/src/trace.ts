@@ -1,0 +1,426 @@
+// A recorded run: lessons/encode.cpp writes it, this reads it.
+import { Unpacker } from './unpack';
+
+export type Vec = [number, number];
+export type EventRow = [step: number, type: string, a: number, b: number, collection: number, reason: string];
+
+export interface BodyInfo {
+  name: string;
+  motion: 'dynamic' | 'pinned' | 'scripted';
+  mass: number;
+  inertia: number;
+  pieces: (number | Vec)[][];
+  boundary: [number, number, number, number][];
+}
+
+export interface Criterion {
+  stage: string;
+  criterion: string;
+  equation: string;
+  threshold: number;
+  needed: number;
+}
+
+export interface Head {
+  scene: string;
+  title: string;
+  mode: string;
+  full: boolean;
+  h: number;
+  steps: number;
+  every: number;
+  gravity: Vec;
+  camera: [number, number, number];
+  length: number;
+  angle: number;
+  amount: Vec;
+  parameters: Record<string, unknown>;
+  bodies: BodyInfo[];
+  criteria: Criterion[];
+  events: EventRow[];
+  colors: [number, number][];
+  springs: [number, number, number, number, number, number][];
+  ledger?: number[][];
+}
+
+export interface Packed {
+  label: string;
+  head: Head;
+  data: string;
+}
+
+/** A quantity that is kept in codes: some spread evenly, some over many decades. */
+type Scale = (code: number) => number;
+
+/** Samples of something that comes and goes. */
+export class Spans {
+  private readonly first: Int32Array;
+  private readonly count: Int32Array;
+  private readonly sample: Int32Array;
+  readonly size: number;
+
+  constructor(read: Unpacker, private readonly every: number) {
+    const n = read.number();
+    this.first = new Int32Array(n);
+    this.count = new Int32Array(n);
+    this.sample = new Int32Array(n);
+    let total = 0;
+    for (let i = 0; i < n; ++i) {
+      this.first[i] = read.number();
+      this.count[i] = read.number();
+      this.sample[i] = total;
+      total += this.count[i];
+    }
+    this.size = total;
+  }
+
+  /** The sample of a step, or -1. */
+  at(step: number): number {
+    const at = Math.floor(step / this.every);
+    let low = 0;
+    let high = this.first.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.first[middle] <= at) low = middle + 1;
+      else high = middle;
+    }
+    const i = low - 1;
+    return i >= 0 && at < this.first[i] + this.count[i] ? this.sample[i] + at - this.first[i] : -1;
+  }
+
+  /** All sampled steps with their samples. */
+  *steps(): Generator<[number, number]> {
+    for (let i = 0; i < this.first.length; ++i) {
+      for (let j = 0; j < this.count[i]; ++j) {
+        yield [(this.first[i] + j) * this.every, this.sample[i] + j];
+      }
+    }
+  }
+}
+
+export interface BodyTrack {
+  first: number;
+  x: Int32Array;
+  y: Int32Array;
+  angle: Int32Array;
+  collection: Int32Array;
+  asleep: Int32Array;
+  vx?: Int32Array;
+  vy?: Int32Array;
+  omega?: Int32Array;
+}
+
+export interface ContactTrack {
+  a: number;
+  b: number;
+  mu: number;
+  spans: Spans;
+  x: Int32Array;
+  y: Int32Array;
+  normal: Int32Array;
+  gap: Int32Array;
+  lambdaN: Int32Array;
+  lambdaT: Int32Array;
+  wN: Int32Array;
+  wT: Int32Array;
+  state: Int32Array;
+  internal: Int32Array;
+  fresh: Int32Array;
+}
+
+export interface DecisionTrack {
+  a: number;
+  b: number;
+  criterion: Criterion;
+  spans: Spans;
+  value: Int32Array;
+  count: Int32Array;
+  passed: Int32Array;
+}
+
+export interface Pose {
+  x: number;
+  y: number;
+  angle: number;
+}
+
+export interface Contact {
+  track: ContactTrack;
+  a: number;
+  b: number;
+  mu: number;
+  x: number;
+  y: number;
+  nx: number;
+  ny: number;
+  gap: number;
+  lambdaN: number;
+  lambdaT: number;
+  wN: number;
+  wT: number;
+  state: 'broken' | 'sticking' | 'sliding';
+  internal: boolean;
+  fresh: boolean;
+}
+
+export interface Decision {
+  a: number;
+  b: number;
+  criterion: Criterion;
+  value: number;
+  threshold: number;
+  count: number;
+  needed: number;
+  passed: boolean;
+}
+
+export interface Stats {
+  active: number;
+  collections: number;
+  asleep: number;
+  contacts: number;
+  internal: number;
+  penetration: number;
+  kinetic: number;
+  potential: number;
+  px: number;
+  py: number;
+  angular: number;
+}
+
+const kStates = ['broken', 'sticking', 'sliding'] as const;
+
+function logarithmic(floor: number, steps: number): Scale {
+  return (code) => Math.sign(code) * floor * (2 ** (Math.abs(code) / steps) - 1);
+}
+
+export class Trace {
+  readonly head: Head;
+  readonly label: string;
+  readonly bodies: BodyTrack[] = [];
+  readonly contacts: ContactTrack[] = [];
+  readonly decisions: DecisionTrack[] = [];
+  readonly eventsAt = new Map<number, EventRow[]>();
+  private readonly statColumns: Int32Array[] = [];
+  private readonly amount: Scale;
+  private readonly fine = logarithmic(1e-6, 1024);
+  private readonly slots = new Map<number, number>();
+  private readonly contactsOf = new Map<string, ContactTrack[]>();
+  private readonly decisionsOf = new Map<string, DecisionTrack[]>();
+
+  constructor(packed: Packed) {
+    this.head = packed.head;
+    this.label = packed.label;
+    this.amount = logarithmic(packed.head.amount[0], packed.head.amount[1]);
+    const read = new Unpacker(packed.data);
+    for (let i = 0; i < this.head.bodies.length; ++i) this.bodies.push(this.readBody(read));
+    if (this.head.full) {
+      for (let n = read.number(); n > 0; --n) this.addContact(read);
+      for (let n = read.number(); n > 0; --n) this.addDecision(read);
+    }
+    for (let i = 0; i < 11; ++i) this.statColumns.push(read.column());
+    for (const row of this.head.events) {
+      const list = this.eventsAt.get(row[0]);
+      if (list) list.push(row);
+      else this.eventsAt.set(row[0], [row]);
+    }
+    for (const [id, slot] of this.head.colors) this.slots.set(id, slot);
+  }
+
+  private readBody(read: Unpacker): BodyTrack {
+    const track: BodyTrack = {
+      first: read.number(),
+      x: read.column(),
+      y: read.column(),
+      angle: read.column(),
+      collection: read.runs(),
+      asleep: read.runs(),
+    };
+    if (this.head.full) {
+      track.vx = read.column();
+      track.vy = read.column();
+      track.omega = read.column();
+    }
+    return track;
+  }
+
+  private addContact(read: Unpacker): void {
+    const track: ContactTrack = {
+      a: read.number(),
+      b: read.number(),
+      mu: read.number() * 1e-5,
+      spans: new Spans(read, this.head.every),
+      x: read.column(),
+      y: read.column(),
+      normal: read.column(),
+      gap: read.column(),
+      lambdaN: read.column(),
+      lambdaT: read.column(),
+      wN: read.column(),
+      wT: read.column(),
+      state: read.runs(),
+      internal: read.runs(),
+      fresh: read.runs(),
+    };
+    this.contacts.push(track);
+    const key = `${track.a}-${track.b}`;
+    this.contactsOf.set(key, [...(this.contactsOf.get(key) ?? []), track]);
+  }
+
+  private addDecision(read: Unpacker): void {
+    const track: DecisionTrack = {
+      a: read.number(),
+      b: read.number(),
+      criterion: this.head.criteria[read.number()],
+      spans: new Spans(read, this.head.every),
+      value: read.column(),
+      count: read.runs(),
+      passed: read.runs(),
+    };
+    this.decisions.push(track);
+    const key = `${track.a}-${track.b}`;
+    this.decisionsOf.set(key, [...(this.decisionsOf.get(key) ?? []), track]);
+  }
+
+  name(body: number): string {
+    return this.head.bodies[body].name;
+  }
+
+  present(body: number, step: number): boolean {
+    const track = this.bodies[body];
+    return step >= track.first && step < track.first + track.x.length;
+  }
+
+  pose(body: number, step: number): Pose {
+    const track = this.bodies[body];
+    const i = step - track.first;
+    return {
+      x: track.x[i] * this.head.length,
+      y: track.y[i] * this.head.length,
+      angle: track.angle[i] * this.head.angle,
+    };
+  }
+
+  velocity(body: number, step: number): { vx: number; vy: number; omega: number } {
+    const track = this.bodies[body];
+    const i = step - track.first;
+    if (track.vx && track.vy && track.omega) {
+      return { vx: this.amount(track.vx[i]), vy: this.amount(track.vy[i]), omega: this.amount(track.omega[i]) };
+    }
+    const j = Math.max(0, i - 1);
+    const dt = Math.max(1, i - j) * this.head.h;
+    return {
+      vx: ((track.x[i] - track.x[j]) * this.head.length) / dt,
+      vy: ((track.y[i] - track.y[j]) * this.head.length) / dt,
+      omega: ((track.angle[i] - track.angle[j]) * this.head.angle) / dt,
+    };
+  }
+
+  collection(body: number, step: number): number {
+    const track = this.bodies[body];
+    return this.present(body, step) ? track.collection[step - track.first] : -1;
+  }
+
+  asleep(body: number, step: number): boolean {
+    const track = this.bodies[body];
+    return this.present(body, step) && track.asleep[step - track.first] === 1;
+  }
+
+  slot(collection: number): number {
+    return this.slots.get(collection) ?? 0;
+  }
+
+  stats(step: number): Stats {
+    const [active, collections, asleep, contacts, internal, penetration, kinetic, potential, px, py, angular] =
+      this.statColumns.map((column) => column[step]);
+    const fine = this.fine;
+    return {
+      active, collections, asleep, contacts, internal,
+      penetration: fine(penetration), kinetic: fine(kinetic), potential: fine(potential),
+      px: fine(px), py: fine(py), angular: fine(angular),
+    };
+  }
+
+  /** A contact point at a step, seen from where its bodies are at `posed`. */
+  contact(track: ContactTrack, step: number, posed = step): Contact | null {
+    const i = track.spans.at(step);
+    if (i < 0 || !this.present(track.a, posed)) return null;
+    const frame = this.pose(track.a, posed);
+    const c = Math.cos(frame.angle);
+    const s = Math.sin(frame.angle);
+    const x = track.x[i] * this.head.length;
+    const y = track.y[i] * this.head.length;
+    const normal = track.normal[i] * this.head.angle + frame.angle;
+    return {
+      track, a: track.a, b: track.b, mu: track.mu,
+      x: frame.x + c * x - s * y,
+      y: frame.y + s * x + c * y,
+      nx: Math.cos(normal),
+      ny: Math.sin(normal),
+      gap: this.amount(track.gap[i]),
+      lambdaN: this.amount(track.lambdaN[i]),
+      lambdaT: this.amount(track.lambdaT[i]),
+      wN: this.amount(track.wN[i]),
+      wT: this.amount(track.wT[i]),
+      state: kStates[track.state[i]],
+      internal: track.internal[i] === 1,
+      fresh: track.fresh[i] === 1,
+    };
+  }
+
+  contactsAt(step: number, posed = step): Contact[] {
+    const out: Contact[] = [];
+    for (const track of this.contacts) {
+      const contact = this.contact(track, step, posed);
+      if (contact) out.push(contact);
+    }
+    return out;
+  }
+
+  tracksOf(a: number, b: number): ContactTrack[] {
+    return this.contactsOf.get(`${Math.min(a, b)}-${Math.max(a, b)}`) ?? [];
+  }
+
+  decisionTracksOf(a: number, b: number): DecisionTrack[] {
+    return this.decisionsOf.get(`${Math.min(a, b)}-${Math.max(a, b)}`) ?? [];
+  }
+
+  decision(track: DecisionTrack, step: number): Decision | null {
+    const i = track.spans.at(step);
+    return i < 0 ? null : this.decisionSample(track, i);
+  }
+
+  decisionSample(track: DecisionTrack, i: number): Decision {
+    return {
+      a: track.a, b: track.b, criterion: track.criterion,
+      value: this.amount(track.value[i]),
+      threshold: track.criterion.threshold,
+      count: track.count[i],
+      needed: track.criterion.needed,
+      passed: track.passed[i] === 1,
+    };
+  }
+
+  decisionsAt(step: number): Decision[] {
+    const out: Decision[] = [];
+    for (const track of this.decisions) {
+      const decision = this.decision(track, step);
+      if (decision) out.push(decision);
+    }
+    return out;
+  }
+
+  members(collection: number, step: number): number[] {
+    const out: number[] = [];
+    for (let body = 0; body < this.bodies.length; ++body) {
+      if (this.collection(body, step) === collection) out.push(body);
+    }
+    return out;
+  }
+
+  /** Steps with events, ascending. */
+  eventSteps(types?: readonly string[]): number[] {
+    const wanted = (rows: EventRow[]) => !types || rows.some((row) => types.includes(row[1]));
+    return [...this.eventsAt].filter(([, rows]) => wanted(rows)).map(([step]) => step).sort((a, b) => a - b);
+  }
+}

@@ -1,0 +1,40 @@
+/// `merge2d lesson`: pages and where they go.
+
+#include <gmock/gmock.h>
+
+#include "tests/app/program_testing.h"
+
+namespace merge2d {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TEST_F(ProgramTest, LessonWritesAPageOfAScene) {
+  write("ball.toml", "format = 1\ntitle = \"A ball\"\n[[body]]\ncircle = 0.5\n");
+  const Outcome outcome = run({"lesson", "ball.toml", "--steps", "10"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "frames/ball/lesson.html\n");
+  EXPECT_THAT(read("frames/ball/lesson.html"), StartsWith("<!DOCTYPE html>"));
+  EXPECT_THAT(read("frames/ball/lesson.html"), HasSubstr("<title>A ball</title>"));
+}
+
+TEST_F(ProgramTest, LessonReplacesAPageButNoForeignFile) {
+  write("ball.toml", "format = 1\n[[body]]\ncircle = 0.5\n");
+  EXPECT_EQ(run({"lesson", "ball.toml", "--steps", "1", "-o", "page.html"}).code, 0);
+  EXPECT_EQ(run({"lesson", "ball.toml", "--steps", "2", "-o", "page.html"}).code, 0);
+  write("page.html", "<!DOCTYPE html>\n<p>Mine.</p>\n");
+  EXPECT_EQ(run({"lesson", "ball.toml", "--steps", "1", "-o", "page.html"}).code, 2);
+  EXPECT_EQ(read("page.html"), "<!DOCTYPE html>\n<p>Mine.</p>\n");
+}
+
+TEST_F(ProgramTest, LessonAndFramesShareAFolder) {
+  write("ball.toml", "format = 1\n[[body]]\ncircle = 0.5\n");
+  EXPECT_EQ(run({"lesson", "ball.toml", "--steps", "5"}).code, 0);
+  const Outcome outcome = run({"render", "ball.toml", "--steps", "5", "-q", "l"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(fs::exists(*this / "frames/ball/lesson.html"));
+}
+
+}  // namespace
+}  // namespace merge2d
