@@ -28,7 +28,7 @@ class Usage : public ProgramTest {
 };
 
 TEST_F(Usage, AMissingCommandIsWrongUsage) {
-  expectError({}, kWrongUsage, "a command is missing: list, validate, run, render, ");
+  expectError({}, kWrongUsage, "a command is missing: list, validate, run, render");
 }
 
 TEST_F(Usage, AnUnknownCommandGetsASuggestion) {
