@@ -15,6 +15,7 @@ void addRunCommand(CLI::App& program, Action& action);
 void addRenderCommand(CLI::App& program, Action& action);
 void addCompareCommand(CLI::App& program, Action& action);
 void addLessonCommand(CLI::App& program, Action& action);
+void addCyclesCommand(CLI::App& program, Action& action);
 void addDoctorCommand(CLI::App& program, Action& action);
 
 }  // namespace merge2d

@@ -24,8 +24,8 @@ constexpr const char* kExamples = R"(Examples:
   merge2d validate my-scene.toml        check a scene of your own
 
 'merge2d COMMAND --help' tells more. The result goes to the standard output, messages to the
-standard error. Exit codes: 0 fine, 1 a check or the simulation failed, 2 wrong usage, 3 bad scene,
-4 rendering, reading or writing failed.)";
+standard error. Exit codes: 0 fine, 1 a check or the simulation failed, 2 wrong usage, 3 bad scene or
+graph, 4 rendering, reading or writing failed.)";
 
 void addCommands(CLI::App& program, Action& action) {
   program.name("merge2d");
@@ -40,6 +40,7 @@ void addCommands(CLI::App& program, Action& action) {
   addRenderCommand(program, action);
   addCompareCommand(program, action);
   addLessonCommand(program, action);
+  addCyclesCommand(program, action);
   addDoctorCommand(program, action);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
 }

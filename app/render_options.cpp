@@ -35,19 +35,6 @@ Quality readQuality(const std::string& text) {
       text));
 }
 
-std::pair<int, int> readSize(const std::string& text) {
-  const std::size_t x = text.find('x');
-  if (x == std::string::npos) {
-    throw UsageError(
-        fmt::format("--resolution must be WIDTHxHEIGHT, such as 1280x720, but is '{}'", text));
-  }
-  const auto side = [](const char* name, const std::string& digits) {
-    const auto option = fmt::format("the {} in --resolution", name);
-    return static_cast<int>(readInteger(option, digits, kLeastSide, Canvas::kMaxSide));
-  };
-  return {side("width", text.substr(0, x)), side("height", text.substr(x + 1))};
-}
-
 FrameRange readRange(const std::string& text) {
   const auto number = [](const std::string& digits) {
     return readInteger("--frames FROM,TO", digits, 0, kMostFrames - 1);
@@ -142,6 +129,19 @@ void addFileOptions(CLI::App& command, RenderOptions& options) {
 }
 
 }  // namespace
+
+std::pair<int, int> readSize(const std::string& text) {
+  const std::size_t x = text.find('x');
+  if (x == std::string::npos) {
+    throw UsageError(
+        fmt::format("--resolution must be WIDTHxHEIGHT, such as 1280x720, but is '{}'", text));
+  }
+  const auto side = [](const char* name, const std::string& digits) {
+    const auto option = fmt::format("the {} in --resolution", name);
+    return static_cast<int>(readInteger(option, digits, kLeastSide, Canvas::kMaxSide));
+  };
+  return {side("width", text.substr(0, x)), side("height", text.substr(x + 1))};
+}
 
 void addRenderOptions(CLI::App& command, RenderOptions& options) {
   addSceneOptions(command, options);

@@ -48,6 +48,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options);
 /// Throws UsageError for options that contradict each other.
 void check(const RenderOptions& options);
 
+/// Width and height in pixels from "1280x720". Throws UsageError.
+std::pair<int, int> readSize(const std::string& text);
+
 /// "mp4"
 std::string_view nameOf(Format format);
 

@@ -37,9 +37,9 @@ ContactGraph parseContactGraph(std::string_view text, const std::string& source)
 
 /// What the criteria say. Pinned bodies act as one.
 struct CycleVerdicts {
-  Groups triangle, rigid;     ///< per body
-  Groups generic;             ///< rigid, were the points in general position
-  std::vector<Cycle> cycles;  ///< indices of pairs that closed cycles of three
+  Groups triangle, rigid;            ///< per body
+  Groups generic;                    ///< rigid, were the points in general position
+  std::vector<CycleOfThree> cycles;  ///< indices of pairs that closed cycles of three
   std::vector<std::uint8_t> pair_triangle, pair_rigid;  ///< per pair: may it merge?
 };
 CycleVerdicts judge(const ContactGraph& graph);

@@ -16,7 +16,7 @@
 namespace merge2d {
 
 /// Three pins that closed a cycle of three nodes, as indices.
-using Cycle = std::array<std::uint32_t, 3>;
+using CycleOfThree = std::array<std::uint32_t, 3>;
 
 /// `Rule` says which contacts count: `distinct(p, q)`: two pins of one pair of nodes hold it;
 /// `closes(p, q, r)`: the pins of three pairs of three nodes hold these.
@@ -63,7 +63,7 @@ class Contraction {
     return groups;
   }
 
-  const std::vector<Cycle>& cycles() const { return cycles_; }
+  const std::vector<CycleOfThree>& cycles() const { return cycles_; }
 
  private:
   /// All pins between two nodes: one of them, and whether there is another that is distinct.
@@ -93,7 +93,7 @@ class Contraction {
     for (const auto& [c, to_c] : links_[a]) {
       const auto from_b = links_[b].find(c);
       if (from_b == links_[b].end()) continue;
-      const Cycle cycle{pin, to_c.pin, from_b->second.pin};
+      const CycleOfThree cycle{pin, to_c.pin, from_b->second.pin};
       if (!rule_.closes(pins_[cycle[0]], pins_[cycle[1]], pins_[cycle[2]])) continue;
       cycles_.push_back(cycle);
       const std::uint32_t third = c;
@@ -121,7 +121,7 @@ class Contraction {
   std::vector<std::uint32_t> parent_;
   std::vector<std::map<std::uint32_t, Link>> links_;  ///< per node, by neighbour
   std::vector<NodePair> firm_, fresh_;                ///< pairs to contract, and to close
-  std::vector<Cycle> cycles_;
+  std::vector<CycleOfThree> cycles_;
 };
 
 }  // namespace merge2d

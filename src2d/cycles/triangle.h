@@ -11,7 +11,8 @@ namespace merge2d {
 
 struct TriangleGroups {
   Groups groups;
-  std::vector<Cycle> cycles;  ///< of groups that were joined by a cycle, in the order of joining
+  std::vector<CycleOfThree>
+      cycles;  ///< of groups that were joined by a cycle, in the order of joining
 };
 
 /// Contracts pairs with two or more contacts, and cycles of three, until nothing contracts. Where

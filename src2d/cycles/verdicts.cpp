@@ -48,7 +48,7 @@ CycleVerdicts judge(const ContactGraph& graph) {
   verdicts.triangle = of_bodies(triangle.groups);
   verdicts.generic = of_bodies(genericGroups(bodies, pins));
   verdicts.rigid = of_bodies(rigidGroups(bodies, pins));
-  for (const Cycle& cycle : triangle.cycles) {
+  for (const CycleOfThree& cycle : triangle.cycles) {
     verdicts.cycles.push_back({pair_of[cycle[0]], pair_of[cycle[1]], pair_of[cycle[2]]});
   }
   for (const GraphPair& pair : graph.pairs) {

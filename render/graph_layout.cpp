@@ -1,0 +1,115 @@
+#include "render/graph_layout.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace merge2d {
+namespace {
+
+constexpr double kGoldenAngle = std::numbers::pi * 0.7639320225002102;  // π (3 − √5)
+
+bool everyPointIsKnown(const ContactGraph& graph) {
+  return !graph.pairs.empty() &&
+         std::all_of(graph.pairs.begin(), graph.pairs.end(), [](const GraphPair& pair) {
+           return !pair.points.empty() || pair.contacts == 0;
+         });
+}
+
+/// A body of one contact stands off it, away from the others.
+void standOff(const ContactGraph& graph, GraphLayout& layout) {
+  double size = 0.0;
+  for (const auto& points : layout.points) {
+    for (const Vec2& p : points) size = std::max(size, (p - points.front()).norm());
+  }
+  if (size == 0.0) size = 1.0;
+  std::vector<Vec2> away(graph.bodies.size());
+  for (std::uint32_t i = 0; i < away.size(); ++i) {
+    away[i] = {std::cos(i * kGoldenAngle), std::sin(i * kGoldenAngle)};
+  }
+  for (const GraphPair& pair : graph.pairs) {
+    const Vec2 d = layout.bodies[pair.a] - layout.bodies[pair.b];
+    if (d.norm() < 1e-3 * size) continue;
+    away[pair.a] = d.normalized();
+    away[pair.b] = -d.normalized();
+  }
+  for (std::uint32_t i = 0; i < away.size(); ++i) {
+    if (layout.points[i].size() < 2) layout.bodies[i] += 0.25 * size * away[i];
+  }
+}
+
+GraphLayout placed(const ContactGraph& graph) {
+  GraphLayout layout;
+  layout.placed = true;
+  layout.bodies.assign(graph.bodies.size(), Vec2::Zero());
+  layout.points.resize(graph.bodies.size());
+  for (const GraphPair& pair : graph.pairs) {
+    for (const std::uint32_t body : {pair.a, pair.b}) {
+      auto& points = layout.points[body];
+      points.insert(points.end(), pair.points.begin(), pair.points.end());
+    }
+  }
+  for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
+    for (const Vec2& p : layout.points[i]) {
+      layout.bodies[i] += p / static_cast<double>(layout.points[i].size());
+    }
+  }
+  standOff(graph, layout);
+  return layout;
+}
+
+/// Spirals outwards, so that no two bodies start in one place.
+std::vector<Vec2> spiral(std::size_t bodies) {
+  std::vector<Vec2> at;
+  for (std::size_t i = 0; i < bodies; ++i) {
+    const double angle = static_cast<double>(i) * kGoldenAngle;
+    at.push_back(std::sqrt(static_cast<double>(i) + 0.5) * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  return at;
+}
+
+/// One round: everything moves along its force by at most `step`. The ideal length of an edge is 1.
+void relax(const ContactGraph& graph, std::vector<Vec2>& at, double step) {
+  std::vector<Vec2> force(at.size(), Vec2::Zero());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec2 d = at[i] - at[j];
+      const Vec2 push = d / std::max(1e-6, d.squaredNorm());
+      force[i] += push;
+      force[j] -= push;
+    }
+    force[i] -= 0.02 * at[i];  // parts that do not touch stay together
+  }
+  for (const GraphPair& pair : graph.pairs) {
+    const Vec2 d = at[pair.a] - at[pair.b];
+    const Vec2 pull = d * d.norm();
+    force[pair.a] -= pull;
+    force[pair.b] += pull;
+  }
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    at[i] += force[i] * std::min(1.0, step / std::max(1e-9, force[i].norm()));
+  }
+}
+
+GraphLayout relaxed(const ContactGraph& graph) {
+  constexpr double kWork = 1e8;  // pairs of bodies in all rounds
+  constexpr int kMostRounds = 500;
+  GraphLayout layout;
+  layout.bodies = spiral(graph.bodies.size());
+  const auto n = static_cast<double>(std::max<std::size_t>(1, graph.bodies.size()));
+  const int rounds = static_cast<int>(std::min<double>(kMostRounds, kWork / (n * n)));
+  for (int i = 0; i < rounds; ++i) relax(graph, layout.bodies, 0.5 * (1.0 - i / (rounds + 1.0)));
+  return layout;
+}
+
+}  // namespace
+
+GraphLayout layOutGraph(const ContactGraph& graph) {
+  GraphLayout layout = everyPointIsKnown(graph) ? placed(graph) : relaxed(graph);
+  for (const Vec2& at : layout.bodies) layout.extent.include(at);
+  for (const auto& points : layout.points) {
+    for (const Vec2& p : points) layout.extent.include(p);
+  }
+  return layout;
+}
+
+}  // namespace merge2d

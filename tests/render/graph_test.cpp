@@ -1,0 +1,74 @@
+#include "render/graph.h"
+
+#include <gtest/gtest.h>
+
+#include "render/graph_layout.h"
+
+namespace merge2d {
+namespace {
+
+ContactGraph parse(const std::string& text) { return parseContactGraph(text, "graph.txt"); }
+
+/// How many pixels of a half of the picture have this colour.
+int count(const Picture& picture, Color color, bool right_half) {
+  const int middle = picture.width / 2;
+  int found = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = right_half ? middle : 0; x < (right_half ? picture.width : middle); ++x) {
+      if (picture.at(x, y) == color) ++found;
+    }
+  }
+  return found;
+}
+
+Picture drawn(const std::string& text) {
+  Canvas canvas(640, 320);
+  const ContactGraph graph = parse(text);
+  return drawGraph(canvas, graph, judge(graph));
+}
+
+TEST(Graph, GroupsAreColouredPerCriterion) {
+  // Three links hold two bodies: only the rigid criterion sees it.
+  const Picture picture = drawn("A L 1\nL B 1\nA M 1\nM B 1\nA N 1\nN B 1\n");
+  const Color group = lightTheme().collections[0].fill, free = lightTheme().free.fill;
+  EXPECT_EQ(count(picture, group, false), 0);
+  EXPECT_GT(count(picture, free, false), 100);
+  EXPECT_GT(count(picture, group, true), 100);
+  EXPECT_EQ(count(picture, free, true), 0);
+}
+
+TEST(Graph, PivotsAreRed) {
+  EXPECT_GT(count(drawn("A B 1\n"), lightTheme().broken_contact, true), 20);
+  EXPECT_EQ(count(drawn("A B 2\n"), lightTheme().broken_contact, true), 0);
+}
+
+TEST(Graph, AnythingCanBeDrawn) {
+  for (const char* text :
+       {"", "pinned A\n", "A B 0\n", "A B 2 1,1 1,1\n", "A B 1 5,5\nB C 1 5,5\n",
+        "A B 3 0,0 1,0 0.5,1\nC D 1 1e12,1e12\n", "A B 1 1e-9,0\nB C 1 0,1e-9\n"}) {
+    EXPECT_GT(count(drawn(text), lightTheme().ink, false), 0) << text;  // the title at least
+  }
+}
+
+TEST(GraphLayout, PutsBodiesAmidTheirPoints) {
+  const GraphLayout layout = layOutGraph(parse("A B 2 0,0 2,0\n"));
+  EXPECT_TRUE(layout.placed);
+  EXPECT_EQ(layout.bodies[0], Vec2(1, 0));
+}
+
+TEST(GraphLayout, KeepsBodiesApart) {
+  std::string text;
+  for (int i = 0; i < 40; ++i) {
+    text += "b" + std::to_string(i) + " b" + std::to_string((i * 7 + 1) % 40 + 40) + " 1\n";
+  }
+  const GraphLayout layout = layOutGraph(parse(text));
+  EXPECT_FALSE(layout.placed);
+  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GT((layout.bodies[i] - layout.bodies[j]).norm(), 0.2) << i << " " << j;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace merge2d
