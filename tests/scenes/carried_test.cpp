@@ -1,0 +1,159 @@
+/// Scenes of things that ride on what moves.
+
+#include <optional>
+
+#include "tests/scenes/scene_testing.h"
+
+namespace merge2d {
+namespace {
+
+/// The car against the ferry, from two seconds on.
+double drift(double seconds, SceneRun& run) {
+  run.until(2.0);
+  const Vec2 start = run.seenFrom("ferry", "car");
+  double farthest = 0.0;
+  for (double t = 3.0; t <= seconds; t += 1.0) {
+    run.until(t);
+    farthest = std::max(farthest, (run.seenFrom("ferry", "car") - start).norm());
+  }
+  return farthest;
+}
+
+TEST(Ferry, TheMergedCarStaysWhereItIs) {
+  SceneRun run("ferry");
+  EXPECT_LT(drift(30.0, run), 1e-9);
+  EXPECT_TRUE(run.anchored("car"));
+  EXPECT_EQ(run.count(EventType::Merge), 1);
+  EXPECT_EQ(run.count(EventType::Unmerge), 0);
+}
+
+TEST(LongFerry, TheMergedCarStaysForTenMinutesAndTheOtherCreeps) {
+  SceneRun run("ferry"), reference("ferry", Mode::Reference);
+  const double merged = drift(600.0, run), free = drift(600.0, reference);
+  EXPECT_LT(merged, 1e-6);
+  EXPECT_GT(free, merged);
+  RecordProperty("reference_drift_um", std::to_string(1e6 * free));
+  EXPECT_EQ(run.eventsAfter(200), 0);
+}
+
+TEST(Books, SlideAsOneBody) {
+  SceneRun run("books");
+  run.until(0.9);
+  const char* others[] = {"dictionary", "mechanics", "geometry", "novel",   "sequel",
+                          "poems",      "cookbook",  "diary",    "notebook"};
+  run.until(3.0);
+  EXPECT_GT(run.body("atlas").v.x(), 0.2);
+  for (const char* book : others) EXPECT_TRUE(run.together("atlas", book)) << book;
+  EXPECT_FALSE(run.anchored("atlas"));
+  EXPECT_EQ(run.now().stats.active_bodies, 1);
+  run.until(8.0);
+  EXPECT_EQ(run.now().stats.asleep, 10);
+}
+
+TEST(Swing, EverythingMergesWithTheSeatAndStaysThere) {
+  SceneRun run("swing");
+  run.until(1.0);
+  const char* things[] = {"box-1", "box-2", "box-3", "plate", "pyramid", "top", "block"};
+  std::vector<Vec2> places;
+  for (const char* thing : things) {
+    EXPECT_TRUE(run.together("seat", thing)) << thing;
+    places.push_back(run.seenFrom("seat", thing));
+  }
+  EXPECT_EQ(run.now().stats.active_bodies, 1);
+  EXPECT_EQ(run.now().stats.contacts, 0);
+  double left = 0.0, right = 0.0;
+  for (double t = 2.0; t <= 30.0; t += 0.25) {
+    run.until(t);
+    left = std::min(left, run.body("seat").angle);
+    right = std::max(right, run.body("seat").angle);
+  }
+  EXPECT_GT(right, 0.5);
+  EXPECT_LT(left, -0.5);
+  EXPECT_EQ(run.eventsAfter(100), 0) << "nothing happens any more";
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_LT((run.seenFrom("seat", things[i]) - places[i]).norm(), 1e-9) << things[i];
+  }
+}
+
+/// The eight stacks of the station, from their floors.
+const std::vector<std::vector<std::string>> kStacks = {
+    {"tank-1", "tank-2", "tank-3"},
+    {"crate-1", "crate-2", "crate-3", "crate-4"},
+    {"rack-1", "rack-2", "rack-3", "rack-4"},
+    {"battery-1", "battery-2", "battery-3", "battery-4", "battery-5"},
+    {"locker-1", "locker-2"},
+    {"sofa", "cushion-1", "cushion-2"},
+    {"bed", "mattress", "trunk"},
+    {"plinth", "column", "plate", "globe-box"}};
+
+void expectStationAtRest(SceneRun& run) {
+  for (const auto& stack : kStacks) {
+    EXPECT_TRUE(run.anchored(stack.front())) << stack.front();
+    for (const std::string& name : stack) EXPECT_TRUE(run.together(stack.front(), name)) << name;
+  }
+  EXPECT_EQ(run.now().stats.contacts, 0);
+  EXPECT_EQ(run.now().stats.asleep, 0) << "it turns";
+}
+
+TEST(SpaceStation, EachStackMergesWithTheTurningFloor) {
+  SceneRun run("space-station");
+  run.until(2.0);
+  expectStationAtRest(run);
+  EXPECT_NEAR(run.body("tank-3").v.norm(), 1.0472 * run.body("tank-3").x.norm(), 1e-3);
+  run.until(8.0);
+  EXPECT_EQ(run.eventsAfter(800), 0);
+}
+
+TEST(LongSpaceStation, NothingHappensInAHundredThousandSteps) {
+  SceneRun run("space-station");
+  run.until(2.0);
+  const Vec2 place = run.seenFrom("station", "globe-box");
+  const std::size_t memory = run.world().memoryBytes();
+  run.steps(100'000 - run.world().steps());
+  expectStationAtRest(run);
+  EXPECT_EQ(run.eventsAfter(800), 0);
+  EXPECT_LT((run.seenFrom("station", "globe-box") - place).norm(), 1e-9);
+  EXPECT_LE(run.world().memoryBytes(), memory);
+}
+
+TEST(Spinner, MergesAtOrdinarySpeedAndNotAtHighSpeed) {
+  const char* things[] = {"square-1", "square-2", "disc-1", "disc-2"};
+  const auto merged = [&](const Overrides& overrides) {
+    SceneRun run("spinner", Mode::MergeSleep, overrides);
+    run.until(10.0);
+    return std::ranges::count_if(things, [&](const char* name) { return run.anchored(name); });
+  };
+  EXPECT_EQ(merged({}), 4);
+  EXPECT_EQ(merged({{"body.tray.script.spin", "180"}}), 0);
+  EXPECT_EQ(merged({{"body.tray.script.spin", "180"}, {"step", "0.001"}}), 4);
+}
+
+TEST(ShipCrane, EachGrabFreesTheContainerThatIsLifted) {
+  SceneRun run("ship-crane");
+  run.until(4.0);
+  for (int column = 0; column < 9; ++column) {
+    for (int row = 0; row < 8; ++row) {
+      EXPECT_TRUE(run.together("ship", cell("cargo", column, row))) << column << ", " << row;
+    }
+  }
+  EXPECT_TRUE(run.anchored("freight[5,6]")) << "merged with the moving train";
+  EXPECT_EQ(run.now().stats.contacts, 0);
+  const char* lifted[] = {"cargo[8,7]", "cargo[7,7]", "cargo[6,7]", "cargo[5,7]"};
+  for (int n = 0; n < 4; ++n) {
+    const double start = 7.0 + 20.5 * n;
+    run.until(start + 3.5);
+    EXPECT_GT(run.body(lifted[n]).x.y(), 12.0) << lifted[n] << " hangs on the magnet";
+    EXPECT_FALSE(run.together("ship", lifted[n])) << lifted[n];
+    int left = 0;
+    for (int column = 0; column < 9; ++column) {
+      for (int row = 0; row < 8; ++row) left += run.together("ship", cell("cargo", column, row));
+    }
+    EXPECT_EQ(left, 72 - (n + 1)) << "everything else is merged with the ship, or again";
+    run.until(start + 15.0);
+    EXPECT_TRUE(run.anchored(lifted[n]) || run.body(lifted[n]).asleep) << "set down: " << lifted[n];
+    EXPECT_NEAR(run.body(lifted[n]).x.y(), 8.8, 0.02) << "on the stack";
+  }
+}
+
+}  // namespace
+}  // namespace merge2d

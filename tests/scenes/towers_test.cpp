@@ -1,0 +1,75 @@
+#include "tests/scenes/scene_testing.h"
+
+namespace merge2d {
+namespace {
+
+/// The largest distance of a body from where it is in the reference [m].
+double farthest(const SceneRun& run, const SceneRun& reference) {
+  double distance = 0.0;
+  for (std::size_t i = 0; i < run.now().bodies.size(); ++i) {
+    distance = std::max(distance, (run.now().bodies[i].x - reference.now().bodies[i].x).norm());
+  }
+  return distance;
+}
+
+TEST(TowerPlatform, SwingsAsOneBodyUntilTheBallHitsIt) {
+  SceneRun run("tower-platform");
+  run.until(5.0);
+  EXPECT_EQ(run.now().stats.active_bodies, 1);
+  EXPECT_EQ(run.now().stats.contacts, 0);
+  EXPECT_EQ(run.eventsAfter(300), 0);
+  EXPECT_EQ(run.now().stats.asleep, 0) << "it swings";
+  EXPECT_TRUE(run.together("platform", "brick[5,26]"));
+  run.until(7.0);
+  EXPECT_GT(run.count(EventType::Unmerge), 50);
+  EXPECT_TRUE(run.together("platform", "brick[5,0]")) << "its foot was not hit";
+}
+
+TEST(TowerImpulse, TheTopComesFreeAndTheFootStays) {
+  SceneRun run("tower-impulse", Mode::Merge);
+  run.until(1.49);
+  for (int row = 0; row < 23; ++row) EXPECT_TRUE(run.anchored(cell("brick", 0, row))) << row;
+  run.until(1.6);
+  EXPECT_FALSE(run.together("brick[0,20]", "brick[1,0]"));
+  EXPECT_TRUE(run.anchored("brick[1,0]"));
+}
+
+TEST(TowerImpulseHeavy, FreesWhatMoves) {
+  const Disturbed seen = disturb("tower-impulse-heavy", 1.49, 1.0);
+  EXPECT_GE(seen.moved, 5);
+  EXPECT_EQ(seen.moved_freed, seen.moved);
+  EXPECT_LE(seen.others_freed, 0.1 * seen.others);
+}
+
+TEST(TowerLift, TheWholeTowerLearnsOfTheBlow) {
+  const Disturbed seen = disturb("tower-lift", 1.49, 1.0);
+  EXPECT_EQ(seen.moved, 79) << "slab and bricks all jump";
+  EXPECT_EQ(seen.moved_freed, 79);
+}
+
+TEST(TowerLift, LandsWhereItLandsInTheReference) {
+  SceneRun run("tower-lift"), reference("tower-lift", Mode::Reference);
+  run.until(1.6), reference.until(1.6);
+  EXPECT_NEAR(run.body("slab").x.y(), reference.body("slab").x.y(), 0.02);
+  EXPECT_NEAR(run.body("brick[1,25]").x.y(), reference.body("brick[1,25]").x.y(), 0.02);
+  run.until(3.5), reference.until(3.5);
+  EXPECT_LT(farthest(run, reference), 0.05);
+  run.until(6.0);
+  EXPECT_EQ(run.now().stats.asleep, 79);
+  EXPECT_EQ(run.eventsAfter(500), 0);
+}
+
+TEST(TowerImpulseHeavy, EndsMuchAsInTheReference) {
+  SceneRun run("tower-impulse-heavy"), reference("tower-impulse-heavy", Mode::Reference);
+  run.until(8.0), reference.until(8.0);
+  const auto off = [](const SceneRun& r) {  // bricks that lie beside the tower
+    return static_cast<int>(std::ranges::count_if(r.now().bodies, [](const BodyState& b) {
+      return b.x.y() < 2.0 && std::abs(b.x.x()) > 2.5;
+    }));
+  };
+  EXPECT_NEAR(off(run), off(reference), 3);
+  EXPECT_GT(off(run), 0);
+}
+
+}  // namespace
+}  // namespace merge2d

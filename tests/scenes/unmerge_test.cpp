@@ -1,0 +1,83 @@
+#include "tests/scenes/scene_testing.h"
+
+namespace merge2d {
+namespace {
+
+TEST(UnmergeBroken, OneBodyIsFreedAndOneCollectionParts) {
+  SceneRun run("unmerge-broken", Mode::Merge);
+  run.until(0.99);
+  EXPECT_TRUE(run.together("left[0,0]", "left[0,2]"));
+  EXPECT_TRUE(run.together("right[0,0]", "right[0,3]"));
+  run.until(1.3);
+  EXPECT_FALSE(run.merged("left[0,2]"));
+  EXPECT_TRUE(run.together("left[0,0]", "left[0,1]"));
+  EXPECT_TRUE(run.together("right[0,2]", "right[0,3]"));
+  EXPECT_TRUE(run.together("right[0,0]", "right[0,1]"));
+  EXPECT_FALSE(run.together("right[0,1]", "right[0,2]"));
+  EXPECT_EQ(run.count(EventType::Unmerge), 2);
+  for (const auto& event : run.log()) {
+    if (event.type != EventType::Unmerge) continue;
+    EXPECT_EQ(event.reason, EventReason::Broken);
+  }
+  run.until(5.0);
+  EXPECT_TRUE(run.together("left[0,0]", "left[0,2]")) << "merged again";
+  EXPECT_TRUE(run.together("right[0,0]", "right[0,3]"));
+}
+
+TEST(UnmergeBroken, TheWeldsBreakAtOnce) {
+  SceneRun run("unmerge-broken", Mode::Merge);
+  run.until(1.5);
+  EXPECT_LE(run.first(EventType::Unmerge, "left[0,2]"), 102);
+  EXPECT_LE(run.first(EventType::Unmerge, "right[0,2]"), 102);
+}
+
+TEST(UnmergePivot, TheBoxTurnsAboutOneContact) {
+  SceneRun run("unmerge-pivot", Mode::Merge);
+  run.until(0.9);
+  EXPECT_TRUE(run.together("cart", "box"));
+  run.until(2.5);
+  const std::int64_t step = run.first(EventType::Unmerge, "box");
+  EXPECT_GT(step, 100);
+  EXPECT_LT(step, 125) << "soon after the push began";
+  EXPECT_TRUE(run.together("cart", "ballast"));
+  run.until(5.0);
+  EXPECT_LT(run.body("box").angle, -1.0) << "it fell";
+}
+
+TEST(UnmergePivot, TurnsAsInTheReference) {
+  SceneRun run("unmerge-pivot", Mode::Merge), reference("unmerge-pivot", Mode::Reference);
+  run.until(2.2), reference.until(2.2);
+  EXPECT_NEAR(run.body("box").angle, reference.body("box").angle, 0.02);
+}
+
+TEST(UnmergePivot, APushThatTipsItWakesIt) {
+  SceneRun run("unmerge-pivot");
+  run.until(5.0);
+  EXPECT_LT(run.body("box").angle, -1.0) << "it fell";
+}
+
+TEST(TrussArch, ThreeHingesHoldAndFourFall) {
+  SceneRun run("truss-arch", Mode::Merge);
+  run.until(1.0);
+  EXPECT_TRUE(run.anchored("left-leg"));
+  EXPECT_TRUE(run.together("left-leg", "right-leg"));
+  for (double t = 1.0; t < 2.0; t += 0.05) {
+    run.until(t);
+    for (const char* bar : {"left-post", "right-post", "lintel"}) {
+      EXPECT_FALSE(run.merged(bar)) << bar << " at " << t;
+    }
+  }
+  run.until(8.0);
+  EXPECT_LT(run.body("lintel").x.y(), 1.0) << "it fell";
+  EXPECT_NEAR(run.body("left-leg").x.y(), 1.006, 0.01) << "they stand";
+  EXPECT_TRUE(run.together("left-leg", "right-leg"));
+}
+
+TEST(TrussArch, FallsAsInTheReference) {
+  SceneRun run("truss-arch"), reference("truss-arch", Mode::Reference);
+  run.until(2.0), reference.until(2.0);
+  EXPECT_NEAR(run.body("lintel").angle, reference.body("lintel").angle, 0.02);
+}
+
+}  // namespace
+}  // namespace merge2d
