@@ -124,8 +124,8 @@ TEST(Spinner, MergesAtOrdinarySpeedAndNotAtHighSpeed) {
     return std::ranges::count_if(things, [&](const char* name) { return run.anchored(name); });
   };
   EXPECT_EQ(merged({}), 4);
-  EXPECT_EQ(merged({{"body.tray.script.spin", "180"}}), 0);
-  EXPECT_EQ(merged({{"body.tray.script.spin", "180"}, {"step", "0.001"}}), 4);
+  EXPECT_EQ(merged({{"body.tray.script.spin", "120"}}), 0);
+  EXPECT_EQ(merged({{"body.tray.script.spin", "120"}, {"step", "0.001"}}), 4);
 }
 
 TEST(ShipCrane, EachGrabFreesTheContainerThatIsLifted) {

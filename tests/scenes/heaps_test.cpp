@@ -20,7 +20,7 @@ TEST_P(LongPile, FallsAsleepWithAnySeed) {
   EXPECT_GE(run.now().stats.asleep, 178);
   for (const BodyState& body : run.now().bodies) EXPECT_GT(body.x.y(), -1.0) << index(body.id);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, LongPile, testing::Values(2, 3, 4, 5));
+INSTANTIATE_TEST_SUITE_P(Long, LongPile, testing::Values(2, 3, 4, 5));
 
 /// Nothing left the tray, and nothing sank into it.
 void expectInTheTray(const SceneRun& run) {
