@@ -56,6 +56,21 @@ TEST(UnmergePivot, APushThatTipsItWakesIt) {
   EXPECT_LT(run.body("box").angle, -1.0) << "it fell";
 }
 
+TEST(Seesaw, MergesWithItsLoadAndNotWithItsPivot) {
+  SceneRun run("seesaw", Mode::Merge), reference("seesaw", Mode::Reference);
+  for (double t = 0.5; t <= 5.0; t += 0.5) {
+    run.until(t), reference.until(t);
+    EXPECT_TRUE(run.together("beam", "left-child")) << t;
+    EXPECT_TRUE(run.together("beam", "right-child")) << t;
+    EXPECT_FALSE(run.anchored("beam")) << t;
+    EXPECT_NEAR(run.body("beam").angle, reference.body("beam").angle, 0.01) << t;
+  }
+  EXPECT_GT(run.body("beam").angle, 0.1) << "it turns";
+  run.until(12.0);
+  EXPECT_TRUE(run.anchored("beam")) << "on the ground it has two contacts";
+  EXPECT_NEAR(run.body("beam").angle, std::asin(0.2), 0.005) << "1 m high, 5 m long";
+}
+
 TEST(TrussArch, ThreeHingesHoldAndFourFall) {
   SceneRun run("truss-arch", Mode::Merge);
   run.until(1.0);
