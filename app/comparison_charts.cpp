@@ -106,8 +106,8 @@ std::vector<ChartMark> marksOf(const Scene& scene) {
     }
   }
   std::ranges::stable_sort(marks, {}, &ChartMark::x);
-  const auto same = std::ranges::unique(marks, {}, &ChartMark::x);
-  marks.erase(same.begin(), same.end());
+  const auto at_once = [](const ChartMark& a, const ChartMark& b) { return a.x == b.x; };
+  marks.erase(std::unique(marks.begin(), marks.end(), at_once), marks.end());
   return marks;
 }
 

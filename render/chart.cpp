@@ -304,9 +304,9 @@ Picture drawCharts(Canvas& canvas, std::span<const Chart> charts, int columns, c
   const float height = static_cast<float>(canvas.height()) / static_cast<float>(std::max(1, rows));
   const float unit = std::clamp(height / (rows > 1 ? 360.0F : 480.0F), 0.6F, 6.0F);
   for (std::size_t i = 0; i < charts.size(); ++i) {
-    const auto column = static_cast<float>(i % static_cast<std::size_t>(columns));
-    const auto row = static_cast<float>(i / static_cast<std::size_t>(columns));
-    const PixelBox panel{column * width, row * height, width, height};
+    const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
+    const PixelBox panel{static_cast<float>(column) * width, static_cast<float>(row) * height,
+                         width, height};
     ChartPainter(painter, charts[i], theme, panel, unit).draw();
   }
   return canvas.draw(drawing);
