@@ -1,0 +1,48 @@
+#pragma once
+/// What one step decided about each pair of bodies, and why: the decision records put into
+/// sentences. Nothing is tested anew here.
+
+#include <string>
+#include <vector>
+
+#include "lessons/words.h"
+#include "src2d/trace/snapshot.h"
+
+namespace merge2d {
+
+/// In the order in which they are told.
+enum class Outcome {
+  CameApart,  ///< a weld ended
+  Merged,     ///< a pair was welded
+  Hit,        ///< a pair met
+  Woke,
+  Slept,
+  Cut,      ///< a weld is cut, but others hold the pair together
+  Loose,    ///< a weld on its way to be cut
+  Waiting,  ///< a pair passed all tests, but not for long enough, or its group is not rigid
+  Apart,    ///< a pair failed a test
+  Awake,    ///< something could not fall asleep
+  Held,     ///< a weld holds
+};
+inline constexpr std::size_t kOutcomes = 11;
+
+/// "came-apart", "merged", … as in the JSON.
+const char* name(Outcome outcome);
+/// "came apart", … as a heading over several.
+const char* heading(Outcome outcome);
+
+struct Explanation {
+  BodyId a{}, b{};  ///< the pair; equal where one thing is meant
+  Outcome outcome = Outcome::Held;
+  std::string text{};             ///< one sentence or two
+  std::vector<Decision> tests{};  ///< behind it, in the order they were made
+};
+
+/// Explains all decisions of the step after which `after` was captured; by outcome, and
+/// within one what lost its count or is near its threshold first.
+std::vector<Explanation> explainStep(const Words& words, const Snapshot& after);
+
+/// The test with the largest value / threshold. Null when there is none.
+const Decision* nearestTest(const std::vector<Decision>& tests);
+
+}  // namespace merge2d

@@ -1,0 +1,209 @@
+#include "lessons/words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src2d/core/suggest.h"
+
+namespace merge2d {
+namespace {
+
+std::string withDigits(double value, int digits) {
+  const double size = std::abs(value);
+  if (size == 0.0) return "0";
+  if (size < 1e-6 || size >= 1e7) return fmt::format("{:.{}e}", value, digits - 1);
+  const int power = static_cast<int>(std::floor(std::log10(size)));
+  return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - power));
+}
+
+int usualDigits(double value) { return std::abs(value) < 1.0 ? 2 : 3; }
+
+/// How far a value is on the wrong side of its threshold, or on the right one.
+std::string distance(double value, double threshold) {
+  if (value == 0.0 || threshold <= 0.0) return "";
+  const double ratio = value / threshold;
+  if (ratio >= 1000.0) return "more than 1000 times; ";
+  if (ratio >= 100.0) return fmt::format("{:.0f} times; ", ratio);
+  if (ratio > 1.0) return fmt::format("{:.{}f} times; ", ratio, ratio < 1.05 ? 3 : 1);
+  if (ratio < 0.001) return "less than a thousandth; ";
+  return fmt::format("{:.{}f} %; ", 100.0 * ratio, ratio < 0.1 ? 1 : 0);
+}
+
+/// "relative motion 0.023 m/s is above 0.010 m/s (2.3 times; Eq. 17)". Thresholds below a
+/// millimetre are told in millimetres; `unit` is what follows "m".
+std::string compared(std::string_view what, const Decision& d, std::string_view unit) {
+  const bool small = d.threshold < 1e-3;
+  const double scale = small ? 1e3 : 1.0;
+  const auto [value, threshold] = shortNumbers(scale * d.value, scale * d.threshold);
+  const char* metre = small ? "mm" : "m";
+  const char* relation = d.value < d.threshold   ? "is below"
+                         : d.value > d.threshold ? "is above"
+                                                 : "reaches";
+  return fmt::format("{} {} {}{} {} {} {}{} ({}{})", what, value, metre, unit, relation, threshold,
+                     metre, unit, distance(d.value, d.threshold), equationName(d.equation));
+}
+
+/// "slip, summed over 4 steps,": for sums that have no number of steps to reach.
+std::string summed(std::string_view what, int steps) {
+  return steps > 1 ? fmt::format("{}, summed over {} steps,", what, steps) : std::string(what);
+}
+
+std::string contacts(double number) {
+  return counted(static_cast<std::size_t>(number), "contact", "contacts");
+}
+
+std::string cone(const Decision& d) {
+  const auto [value, threshold] = shortNumbers(d.value, d.threshold);
+  const std::string equation = equationName(d.equation);
+  if (d.verdict == "edge") {
+    return fmt::format(
+        "a contact is on the edge of its friction cone: friction {} N s is all that "
+        "its pressure allows ({})",
+        value, equation);
+  }
+  return fmt::format("friction {} N s of the {} N s that the pressure allows ({}{})", value,
+                     threshold, distance(d.value, d.threshold), equation);
+}
+
+/// "all 2 contacts that press are on the edge of their friction cones".
+std::string allOnEdge(double contacts_pressed) {
+  if (contacts_pressed == 1.0)
+    return "the one contact that presses is on the edge of its friction cone";
+  return fmt::format("all {} that press are on the edge of their friction cones",
+                     contacts(contacts_pressed));
+}
+
+std::string edge(const Decision& d) {
+  if (d.verdict == "apart") {
+    return fmt::format("{}, about to slide ({})", allOnEdge(d.threshold), equationName(d.equation));
+  }
+  if (d.value >= d.threshold) {
+    return fmt::format("{}, but the body is wedged in and cannot slide ({})",
+                       allOnEdge(d.threshold), equationName(d.equation));
+  }
+  return fmt::format("{} of {} that press {} on the edge of the friction cone ({})",
+                     d.value == 0.0 ? "none" : fmt::format("{:.0f}", d.value),
+                     contacts(d.threshold), d.value > 1.0 ? "are" : "is", equationName(d.equation));
+}
+
+std::string cycle(const Decision& d) {
+  if (d.stage == "Unmerge") {
+    return fmt::format(
+        "its own {} held, but the group that it needs to be rigid came apart "
+        "(Section 8.2)",
+        contacts(d.value));
+  }
+  if (d.verdict == "merge") {
+    return d.value >= d.threshold
+               ? fmt::format("{} hold the pair rigidly (Section 8.2)", contacts(d.value))
+               : "its single contact is part of a rigid group (Section 8.2)";
+  }
+  return "a single contact is a pivot, and no ring of three closes around it (Section 8.2)";
+}
+
+std::string sleeping(const Decision& d) {
+  if (d.criterion == "disturbed") {
+    return "a kick, another load or a moving neighbour disturbs it (Section 7)";
+  }
+  if (d.criterion == "neighbours") return "something that it touches is awake (Section 7)";
+  if (d.criterion == "inner-forces") return "the forces inside it still change (Section 7)";
+  return fmt::format("it has been at rest for {} of {} steps (Section 7)", d.count, d.needed);
+}
+
+}  // namespace
+
+std::string shortNumber(double value) { return withDigits(value, usualDigits(value)); }
+
+NumberPair shortNumbers(double value, double threshold) {
+  constexpr int kMostDigits = 12;
+  int more = 0;
+  const auto text = [&](double v) { return withDigits(v, usualDigits(v) + more); };
+  while (value != threshold && text(value) == text(threshold) && more < kMostDigits) ++more;
+  return {text(value), text(threshold)};
+}
+
+std::string equationName(std::string_view equation) {
+  if (!equation.starts_with('(')) return std::string(equation);
+  return fmt::format("Eq. {}", equation.substr(1, equation.find(')') - 1));
+}
+
+std::string counted(std::size_t number, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
+std::string listed(const std::vector<std::string>& parts) {
+  if (parts.size() < 2) return parts.empty() ? "" : parts.front();
+  return fmt::format("{} and {}", fmt::join(parts.begin(), parts.end() - 1, ", "), parts.back());
+}
+
+std::string collectionName(CollectionId id) { return fmt::format("C{}", static_cast<int>(id)); }
+
+std::string Words::name(BodyId body) const {
+  const std::string& name = bodies_[index(body)].name;
+  return name.empty() ? fmt::format("body {}", index(body)) : name;
+}
+
+std::string Words::pair(BodyId a, BodyId b) const {
+  return fmt::format("{} and {}", name(a), name(b));
+}
+
+std::optional<BodyId> Words::find(std::string_view name) const {
+  const auto found = std::ranges::find(bodies_, name, &BodyInfo::name);
+  if (found == bodies_.end()) return std::nullopt;
+  return BodyId{static_cast<std::uint32_t>(found - bodies_.begin())};
+}
+
+std::string Words::suggestion(std::string_view name) const {
+  std::vector<std::string_view> names;
+  for (const BodyInfo& body : bodies_) names.emplace_back(body.name);
+  return didYouMean(name, names);
+}
+
+std::string Words::test(const Decision& d) const {
+  const std::string_view c = d.criterion;
+  if (d.stage == "SleepAndWake") return sleeping(d);
+  if (c == "relative-motion") return compared("relative motion", d, "/s");
+  if (c == "breathing") return compared("the change of overlap", d, " per step");
+  if (c == "rest") return compared("its motion in the world", d, "/s");
+  if (c == "impact") return compared("the speed of approach", d, "/s");
+  if (c == "opening") return compared(summed("the opening of a contact", d.count), d, "/s");
+  if (c == "sliding") {
+    const bool welded = d.stage == "Unmerge";
+    return compared(welded ? summed("the slip of a contact", d.count) : "slip", d, "/s");
+  }
+  if (c == "cone") return cone(d);
+  if (c == "edge") return edge(d);
+  if (c == "cycle") return cycle(d);
+  if (c == "pressed") return "no contact between them carries a force (Section 5.3)";
+  if (c == "broken") {
+    return d.value > 0 ? fmt::format("{} left of the weld holds (Section 6.3)", contacts(d.value))
+                       : "no contact of the weld carries a force any more (Section 6.3)";
+  }
+  return fmt::format("{} of {} steps passed (Section 5.1)", d.count, d.needed);  // "count"
+}
+
+std::string Words::event(const Event& e) const {
+  const std::string collection = e.collection == kNoCollection ? "" : collectionName(e.collection);
+  // Of what sleeps the first body is told.
+  const std::string sleeper = collection.empty() ? name(e.a) : collection;
+  switch (e.type) {
+    case EventType::Merge:
+      return fmt::format("{} merge into {}", pair(e.a, e.b), collection);
+    case EventType::Unmerge:
+      return fmt::format("{} come apart ({})", pair(e.a, e.b), merge2d::name(e.reason));
+    case EventType::Sleep:
+      return fmt::format("{} falls asleep", sleeper);
+    case EventType::Wake:
+      return fmt::format("{} wakes up", sleeper);
+    case EventType::Impact:
+      return fmt::format("{} hit each other", pair(e.a, e.b));
+    case EventType::Emit:
+      return fmt::format("{} appears", name(e.a));
+  }
+  return {};
+}
+
+}  // namespace merge2d
