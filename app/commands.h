@@ -16,6 +16,7 @@ void addRenderCommand(CLI::App& program, Action& action);
 void addCompareCommand(CLI::App& program, Action& action);
 void addLessonCommand(CLI::App& program, Action& action);
 void addCyclesCommand(CLI::App& program, Action& action);
+void addStepCommand(CLI::App& program, Action& action);
 void addExplainCommand(CLI::App& program, Action& action);
 void addDoctorCommand(CLI::App& program, Action& action);
 

@@ -21,6 +21,7 @@ constexpr const char* kExamples = R"(Examples:
   merge2d render tower-platform         draw it to frames/tower-platform/
   merge2d compare dominoes              how fast each mode is, and how near the reference
   merge2d lesson tower-platform         write a page to step through it in a browser
+  merge2d step books                    walk through it, stage by stage, and back
   merge2d explain tower-platform --at 118
                                         why pairs merged, came apart, or did not
   merge2d validate my-scene.toml        check a scene of your own
@@ -43,6 +44,7 @@ void addCommands(CLI::App& program, Action& action) {
   addCompareCommand(program, action);
   addLessonCommand(program, action);
   addCyclesCommand(program, action);
+  addStepCommand(program, action);
   addExplainCommand(program, action);
   addDoctorCommand(program, action);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");

@@ -13,7 +13,9 @@
 #include "app/output_file.h"
 #include "app/progress.h"
 #include "app/simulation.h"
+#include "app/stage_pictures.h"
 #include "render/apng.h"
+#include "render/contact_sheet.h"
 #include "render/frame.h"
 #include "render/png.h"
 #include "render/sequence.h"
@@ -24,12 +26,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kSheetCell = 640;  // width of a picture in a contact sheet, at most [px]
+
 constexpr const char* kExamples = R"(Examples:
   merge2d render tower-platform
   merge2d render pile -q l --seconds 3 --format gif
   merge2d render books --overlay contacts,forces --theme print -s -o figure
   merge2d render spinner -r 1920x1080 --fps 60 -n 0,120
   merge2d render tower-platform --resume
+  merge2d render pile --contact-sheet 4x3
+  merge2d render tower-platform --stages --at 599
 
 The pictures are called frame_000000.png, frame_000001.png, …; frame k shows the time k / fps, and
 the last one the end of the run. Beside them, run.json tells how they were made and captions.vtt
@@ -64,6 +70,7 @@ class Rendering {
   void finish(bool complete, const std::string& failure = {});
   fs::path makeAnimation();
   FfmpegJob ffmpegJob() const;
+  void makeContactSheet() const;
   void noteSpeed() const;
   void printProducts(const fs::path& animation) const;
 
@@ -157,6 +164,26 @@ fs::path Rendering::makeAnimation() {
   return ffmpegJob().output();
 }
 
+/// Frames from the first to the last at equal distances.
+void Rendering::makeContactSheet() const {
+  if (!options_.contact_sheet) return;
+  const auto [columns, rows] = *options_.contact_sheet;
+  const std::int64_t cells = std::min<std::int64_t>(columns * rows, film_.to - film_.from + 1);
+  std::vector<Picture> frames;
+  for (std::int64_t i = 0; i < cells; ++i) {
+    const std::int64_t way =
+        cells > 1 ? (2 * i * (film_.to - film_.from) + cells - 1) / (2 * (cells - 1)) : 0;
+    frames.push_back(shrunk(loadPng(folder_ / frameName(film_.from + way)), kSheetCell));
+  }
+  const fs::path file = folder_ / "contact_sheet.png";
+  savePng(file, contactSheet(frames, columns, style_.theme.background),
+          {.alpha = style_.transparent,
+           .description = fmt::format("{} pictures from t = {:.2f} s to t = {:.2f} s. {}", cells,
+                                      static_cast<double>(film_.from) / film_.fps, snapshot_.time,
+                                      describe(snapshot_, style_))});
+  console_.note(fmt::format("{} shows {} frames", file.string(), cells));
+}
+
 void Rendering::noteSpeed() const {
   const std::int64_t frames = counts_.written + counts_.kept;
   std::string note = fmt::format("{} frame{} of {}x{} in {:.1f} s", frames, frames == 1 ? "" : "s",
@@ -202,12 +229,60 @@ void Rendering::run() {
   }
   finish(true);
   noteSpeed();
+  makeContactSheet();
   printProducts(makeAnimation());
+}
+
+/// The eleven stages of one step, a picture each.
+void renderStages(const RenderOptions& options) {
+  const Console console(options);
+  const Scene scene = loadScene(options, console);
+  const fs::path folder =
+      (options.folder.empty() ? fs::path("frames") / scene.name : fs::path(options.folder)) /
+      "stages";
+  FrameStyle style;
+  style.width = evenSize(options.width());
+  style.height = evenSize(options.height());
+  style.theme = options.theme;
+  style.transparent = options.transparent;
+  Recorder recorder(scene, options.mode);
+  while (recorder.world().steps() + 1 < *options.at) {
+    stopIfInterrupted();
+    recorder.skip();
+  }
+  const StepRecord record = recorder.record();
+  StagePictures pictures(scene, options.mode, style);
+  fs::create_directories(folder);
+  std::vector<Picture> cells;
+  for (std::size_t i = 0; i < kStages; ++i) {
+    const auto stage = static_cast<Stage>(i);
+    const fs::path file =
+        folder / fmt::format("step_{:06}_{:02}_{}.png", record.step, i + 1, name(stage));
+    const std::string text = pictures.save(&record, stage, file.string(), options.force);
+    console.detail(text);
+    if (options.contact_sheet) cells.push_back(shrunk(loadPng(file), kSheetCell));
+  }
+  if (options.contact_sheet) {
+    const fs::path file = folder / fmt::format("step_{:06}.png", record.step);
+    savePng(file, contactSheet(cells, options.contact_sheet->first, style.theme.background),
+            {.alpha = style.transparent,
+             .description = fmt::format("The eleven stages of step {}.", record.step)});
+    console.note(fmt::format("{} shows them all", file.string()));
+  }
+  if (options.json) {
+    const Json out{{"scene", scene.name},
+                   {"folder", folder.string()},
+                   {"step", record.step},
+                   {"written", kStages}};
+    return print(out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  }
+  print(folder.string() + "\n");
 }
 
 void render(const RenderOptions& options) {
   check(options);
   catchInterrupts();
+  if (options.stages) return renderStages(options);
   Rendering(options).run();
 }
 

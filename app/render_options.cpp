@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/simulation.h"
 #include "app/usage_error.h"
 #include "render/canvas.h"
 #include "src2d/core/error.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr int kLeastSide = 16;  // [px]
 constexpr int kMostFps = 1000;
+constexpr int kMostCells = 12;                   // of a contact sheet, along each side
 constexpr std::int64_t kMostFrames = 1'000'000;  // as many as their names have numbers
 
 constexpr std::array<Quality, 5> kQualities{{{'l', 854, 480, 15},
@@ -33,6 +35,20 @@ Quality readQuality(const std::string& text) {
       "--quality must be l (854x480, 15 frames per second), m (1280x720, 30), h (1920x1080, 60), "
       "p (2560x1440, 60) or k (3840x2160, 60), but is '{}'",
       text));
+}
+
+/// "4x3"
+std::pair<int, int> readGrid(const std::string& text) {
+  const std::size_t x = text.find('x');
+  if (x == std::string::npos) {
+    throw UsageError(
+        fmt::format("--contact-sheet must be COLUMNSxROWS, such as 4x3, but is '{}'", text));
+  }
+  const auto side = [](const char* name, const std::string& digits) {
+    const auto option = fmt::format("the number of {} in --contact-sheet", name);
+    return static_cast<int>(readInteger(option, digits, 1, kMostCells));
+  };
+  return {side("columns", text.substr(0, x)), side("rows", text.substr(x + 1))};
 }
 
 FrameRange readRange(const std::string& text) {
@@ -123,6 +139,20 @@ void addFileOptions(CLI::App& command, RenderOptions& options) {
       command, "--format", "FORMAT", [&](const std::string& s) { options.format = readFormat(s); },
       "png (default), or the frames and from them also an apng, gif or mp4")
       ->group(kGroup);
+  addOption(
+      command, "--contact-sheet", "CxR",
+      [&](const std::string& s) { options.contact_sheet = readGrid(s); },
+      "Also put so many columns and rows of frames into one picture, such as 4x3")
+      ->group(kGroup);
+  command
+      .add_flag("--stages", options.stages,
+                "Draw the eleven stages of one time step, instead of frames, into stages/")
+      ->group(kGroup);
+  addOption(
+      command, "--at", "STEP",
+      [&](const std::string& s) { options.at = readInteger("--at", s, 1, kMostSteps); },
+      "The time step whose stages are drawn: 1 is the first")
+      ->group(kGroup);
   command
       .add_flag("--resume", options.resume, "Keep the frames that an interrupted rendering left")
       ->group(kGroup);
@@ -158,6 +188,17 @@ void check(const RenderOptions& options) {
   if (options.last_only && options.format != Format::Png) {
     throw UsageError(fmt::format("--last-frame makes one picture, which cannot be an {}",
                                  nameOf(options.format)));
+  }
+  if (options.stages != options.at.has_value()) {
+    throw UsageError("--stages draws those of one time step: --stages --at STEP");
+  }
+  if (options.stages && (options.last_only || options.range || options.format != Format::Png)) {
+    throw UsageError(
+        "--stages draws pictures of one step; --last-frame, --frames and --format are "
+        "about frames");
+  }
+  if (options.last_only && options.contact_sheet) {
+    throw UsageError("--last-frame makes one picture, which needs no --contact-sheet");
   }
   if (options.transparent && options.format == Format::Mp4) {
     throw UsageError("an mp4 cannot be transparent; --format apng can");

@@ -37,6 +37,9 @@ struct RenderOptions : SceneOptions {
   std::optional<FrameRange> range;
   Format format = Format::Png;
   bool resume = false;
+  std::optional<std::pair<int, int>> contact_sheet;  ///< columns and rows
+  bool stages = false;             ///< draw the stages of one time step instead of frames
+  std::optional<std::int64_t> at;  ///< that step
 
   int width() const { return size ? size->first : quality.width; }
   int height() const { return size ? size->second : quality.height; }

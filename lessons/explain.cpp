@@ -45,7 +45,10 @@ class Explainer {
   Explainer(const Words& words, const Snapshot& after) : words_(words), after_(after) {}
 
   Explanation explain(Matter matter, std::vector<Decision> tests) const {
-    Explanation out{.a = tests.front().a, .b = tests.front().b, .tests = std::move(tests)};
+    Explanation out;
+    out.a = tests.front().a;
+    out.b = tests.front().b;
+    out.tests = std::move(tests);
     switch (matter) {
       case Matter::Impact:
         explainImpact(out);

@@ -70,5 +70,7 @@ std::vector<Count> countsOf(const Snapshot& snapshot, Mode mode);
 /// Title and numbers above the world; legend and scale bar below it.
 void drawCaption(Painter& painter, const FrameScene& scene);
 void drawFooter(Painter& painter, const FrameScene& scene);
+/// A round length in the footer, with its label to the left; returns where it starts [px].
+float drawScale(Painter& painter, const FrameScene& scene);
 
 }  // namespace merge2d

@@ -150,7 +150,8 @@ void drawLegend(Painter& painter, const FrameScene& scene, float right) {
   }
 }
 
-/// A round length with its label to the left; returns where it starts.
+}  // namespace
+
 float drawScale(Painter& painter, const FrameScene& scene) {
   const Layout& layout = scene.layout;
   const double length = roundLength(0.12 * double{layout.panel.width} / scene.view.scale);
@@ -169,8 +170,6 @@ float drawScale(Painter& painter, const FrameScene& scene) {
   painter.write(label, font, {text, y + 0.5F * painter.text().capHeight(font)}, scene.theme().ink);
   return text;
 }
-
-}  // namespace
 
 std::vector<Count> countsOf(const Snapshot& snapshot, Mode mode) {
   const Stats& s = snapshot.stats;

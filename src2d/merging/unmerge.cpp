@@ -225,7 +225,7 @@ class WeldTest {
   }
 
   /// Writes one test down if somebody asks.
-  void note(const Weld& weld, Decision test) {
+  void note(const Weld& weld, Decision test) const {
     if (!scratch_.notes) return;
     test.a = weld.a;
     test.b = weld.b;

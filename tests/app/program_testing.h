@@ -97,7 +97,7 @@ class ProgramTest : public testing::Test {
   pid_t start(const Words& arguments) const {
     const pid_t child = fork();
     if (child != 0) return child;
-    redirect(STDIN_FILENO, "/dev/null", O_RDONLY);
+    redirect(STDIN_FILENO, input_.empty() ? fs::path("/dev/null") : input_, O_RDONLY);
     redirect(STDOUT_FILENO, stdout_.empty() ? root_ / "out" : fs::path(stdout_), kWrite);
     redirect(STDERR_FILENO, root_ / "err", kWrite);
     for (const auto& [name, value] : environment_) {
@@ -123,6 +123,12 @@ class ProgramTest : public testing::Test {
 
   Outcome run(const Words& arguments) const { return wait(start(arguments)); }
 
+  /// What the runs that follow read from their standard input.
+  void sendInput(const std::string& text) {
+    input_ = root_ / "in";
+    std::ofstream(input_, std::ios::binary) << text;
+  }
+
   /// Sends the standard output of the runs that follow to a device instead.
   void sendOutputTo(const std::string& device) { stdout_ = device; }
 
@@ -136,6 +142,7 @@ class ProgramTest : public testing::Test {
 
   fs::path root_;
   std::map<std::string, std::string> environment_;
+  fs::path input_;
   std::string stdout_;
 };
 

@@ -1,0 +1,86 @@
+#include "app/stage_pictures.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "lessons/tables.h"
+#include "render/camera.h"
+#include "render/frame.h"
+#include "render/png.h"
+#include "src2d/core/error.h"
+
+namespace merge2d {
+namespace {
+
+constexpr Mode kReference = Mode::Reference;
+
+FrameStyle adapted(FrameStyle style, const World& start) {
+  style.mode = start.mode();
+  adaptToScene(style, start.scene(), start.capture(), start.bodies());
+  return style;
+}
+
+/// Somebody else's file stays.
+void requireOurs(const std::string& file, bool force) {
+  namespace fs = std::filesystem;
+  if (force || !fs::exists(file)) return;
+  if (fs::is_regular_file(file)) {
+    const auto bytes = readFileBytes(file);
+    if (bytes.empty() || inspectPng(bytes).complete) return;
+  }
+  throw IoError(
+      fmt::format("{} is there already and is no picture; say --force to replace it", file));
+}
+
+}  // namespace
+
+StageCaption captionOf(const StepRecord& record, Stage stage) {
+  return {purpose(stage), summary(record, stage)};
+}
+
+StagePictures::StagePictures(const Scene& scene, Mode mode, FrameStyle style)
+    : scene_(scene),
+      mode_(mode),
+      start_(scene, {.mode = mode, .timings = false}),
+      style_(adapted(std::move(style), start_)),
+      drawer_(start_.bodies(), style_) {}
+
+const Snapshot* StagePictures::reference(std::int64_t step) {
+  if (mode_ == kReference) return nullptr;
+  if (!reference_ || reference_->steps() > step) {
+    reference_.emplace(scene_, WorldOptions{.mode = kReference, .timings = false});
+  }
+  while (reference_->steps() < step) reference_->step();
+  reference_->capture(reference_state_);
+  return &reference_state_;
+}
+
+Camera StagePictures::cameraFor(const Snapshot& snapshot) const {
+  const Layout layout = layoutOf(style_.width, style_.height, Overlays::standard());
+  const Camera fit = fitCamera(snapshot, start_.bodies(),
+                               double{layout.panel.width} / double{layout.panel.height});
+  return fit.height < style_.camera.height ? fit : style_.camera;
+}
+
+std::string StagePictures::save(const StepRecord* record, Stage stage, const std::string& file,
+                                bool force) {
+  requireOurs(file, force);
+  if (record == nullptr) {
+    Canvas canvas(style_.width, style_.height);
+    const Snapshot initial = start_.capture();
+    const std::string text = describe(initial, style_);
+    savePng(file, drawFrame(canvas, initial, start_.bodies(), style_),
+            {.alpha = style_.transparent, .description = text});
+    return text;
+  }
+  drawer_.look(cameraFor(record->before));
+  const bool compare = stage == Stage::AdvanceVelocities;
+  const StageCaption caption = captionOf(*record, stage);
+  const std::string text = describeStage(*record, stage, caption, style_);
+  savePng(file, drawer_.draw(*record, stage, caption, compare ? reference(record->step) : nullptr),
+          {.alpha = style_.transparent, .description = text});
+  return text;
+}
+
+}  // namespace merge2d

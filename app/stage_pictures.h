@@ -1,0 +1,42 @@
+#pragma once
+/// Pictures of stages as files.
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "render/stage_frame.h"
+#include "src2d/world.h"
+
+namespace merge2d {
+
+/// What is told above a stage's picture.
+StageCaption captionOf(const StepRecord& record, Stage stage);
+
+/// Draws stages of one scene, in a picture of a fixed camera.
+class StagePictures {
+ public:
+  StagePictures(const Scene& scene, Mode mode, FrameStyle style = {});
+
+  /// Draws a stage, or without a record the state before the first step, into a file; returns what
+  /// it shows. A file that is no PNG is replaced only with `force`. Throws IoError.
+  std::string save(const StepRecord* record, Stage stage, const std::string& file, bool force);
+
+  const FrameStyle& style() const { return style_; }
+
+ private:
+  /// The scene's, or one that is nearer and shows all bodies.
+  Camera cameraFor(const Snapshot& snapshot) const;
+  /// The state of the unmerged run after a step; null when the run is that itself.
+  const Snapshot* reference(std::int64_t step);
+
+  Scene scene_;
+  Mode mode_;
+  World start_;  ///< before the first step
+  FrameStyle style_;
+  StageDrawer drawer_;
+  std::optional<World> reference_;
+  Snapshot reference_state_;
+};
+
+}  // namespace merge2d

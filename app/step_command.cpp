@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "app/line_editor.h"
+#include "app/simulation.h"
+#include "app/stage_pictures.h"
+#include "app/usage_error.h"
+#include "lessons/player.h"
+
+namespace merge2d {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  merge2d step books
+  printf 'event merge\ntable\nwhy\n' | merge2d step books
+  printf 'jump 20 Unmerge\npicture unmerge.png\n' | merge2d step tower-platform
+
+'help' lists the commands: by step, by stage of the algorithm, or to the next event, and back; tables, reasons, pictures.
+In a terminal the line can be edited, Tab completes, the arrow keys recall. From a pipe each line is a command, and is
+repeated in the output; the exit code is 2 when one was not understood.)";
+
+/// Lines from a pipe.
+int followScript(Player& player) {
+  int failed = 0;
+  for (std::string line; !player.done() && std::getline(std::cin, line);) {
+    print(player.prompt() + line + "\n");
+    const Answer answer = player.run(line);
+    print(answer.text);
+    failed += answer.ok ? 0 : 1;
+  }
+  return failed;
+}
+
+/// Lines from a person.
+void talk(Player& player) {
+  LineEditor editor([&player](const std::string& line) { return player.completions(line); });
+  while (!player.done()) {
+    flushOutput();
+    const std::optional<std::string> line = editor.read(player.prompt());
+    if (!line) break;
+    print(player.run(*line).text);
+  }
+}
+
+void step(const SceneOptions& options) {
+  check(options);
+  const Console console(options);
+  const Scene scene = loadScene(options, console);
+  StagePictures pictures(scene, options.mode);
+  Player player(scene, options.mode, stepCount(scene),
+                [&](const StepRecord* record, Stage stage, const std::string& file) {
+                  return pictures.save(record, stage, file, options.force);
+                });
+  print(player.greeting());
+  if (isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1) return talk(player);
+  const int failed = followScript(player);
+  if (failed > 0) {
+    throw UsageError(fmt::format("{} could not be done",
+                                 failed == 1 ? "a command" : fmt::format("{} commands", failed)));
+  }
+}
+
+}  // namespace
+
+void addStepCommand(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand(
+      "step", "Walk through a scene: by step, by stage of the algorithm, by event, and back");
+  command->footer(kExamples);
+  const auto options = std::make_shared<SceneOptions>();
+  addSceneOptions(*command, *options);
+  addGeneralOptions(*command, *options);
+  command->callback([&action, options] { action = [options] { step(*options); }; });
+}
+
+}  // namespace merge2d

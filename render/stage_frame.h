@@ -1,0 +1,47 @@
+#pragma once
+/// What one stage of Algorithm 1 did in one step, as a picture.
+
+#include <string>
+#include <vector>
+
+#include "render/canvas.h"
+#include "render/palette.h"
+#include "render/silhouette.h"
+#include "render/style.h"
+#include "src2d/trace/recorder.h"
+
+namespace merge2d {
+
+/// What is told above the picture of a stage, beside its number and name.
+struct StageCaption {
+  std::string purpose;  ///< what the stage does
+  std::string summary;  ///< what it did in this step
+};
+
+/// Draws stages of a run's steps; feed it with steps in order, so that colours stay.
+class StageDrawer {
+ public:
+  /// `bodies` must outlive the drawer.
+  StageDrawer(const std::vector<BodyInfo>& bodies, FrameStyle style);
+
+  /// What the following pictures show of the world.
+  void look(const Camera& camera) { style_.camera = camera; }
+
+  /// `reference`: the state of the unmerged run after the same step, for AdvanceVelocities; may be
+  /// null.
+  Picture draw(const StepRecord& record, Stage stage, const StageCaption& caption,
+               const Snapshot* reference = nullptr);
+
+ private:
+  const std::vector<BodyInfo>& bodies_;
+  FrameStyle style_;
+  BodyLooks looks_;
+  CollectionColors colors_;
+  Canvas canvas_;
+};
+
+/// What the picture shows, for those who cannot see it.
+std::string describeStage(const StepRecord& record, Stage stage, const StageCaption& caption,
+                          const FrameStyle& style);
+
+}  // namespace merge2d
