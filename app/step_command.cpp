@@ -42,7 +42,7 @@ void talk(Player& player) {
   while (!player.done()) {
     flushOutput();
     const std::optional<std::string> line = editor.read(player.prompt());
-    if (!line) break;
+    if (!line) return print("\n");
     print(player.run(*line).text);
   }
 }
