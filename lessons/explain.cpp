@@ -155,7 +155,8 @@ class Explainer {
       out.text = fmt::format("The weld of {} held {}. Nearest to its limit: {}.", who, atStep(),
                              nearest ? words_.test(*nearest) : "nothing");
     }
-    if (has(out.tests, "recheck") && out.outcome != Outcome::CameApart) {
+    const bool holds = out.outcome == Outcome::Held || out.outcome == Outcome::Loose;
+    if (holds && has(out.tests, "recheck")) {
       out.text += fmt::format(
           " After one sweep it looked as if it would end ({}); more sweeps did "
           "not confirm it.",
