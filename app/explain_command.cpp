@@ -64,10 +64,12 @@ std::pair<BodyId, BodyId> bodiesOf(const Words& words, const std::vector<std::st
 }
 
 Json jsonOf(const Decision& d) {
-  return {{"stage", d.stage},    {"criterion", d.criterion}, {"equation", d.equation},
-          {"value", d.value},    {"threshold", d.threshold}, {"margin", d.threshold - d.value},
-          {"before", d.before},  {"count", d.count},         {"needed", d.needed},
-          {"verdict", d.verdict}};
+  Json out{{"stage", d.stage},    {"criterion", d.criterion}, {"equation", d.equation},
+           {"value", d.value},    {"threshold", d.threshold}, {"margin", d.threshold - d.value},
+           {"before", d.before},  {"count", d.count},         {"needed", d.needed},
+           {"verdict", d.verdict}};
+  if (!d.at.isZero()) out["at"] = {d.at.x(), d.at.y()};  // of one contact
+  return out;
 }
 
 Json jsonOf(const Words& words, const Explanation& e) {

@@ -107,13 +107,14 @@ class StageTables {
   }
 
   std::string decisions(Stage stage) const {
-    TextTable table({"a", "b", "verdict", "count", "test"});
+    TextTable table({"a", "b", "verdict", "count", "at [m]", "test"});
     for (const Decision& d : record_[stage].after.decisions) {
       if (!filter_.wants(d.a, d.b)) continue;
       const bool calm = d.verdict == "keep" || d.verdict == "below" || d.verdict == "wait";
       const double ratio = d.threshold > 0.0 ? std::min(d.value / d.threshold, 10.0) : 0.0;
       const std::string count = d.needed > 0 ? fmt::format("{}/{}", d.count, d.needed) : "";
-      table.add({a(d.a), d.a == d.b ? "" : a(d.b), std::string(d.verdict), count, words_.test(d)},
+      table.add({a(d.a), d.a == d.b ? "" : a(d.b), std::string(d.verdict), count,
+                 d.at.isZero() ? "" : place(d.at), words_.test(d)},
                 (calm ? 0.0 : 20.0) + ratio);
     }
     return table.text(filter_.most);

@@ -26,8 +26,8 @@ std::string distance(double value, double threshold) {
   if (value == 0.0 || threshold <= 0.0) return "";
   const double ratio = value / threshold;
   if (ratio >= 1000.0) return "more than 1000 times; ";
-  if (ratio >= 100.0) return fmt::format("{:.0f} times; ", ratio);
-  if (ratio > 1.0) return fmt::format("{:.{}f} times; ", ratio, ratio < 1.05 ? 3 : 1);
+  if (ratio > 1.0)
+    return fmt::format("{:.{}f} times; ", ratio, ratio < 1.05 ? 3 : ratio < 10.0 ? 1 : 0);
   if (ratio < 0.001) return "less than a thousandth; ";
   return fmt::format("{:.{}f} %; ", 100.0 * ratio, ratio < 0.1 ? 1 : 0);
 }
@@ -92,7 +92,7 @@ std::string edge(const Decision& d) {
 std::string cycle(const Decision& d) {
   if (d.stage == "Unmerge") {
     return fmt::format(
-        "its own {} held, but the group that it needs to be rigid came apart "
+        "{} of its own held, but the group that it needs to be rigid came apart "
         "(Section 8.2)",
         contacts(d.value));
   }
