@@ -4,6 +4,7 @@
 
 #include "src2d/dynamics/setup.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/sleep.h"
 #include "src2d/merging/unmerge.h"
 
 namespace merge2d {
@@ -85,6 +86,10 @@ void beginStep(State& state, Actions& actions, Scratch& scratch) {
   moveScripted(state, actions);
   listLoads(state, actions, scratch);
   listKicks(state, actions, scratch);
+  // What is about to be struck looks ahead for contacts already in this step.
+  for (const Kick& kick : scratch.kicks) {
+    if (state.rigid(kick.body).asleep) wakeUp(state, scratch, state[kick.body].rigid);
+  }
 }
 
 }  // namespace merge2d

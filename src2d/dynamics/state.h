@@ -5,7 +5,6 @@
 #include <compare>
 #include <cstdint>
 #include <memory>
-#include <random>
 #include <vector>
 
 #include "src2d/core/ids.h"
@@ -161,8 +160,9 @@ struct InternalContact {
   Contact contact;                  ///< positions and normal in the collection's frame
   bool active[2] = {false, false};  ///< has carried a force, so that its loss is a break
   bool lost[2] = {false, false};    ///< has opened since
-  Drift slip[2];     ///< along the tangent, over consecutive steps on the edge of the cone
-  Drift opening[2];  ///< along the normal, over consecutive steps without a force
+  Drift slip[2];           ///< along the tangent, over consecutive steps on the edge of the cone
+  Drift opening[2];        ///< along the normal, over consecutive steps without a force
+  std::int64_t since = 0;  ///< step of the merge that brought it in
 };
 
 /// A pair of bodies held together: a run of Collection::contacts.
@@ -321,7 +321,7 @@ struct Scratch {
   std::vector<NearPair> near_candidates;
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
 
-  // ContactOrdering: breadth-first distance of each contact from what is new
+  // ContactOrdering: where something new enters
   std::vector<std::uint32_t> seeds;  ///< bodies
 
   // SleepAndWake
@@ -330,6 +330,7 @@ struct Scratch {
 
   // SingleIterationPGS
   bool sweeping = false;                ///< some collection is swept
+  std::int64_t last_sweep = -1;         ///< step whose velocities are in sweep_u
   std::vector<SolverVelocity> sweep_u;  ///< per body
   std::vector<Twist> sweep_before;      ///< per member
   std::vector<SweepContact> sweep_contacts;

@@ -194,6 +194,7 @@ void absorbContacts(State& state) {
 
     InternalContact inner;
     inner.contact = contact;
+    inner.since = state.step;
     const Pose from_a = state[id].frame().inverse() * state.pose(contact.key.a);
     inner.contact.normal = from_a.rotation * contact.normal;
     for (int i = 0; i < contact.count; ++i) {

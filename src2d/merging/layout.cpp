@@ -152,7 +152,9 @@ void layOutBlocks(const State& state, Collection& c) {
   c.pivots_stale = true;
   c.active_blocks = 0;
   for (const Item& item : items) {
-    c.blocks.push_back(makeBlock(state, c, c.contacts[item.contact]));
+    InternalContact& inner = c.contacts[item.contact];
+    c.blocks.push_back(makeBlock(state, c, inner));
+    inner.contact.count = c.blocks.back().count;  // points too close to each other count as one
     c.block_contact.push_back(item.contact);
     c.block_weld.push_back(weld_of[item.contact]);
     if (!item.dormant) ++c.active_blocks;

@@ -78,7 +78,7 @@ void releaseContacts(State& state, std::vector<InternalContact>& released) {
     Contact& contact = state.contacts[*at];
     contact = inner.contact;
     contact.quiet_steps = 0;
-    updateManifold(state, contact);
+    updateManifold(state, contact, 0.0);
   }
 }
 

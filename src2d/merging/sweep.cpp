@@ -447,6 +447,7 @@ void warmStartSweep(State& state, Scratch& scratch) {
                                [&](const Collection& c) { return isSwept(state, c); });
   scratch.sweeping = any;
   if (!any) return;
+  scratch.last_sweep = state.step;
   scratch.sweep_u.resize(state.bodies.size());
   startOthers(state, scratch);
   for (const Collection& c : state.collections) {

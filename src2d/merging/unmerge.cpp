@@ -88,7 +88,7 @@ class WeldTest {
         at_ = state_[c_.rigid].frame() * inner.contact.points[static_cast<std::size_t>(i)].position;
       }
       if (edge || !pressed) {
-        const ContactVelocity w = lookAtPoint(k, inner.contact, i);
+        const ContactVelocity w = velocityAt(k, i);
         if (!pressed && inner.active[i]) inner.lost[i] = testBroken(weld, inner.opening[i], w.n);
         if (edge) testSliding(weld, inner.slip[i], w.t);
       }
@@ -100,13 +100,9 @@ class WeldTest {
   }
 
   /// Velocity at a point after the sweep.
-  ContactVelocity lookAtPoint(const ContactBlock& k, Contact& contact, int i) {
+  ContactVelocity velocityAt(const ContactBlock& k, int i) const {
     const double nx = turn_.c * k.nx - turn_.s * k.ny, ny = turn_.s * k.nx + turn_.c * k.ny;
-    const ContactVelocity w =
-        contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
-    contact.points[static_cast<std::size_t>(i)].w_n = static_cast<float>(w.n);
-    contact.points[static_cast<std::size_t>(i)].w_t = static_cast<float>(w.t);
-    return w;
+    return contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
   }
 
   /// Adds to what was summed. Evidence that more sweeps do not confirm is forgotten.
@@ -259,6 +255,27 @@ struct Parts {
   std::vector<std::uint8_t> anchored;  ///< per part
 };
 
+/// True when all members hang together, or each on the frame, by welds with two contacts alone: a
+/// quick answer that is right most times.
+bool hangsTogether(const State& state, const Collection& c, DisjointSets& sets) {
+  const auto node = [&](BodyId b) {
+    return state[b].rigid == c.rigid ? static_cast<std::uint32_t>(memberIndex(c, b)) + 1 : 0u;
+  };
+  sets.reset(c.members.size() + 1);
+  std::size_t joined = 0;
+  bool on_frame = state[c.rigid].floating();
+  for (const Weld& weld : c.welds) {
+    if (weld.cut || activeContacts(c, weld) < 2) continue;
+    const std::uint32_t a = node(weld.a), b = node(weld.b);
+    if (a == 0 || b == 0) {
+      on_frame = true;
+    } else {
+      joined += sets.unite(a, b) ? 1 : 0;
+    }
+  }
+  return on_frame && joined + 1 == c.members.size();
+}
+
 Parts partsWithoutCuts(const State& state, const Collection& c) {
   const auto node = [&](BodyId b) {
     return state[b].rigid == c.rigid ? static_cast<std::uint32_t>(memberIndex(c, b)) + 1 : 0u;
@@ -361,6 +378,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   // Broken welds that do not part the graph are found again in each step: look anew only when
   // there is one more.
   if (!newCut(c, scratch) && !test.contactOpened()) return;
+  if (hangsTogether(state, c, scratch.sets)) return;
   Parts parts = partsWithoutCuts(state, c);
   if (!fallsApart(state, c, parts)) return;
   const UnmergingSettings& settings = state.settings.unmerging;
