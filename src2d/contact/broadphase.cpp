@@ -130,7 +130,7 @@ void updateNearPairs(State& state, Scratch& scratch) {
 /// after coming nearer by `ahead` [m].
 void pairShapes(State& state, Scratch& scratch, RigidId host, RigidId guest, double ahead) {
   const double reach = 2.0 * kNear + ahead;
-  const Pose relative = state[host].frame().inverse() * state[guest].frame();
+  const Pose relative = state[host].frame().toLocal(state[guest].frame());
   const auto& host_tree = *state.broadphase.shape_trees[index(host)];
   const auto add = [&](std::uint32_t shape_host, std::uint32_t shape_guest) {
     if (bodiesCollide(state, state.shape_body[shape_host], state.shape_body[shape_guest])) {
@@ -157,7 +157,7 @@ void refineNearPairs(State& state, Scratch& scratch) {
     const bool a_hosts = hasShapeTree(state, p.a);
     const RigidId host = a_hosts ? p.a : p.b, guest = a_hosts ? p.b : p.a;
     const auto corners =
-        cornersSeenFrom(state[host].frame().inverse() * state[guest].frame(), state[guest].bounds);
+        cornersSeenFrom(state[host].frame().toLocal(state[guest].frame()), state[guest].bounds);
     const double ahead = approach(state, scratch, p.a, p.b);
     bool moved = p.fresh || ahead > kNear;
     for (std::size_t k = 0; k < 4 && !moved; ++k) {

@@ -4,6 +4,7 @@
 
 #include "src2d/contact/approach.h"
 #include "src2d/contact/broadphase.h"
+#include "src2d/contact/internal_edges.h"
 
 namespace merge2d {
 namespace {
@@ -58,7 +59,7 @@ bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
 }  // namespace
 
 void updateManifold(const State& state, Contact& contact, double ahead) {
-  const Pose b_in_a = state.pose(contact.key.a).inverse() * state.pose(contact.key.b);
+  const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
   const double margin = std::max(state.settings.solver.margin, ahead);
   const Collider& a = state.collider(contact.key.shape_a);
   const Collider& b = state.collider(contact.key.shape_b);
@@ -79,6 +80,7 @@ void updateManifold(const State& state, Contact& contact, double ahead) {
     inherit(point, old);
     contact.points[i] = point;
   }
+  dropInternalEdges(state, b_in_a, contact);
 }
 
 void collectPairs(const State& state, Scratch& scratch) {

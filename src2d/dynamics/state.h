@@ -52,7 +52,7 @@ struct Rigid {
 
   bool present() const { return leaf >= 0; }
   bool floating() const { return anchor == kFloating; }
-  Pose frame() const { return {x - rotation * center, rotation}; }
+  Pose frame() const { return {x - onGrid(rotation * center), rotation}; }
   Vec2 velocityAt(const Vec2& p) const { return v + cross(omega, p - x); }
 };
 
@@ -216,6 +216,8 @@ struct State {
   std::vector<Aabb> collider_bounds;          ///< in the body frame
   std::vector<std::uint32_t> shape_collider;  ///< per shape of a body: which of them it is
   std::vector<BodyId> shape_body;             ///< per shape: whose it is
+  std::vector<std::uint32_t> first_sibling;   ///< per shape: its run of `siblings`, and the end
+  std::vector<std::uint32_t> siblings;        ///< shapes of the same body that touch it
 
   // what moves
   std::int64_t step = 0;
