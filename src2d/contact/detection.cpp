@@ -65,7 +65,7 @@ void updateManifold(const State& state, Contact& contact, double ahead) {
   const Collider& b = state.collider(contact.key.shape_b);
   if (boxesApart(state.bounds(contact.key.shape_a), state.bounds(contact.key.shape_b), b_in_a,
                  margin)) {
-    contact.count = 0;
+    contact.count = contact.quiet_steps = 0;
     return;
   }
   const Manifold manifold = collide(a, b, b_in_a, margin);
@@ -81,6 +81,7 @@ void updateManifold(const State& state, Contact& contact, double ahead) {
     contact.points[i] = point;
   }
   dropInternalEdges(state, b_in_a, contact);
+  if (contact.count == 0) contact.quiet_steps = 0;
 }
 
 void collectPairs(const State& state, Scratch& scratch) {
