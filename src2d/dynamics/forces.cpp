@@ -114,7 +114,10 @@ void listLoads(State& state, Actions& actions, Scratch& scratch) {
   const double middle = state.time + 0.5 * state.h;
   for (const ForceDesc& f : actions.forces) {
     const BodyId body{static_cast<std::uint32_t>(f.body)};
-    if (middle < f.from || middle >= f.until || !state[body].alive) continue;
+    if (!state[body].alive) continue;
+    const auto acts = [&](double time) { return time >= f.from && time < f.until; };
+    if (acts(middle) != acts(middle - state.h)) scratch.stirred.push_back(body);
+    if (!acts(middle)) continue;
     scratch.loads.push_back(loadAt(state, body, state.pose(body) * f.at, f.force));
   }
 }

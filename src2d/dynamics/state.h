@@ -326,8 +326,11 @@ struct Scratch {
   // ContactOrdering: where something new enters
   std::vector<std::uint32_t> seeds;  ///< bodies
 
+  /// Bodies for which something is new in this step that is no contact and no impulse: a force
+  /// begins or ends, a magnet is switched, a pin is drawn.
+  std::vector<BodyId> stirred;
+
   // SleepAndWake
-  std::vector<BodyId> woken;                         ///< to be kept awake in this step
   std::vector<std::uint8_t> restless, island_awake;  ///< per rigid
 
   // SingleIterationPGS

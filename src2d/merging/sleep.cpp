@@ -20,7 +20,7 @@ void markRestless(State& state, Scratch& scratch, std::vector<std::uint8_t>& res
   restless.assign(state.rigids.size(), 0);
   const auto mark = [&](BodyId b) { restless[index(state[b].rigid)] = 1; };
   for (const Kick& kick : scratch.kicks) mark(kick.body);
-  for (const BodyId b : scratch.woken) mark(b);
+  for (const BodyId b : scratch.stirred) mark(b);
   for (const Load& load : scratch.loads) {
     const Body& body = state[load.body];
     const double change = (body.load - body.load_asleep).norm();
@@ -144,7 +144,6 @@ void sleepAndWake(State& state, Scratch& scratch) {
     }
     if (!state.rigids[i].asleep && !stays_awake) fallAsleep(state, scratch, i);
   }
-  scratch.woken.clear();
 }
 
 }  // namespace merge2d

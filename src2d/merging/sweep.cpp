@@ -409,6 +409,7 @@ void orderContacts(State& state, Scratch& scratch) {
     }
   }
   for (const Kick& kick : scratch.kicks) seed(kick.body);
+  for (const BodyId b : scratch.stirred) seed(b);
   for (const BodyPair& pair : scratch.pairs) {
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
       const Contact& contact = state.contacts[state.contacts.order[i]];

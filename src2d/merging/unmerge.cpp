@@ -33,6 +33,7 @@ class WeldTest {
         scratch_(scratch),
         c_(c),
         turn_(state[c.rigid].rotation),
+        disturbed_(disturbed),
         whole_(disturbed) {}
 
   /// Adds this step's evidence to what was summed, and cuts the welds whose sum is too large. Only
@@ -47,6 +48,7 @@ class WeldTest {
       testLost(c_.welds[pivot]);
       testMotion(c_.welds[pivot]);
     }
+    if (growing_) c_.settled = false;  // what is about to part does not fall asleep
   }
 
   bool contactOpened() const { return opened_; }
@@ -106,13 +108,14 @@ class WeldTest {
   }
 
   /// Adds to what was summed. Evidence that more sweeps do not confirm is forgotten.
-  Evidence weigh(Drift& drift, double w, double threshold) const {
+  Evidence weigh(Drift& drift, double w, double threshold) {
     if (confirming_) {
       if (std::abs(w) < residualVelocity(state_)) w = 0.0;
       drift.sum = static_cast<float>(w * std::max(drift.steps, 1));
     } else {
       drift.sum += static_cast<float>(w);
       drift.steps += 1;
+      growing_ |= std::abs(w) > residualVelocity(state_);
     }
     const double sum = std::abs(drift.sum);
     const Evidence found{sum, drift.steps, sum > threshold};
@@ -123,7 +126,7 @@ class WeldTest {
   /// True when the contact has opened.
   bool testBroken(std::uint32_t weld, Drift& opening, double w_n) {
     const bool literal = rule() == Rule::Paper;
-    const double threshold = literal ? 0.0 : state_.settings.unmerging.sliding;
+    const double threshold = literal ? 0.0 : openingThreshold();
     const Evidence found = weigh(opening, std::max(0.0, w_n), threshold);
     const bool lost = found.exceeds || literal;
     note(c_.welds[weld], {.criterion = "opening",
@@ -150,6 +153,13 @@ class WeldTest {
                 .value = static_cast<double>(held),
                 .threshold = 1.0,
                 .verdict = held == 0 ? "unmerge" : "keep"});
+  }
+
+  /// How much may open. Where something new entered, the sweeps have converged, and less will do.
+  double openingThreshold() const {
+    constexpr double kBeyondResidual = 5.0;
+    const double sliding = state_.settings.unmerging.sliding;
+    return disturbed_ ? std::min(sliding, kBeyondResidual * residualVelocity(state_)) : sliding;
   }
 
   bool hadContact(const Weld& weld) const {
@@ -243,7 +253,9 @@ class WeldTest {
   Collection& c_;
   Rotation turn_;
   bool confirming_ = false;
+  bool growing_ = false;    ///< some sum did grow in this step
   bool opened_ = false;     ///< some contact was lost that held before
+  bool disturbed_ = false;  ///< something new entered in this step: the sweeps have converged
   bool whole_ = false;      ///< dormant contacts were swept too
   Vec2 at_ = Vec2::Zero();  ///< the contact point at hand, for the notes
 };

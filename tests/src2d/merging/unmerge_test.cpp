@@ -310,6 +310,36 @@ on = [[0, 3]]
   }
 }
 
+// ---- forces ----
+
+/// The step in which a tall box on the ground leaves its collection when it is pushed from 1 s on.
+int stepOfTipping(Mode mode, double push) {
+  Simulation run(kGround + R"(
+[[body]]
+name = "box"
+at = [0, 1]
+box = [0.5, 2]
+[[force]]
+body = "box"
+at = [-0.25, 1]
+from = 1
+force = [)" + std::to_string(push) +
+                     ", 0]\n",
+                 mode);
+  for (int step = 1; step <= 400; ++step) {
+    run.steps(1);
+    if (step >= 100 && !run.merged("box")) return step;
+  }
+  return -1;
+}
+
+TEST(Unmerge, APushThatTipsABoxIsFeltInTheStepInWhichItBegins) {
+  for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {  // it takes 1.23 N
+    EXPECT_EQ(stepOfTipping(mode, 1.35), 101) << name(mode);
+    EXPECT_EQ(stepOfTipping(mode, 1.1), -1) << name(mode);
+  }
+}
+
 // ---- impacts ----
 
 int movedByBall(Mode mode, const Vec2& velocity, double height) {
