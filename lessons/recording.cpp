@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "src2d/dynamics/state.h"
 #include "src2d/world.h"
 
 namespace merge2d {
@@ -132,6 +133,56 @@ class Recorder {
       decision_of_;
 };
 
+/// Momentum and energy before and after the stages that join and part bodies.
+class Ledger : public Observer {
+ public:
+  explicit Ledger(std::vector<LedgerEntry>& out) : out_(out) {}
+
+  void afterStage(Stage stage, const State& state, const Scratch& scratch) override {
+    if (stage != Stage::Unmerge && stage != Stage::Merge) {
+      events_ = scratch.events.size();
+      const bool needed = stage == Stage::SingleIterationPGS || stage == Stage::AdvancePositions;
+      if (needed) before_ = sums(state);
+      return;
+    }
+    const auto changes = [](const Event& e) {
+      return e.type == EventType::Merge || e.type == EventType::Unmerge;
+    };
+    const auto first = scratch.events.begin() + static_cast<std::ptrdiff_t>(events_);
+    if (std::any_of(first, scratch.events.end(), changes)) {
+      LedgerEntry entry{
+          .step = state.step + 1, .stage = stage, .before = before_, .after = sums(state)};
+      for (const Collection& c : state.collections) {
+        entry.anchored |= c.id != kNoCollection && !state[c.rigid].floating();
+      }
+      out_.push_back(entry);
+    }
+    events_ = scratch.events.size();
+  }
+
+ private:
+  static LedgerEntry::Sums sums(const State& state) {
+    LedgerEntry::Sums s;
+    for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
+      const BodyId id{i};
+      const Body& body = state[id];
+      const bool alone = body.rigid == rigidOf(id);
+      if (!body.alive || (alone && !state[body.rigid].floating())) continue;
+      const Vec2 x = state.pose(id).position, v = state.rigid(id).velocityAt(x);
+      const double omega = state.rigid(id).omega;
+      s.px += body.mass * v.x();
+      s.py += body.mass * v.y();
+      s.angular += body.inertia * omega + body.mass * cross(x, v);
+      s.kinetic += 0.5 * (body.mass * v.squaredNorm() + body.inertia * omega * omega);
+    }
+    return s;
+  }
+
+  std::vector<LedgerEntry>& out_;
+  LedgerEntry::Sums before_;
+  std::size_t events_ = 0;
+};
+
 }  // namespace
 
 Recording record(const Scene& scene, const RecordOptions& options) {
@@ -143,6 +194,8 @@ Recording record(const Scene& scene, const RecordOptions& options) {
   out.detail = options.detail;
   out.bodies = world.bodies();
   Recorder recorder(out);
+  Ledger ledger(out.ledger);
+  world.observe(&ledger);
   Snapshot snapshot;
   world.capture(snapshot);
   recorder.add(snapshot);

@@ -356,6 +356,13 @@ export class Picture {
     this.focusMark.setAttribute('d', d);
   }
 
+  /** Marks bodies as chosen or right. */
+  show(marks: Map<number, string> = new Map()): void {
+    for (const [i, node] of this.bodies.entries()) {
+      for (const look of ['chosen', 'right']) node.classList.toggle(look, marks.get(i) === look);
+    }
+  }
+
   private drawLabels(state: State, posed: number, grouped: Int32Array): void {
     this.labels.replaceChildren();
     if (!state.layers.has('labels')) return;
