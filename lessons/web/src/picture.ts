@@ -85,10 +85,10 @@ export class Picture {
     const masses = trace.head.bodies.filter((b) => b.motion === 'dynamic').map((b) => b.mass).sort((a, b) => a - b);
     const typical = masses.length > 0 ? masses[masses.length >> 1] : 1;
     const size = Math.sqrt(kWidth * kHeight) / 16;
-    this.forceScale = (0.9 * size) / (typical * g);
     this.velocityScale = size;
     const widths = trace.head.bodies.filter((b) => b.motion === 'dynamic').map(thinnest).sort((a, b) => a - b);
     const width = widths.length > 0 ? widths[widths.length >> 1] * this.view.scale : 40;
+    this.forceScale = Math.max(0.9 * size, Math.min(2.5 * size, width)) / (typical * g);
     this.mark = Math.max(2, Math.min(5, 0.16 * width));
     this.root = svg('svg', {
       viewBox: `0 0 ${kWidth} ${kHeight}`, class: interactive ? 'picture interactive' : 'picture', role: 'img', 'aria-label': trace.head.title,
