@@ -97,7 +97,12 @@ class Recorder {
     return out_.contacts[at->second];
   }
 
-  void addDecision(std::int64_t step, const Decision& d) {
+  /// The edge of the cone moves with the force: friction is kept as its part of what it may be.
+  void addDecision(std::int64_t step, Decision d) {
+    if (d.criterion == "cone") {
+      d.value = d.threshold > 0.0 ? std::abs(d.value) / d.threshold : 0.0;
+      d.threshold = 1.0;
+    }
     const auto key =
         std::tuple{index(d.a), index(d.b), std::string(d.stage), std::string(d.criterion)};
     const auto [at, added] = decision_of_.try_emplace(key, out_.decisions.size());

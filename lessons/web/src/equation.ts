@@ -75,7 +75,7 @@ function line(state: State): Line | null {
       if (!c) return { symbols, numbers: null, note: 'Eqs. (4)–(7). Nothing touches now.' };
       return {
         symbols,
-        numbers: row(sub('w', 'n'), mo('='), mn(c.wN), text(' m/s,'), sub('λ', 'n'), mo('='), mn(c.lambdaN), text(' N s,'), mo('|'), mn(c.lambdaT), mo('|'), mo(Math.abs(c.lambdaT) <= c.mu * c.lambdaN * (1 + 1e-3) ? '≤' : '>'), mn(c.mu), mo('·'), mn(c.lambdaN), mo('='), mn(c.mu * c.lambdaN), text(' N s')),
+        numbers: row(sub('w', 'n'), mo('='), mn(c.wN), text('\u2009m/s,\u2002'), sub('λ', 'n'), mo('='), mn(c.lambdaN), text('\u2009N\u2009s,\u2002'), mo('|'), mn(c.lambdaT), mo('|'), mo(Math.abs(c.lambdaT) <= c.mu * c.lambdaN * (1 + 1e-3) ? '≤' : '>'), mn(c.mu), mo('·'), mn(c.lambdaN), mo('='), mn(c.mu * c.lambdaN), text('\u2009N\u2009s')),
         note: `Eqs. (4)–(7), for ${between(state, c)}${c.internal ? ', inside a collection' : ''}.`,
       };
     }
@@ -83,12 +83,12 @@ function line(state: State): Line | null {
     case 'SleepAndWake': {
       const d = decisionMeant(state, ['rest'], 'AccumulateRelativeMotion');
       const symbols = row(math('msubsup', mi('v'), mi('rel'), mi('max')), mo('<'), sub('ε', 'sleep'));
-      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(Math.abs(d.value) < d.threshold ? '<' : '≥'), mn(d.threshold), text(' m/s')) : null, note: d ? `Section 7, for ${trace.name(d.a)}: against the world.` : 'Section 7: the same measure, against the world.' };
+      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(Math.abs(d.value) < d.threshold ? '<' : '≥'), mn(d.threshold), text('\u2009m/s')) : null, note: d ? `Section 7, for ${trace.name(d.a)}: against the world.` : 'Section 7: the same measure, against the world.' };
     }
     case 'Unmerge': {
-      const d = decisionMeant(state, ['sliding', 'relative-motion', 'opening'], 'Unmerge');
-      const symbols = row(mo('|'), sub('w', 't'), mo('|'), mo('>'), mi('ε'), text(' and '), mo('|'), sub('λ', 't'), mo('|'), mo('='), mi('μ'), sub('λ', 'n'));
-      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(Math.abs(d.value) > d.threshold ? '>' : '≤'), mn(d.threshold), text(' m/s')) : null, note: d ? `${d.criterion.criterion}, ${d.criterion.equation.startsWith('(') ? `Eq. ${d.criterion.equation}` : d.criterion.equation}, for ${between(state, d)}: the weld ${d.passed ? 'holds' : 'is cut'}.` : 'Eqs. (19), (20): a weld is cut when its contact slides, breaks, or moves as a pivot. There is no weld here.' };
+      const d = decisionMeant(state, ['sliding', 'relative-motion', 'opening', 'cone'], 'Unmerge');
+      const symbols = row(mo('|'), sub('w', 't'), mo('|'), mo('>'), mi('ε'), text('\u2002and\u2002'), mo('|'), sub('λ', 't'), mo('|'), mo('='), mi('μ'), sub('λ', 'n'));
+      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(Math.abs(d.value) > d.threshold ? '>' : '≤'), mn(d.threshold), text(d.criterion.criterion === 'cone' ? '\u2002of the cone' : '\u2009m/s')) : null, note: d ? `${d.criterion.criterion}, ${d.criterion.equation.startsWith('(') ? `Eq. ${d.criterion.equation}` : d.criterion.equation}, for ${between(state, d)}: the weld ${d.passed ? 'holds' : 'is cut'}.` : 'Eqs. (19), (20): a weld is cut when its contact slides, breaks, or moves as a pivot. There is no weld here.' };
     }
     case 'AdvanceVelocities': {
       const symbols = row(sub('u', '+'), mo('='), sub('u', '−'), mo('+'), mi('h'), math('msup', mi('M'), row(mo('−'), mn(1))), mi('f'), mo('+'), mi('h'), math('msup', mi('M'), row(mo('−'), mn(1))), math('msup', mi('J'), mi('T')), mi('λ'));
@@ -98,14 +98,14 @@ function line(state: State): Line | null {
       const g = hh * trace.head.gravity[1];
       return {
         symbols,
-        numbers: row(mn(is.vy), mo('='), mn(was.vy), mo('+'), mo('('), mn(g), mo(')'), mo('+'), mo('('), mn(is.vy - was.vy - g), mo(')'), text(' m/s')),
+        numbers: row(mn(is.vy), mo('='), mn(was.vy), mo('+'), mo('('), mn(g), mo(')'), mo('+'), mo('('), mn(is.vy - was.vy - g), mo(')'), text('\u2009m/s')),
         note: `Eq. (8), upwards, for ${trace.name(b)}: before, by gravity, by all the rest.`,
       };
     }
     case 'AccumulateRelativeMotion': {
       const d = decisionMeant(state, ['relative-motion'], 'AccumulateRelativeMotion');
       const symbols = row(math('msubsup', mi('v'), mi('rel'), mi('max')), mo('='), math('munder', mo('max'), row(mi('p'), mo('∈'), text('OBBs'))), mo('|'), sub('v', 'rel'), mo('('), mi('p'), mo(')'), mo('|'), mo('<'), mi('ε'));
-      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(d.passed ? '<' : '≥'), mn(d.threshold), text(' m/s')) : null, note: d ? `Eqs. (15)–(17), for ${between(state, d)}: ${d.passed ? `calm; ${d.count} of ${d.needed} steps` : 'too fast; the count starts again'}.` : 'Eqs. (15)–(17). No free pair is in contact now.' };
+      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(d.passed ? '<' : '≥'), mn(d.threshold), text('\u2009m/s')) : null, note: d ? `Eqs. (15)–(17), for ${between(state, d)}: ${d.passed ? `calm; ${d.count} of ${d.needed} steps` : 'too fast; the count starts again'}.` : 'Eqs. (15)–(17). No free pair is in contact now.' };
     }
     case 'AdvancePositions': {
       const symbols = row(sub('x', '+'), mo('='), sub('x', '−'), mo('+'), mi('h'), sub('v', '+'));
@@ -113,7 +113,7 @@ function line(state: State): Line | null {
       if (b < 0 || step === 0) return { symbols, numbers: null, note: '' };
       const v = trace.velocity(b, step);
       const [was, is] = [trace.pose(b, step - 1), trace.pose(b, step)];
-      return { symbols, numbers: row(mn(is.y), mo('='), mn(was.y), mo('+'), mn(hh), mo('·'), mo('('), mn(v.vy), mo(')'), text(' m')), note: `Upwards, for ${trace.name(b)}.` };
+      return { symbols, numbers: row(mn(is.y), mo('='), mn(was.y), mo('+'), mn(hh), mo('·'), mo('('), mn(v.vy), mo(')'), text('\u2009m')), note: `Upwards, for ${trace.name(b)}.` };
     }
     default: {
       const merged = (trace.eventsAt.get(step) ?? []).find((e) => e[1] === 'merge');
@@ -122,7 +122,7 @@ function line(state: State): Line | null {
       const members = trace.members(merged[4], step);
       const mass = members.reduce((sum, b) => sum + trace.head.bodies[b].mass, 0);
       const v = (axis: 'vx' | 'vy') => members.reduce((sum, b) => sum + trace.head.bodies[b].mass * trace.velocity(b, step)[axis], 0) / mass;
-      return { symbols, numbers: row(sub('v', 'c'), mo('='), mo('('), mn(v('vx')), mo(','), mn(v('vy')), mo(')'), text(' m/s,'), sub('m', 'c'), mo('='), mn(mass), text(' kg')), note: `Eqs. (10)–(14): C${merged[4]} has ${members.length} ${members.length === 1 ? 'body' : 'bodies'} now.` };
+      return { symbols, numbers: row(sub('v', 'c'), mo('='), mo('('), mn(v('vx')), mo(','), mn(v('vy')), mo(')'), text('\u2009m/s,\u2002'), sub('m', 'c'), mo('='), mn(mass), text('\u2009kg')), note: `Eqs. (10)–(14): C${merged[4]} has ${members.length} ${members.length === 1 ? 'body' : 'bodies'} now.` };
     }
   }
 }

@@ -24,6 +24,8 @@ export class View {
   }
 }
 
+let pictures = 0;
+
 const fixed = (value: number): string => value.toFixed(1);
 
 /** The pieces of a body as one path, in units about its centre of mass. */
@@ -88,12 +90,17 @@ export class Picture {
     this.velocityScale = size;
     const widths = trace.head.bodies.filter((b) => b.motion === 'dynamic').map(thinnest).sort((a, b) => a - b);
     const width = widths.length > 0 ? widths[widths.length >> 1] * this.view.scale : 40;
-    this.forceScale = Math.max(0.9 * size, Math.min(2.5 * size, width)) / (typical * g);
+    // As long as a body's width for its weight, but no arrow much longer than a fifth of the picture.
+    this.forceScale = Math.min(Math.max(0.9 * size, Math.min(2.5 * size, width)) / (typical * g),
+      (0.2 * kHeight) / Math.max(1e-9, strongForce(trace)));
     this.mark = Math.max(2, Math.min(5, 0.16 * width));
     this.root = svg('svg', {
       viewBox: `0 0 ${kWidth} ${kHeight}`, class: interactive ? 'picture interactive' : 'picture', role: 'img', 'aria-label': trace.head.title,
     });
-    const hatch = svg('pattern', { id: 'hatch', width: 8, height: 8, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)' },
+    // Each picture its own: what is hidden lends no pattern to what is shown.
+    const id = `hatch-${++pictures}`;
+    this.root.style.setProperty('--fixed-fill', `url(#${id})`);
+    const hatch = svg('pattern', { id, width: 8, height: 8, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)' },
       svg('rect', { width: 8, height: 8, class: 'hatch-back' }), svg('line', { x1: 0, y1: 0, x2: 0, y2: 8, class: 'hatch-line' }));
     this.root.append(svg('defs', {}, hatch));
     this.ghostGroup = svg('g', { class: 'ghosts' });
@@ -229,7 +236,9 @@ export class Picture {
     const stage = kStages[state.stage].id;
     const scale = this.forceScale / state.trace.head.h;
     if (state.layers.has('forces')) {
-      const withCone = this.contacts.length <= 60 && (stage === 'SolveLCP' || stage === 'Unmerge' || stage === 'SingleIterationPGS');
+      const picked = state.selection;
+      const conesOf = (c: Contact) => (picked?.kind === 'pair' ? c.a === picked.a && c.b === picked.b : this.contacts.length <= 12);
+      const withCone = (stage === 'SolveLCP' || stage === 'Unmerge' || stage === 'SingleIterationPGS');
       for (const c of this.contacts) {
         if (c.lambdaN <= 0) continue;
         const x = this.view.x(c.x);
@@ -241,7 +250,7 @@ export class Picture {
         if (c.internal) inner += d;
         else force += d;
         if (c.state === 'sliding') friction += arrow(x, y, scale * c.lambdaT * tx, -scale * c.lambdaT * ty);
-        if (withCone) {
+        if (withCone && conesOf(c)) {
           const n = scale * c.lambdaN;
           const point = (side: number) =>
             `${fixed(x + n * (c.nx + side * c.mu * tx))} ${fixed(y - n * (c.ny + side * c.mu * ty))}`;
@@ -402,6 +411,19 @@ export class Picture {
     const group = (event.target as Element).closest('[data-body]');
     this.onPick({ contact: best, body: group ? Number(group.getAttribute('data-body')) : undefined });
   }
+}
+
+/** A force that few contacts exceed, from a sample of the run [N]. */
+function strongForce(trace: Trace): number {
+  const forces: number[] = [];
+  if (trace.head.full) {
+    for (let i = 1; i <= 12; ++i) {
+      const step = Math.round((i * trace.head.steps) / 12);
+      for (const c of trace.contactsAt(step)) if (c.lambdaN > 0) forces.push(c.lambdaN / trace.head.h);
+    }
+  }
+  forces.sort((a, b) => a - b);
+  return forces[Math.floor(0.97 * forces.length)] ?? 0;
 }
 
 /** The smaller extent of a body [m]. */
