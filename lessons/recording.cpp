@@ -1,6 +1,7 @@
 #include "lessons/recording.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -20,6 +21,10 @@ void extend(std::vector<Span>& spans, std::int64_t step) {
 bool sampledAt(const std::vector<Span>& spans, std::int64_t step) {
   return !spans.empty() && spans.back().first + spans.back().count == step + 1;
 }
+
+/// The criteria that compare a measured number with a limit: what charts and questions are about.
+constexpr std::array<std::string_view, 6> kCharted = {"relative-motion", "sliding", "breathing",
+                                                      "opening",         "cone",    "rest"};
 
 /// Whether a verdict keeps a pair apart, or takes it apart.
 bool parts(std::string_view verdict) {
@@ -99,6 +104,7 @@ class Recorder {
 
   /// The edge of the cone moves with the force: friction is kept as its part of what it may be.
   void addDecision(std::int64_t step, Decision d) {
+    if (std::find(kCharted.begin(), kCharted.end(), d.criterion) == kCharted.end()) return;
     if (d.criterion == "cone") {
       d.value = d.threshold > 0.0 ? std::abs(d.value) / d.threshold : 0.0;
       d.threshold = 1.0;

@@ -24,6 +24,9 @@ export class View {
   }
 }
 
+/** Criteria whose value grows towards a limit. */
+const kLimits = ['relative-motion', 'sliding', 'breathing', 'opening', 'cone'];
+
 let pictures = 0;
 
 const fixed = (value: number): string => value.toFixed(1);
@@ -301,7 +304,7 @@ export class Picture {
     if (state.layers.has('heat') && state.trace.head.full) {
       const ratios = new Map<string, number>();
       for (const d of state.trace.decisionsAt(contactStep(state))) {
-        if (!(d.threshold > 0)) continue;
+        if (!(d.threshold > 0) || !kLimits.includes(d.criterion.criterion)) continue;
         const key = `${d.a}-${d.b}`;
         ratios.set(key, Math.max(ratios.get(key) ?? 0, Math.abs(d.value) / d.threshold));
       }
