@@ -125,7 +125,8 @@ test('the keyboard alone does everything', async () => {
   await page.keyboard.press('?');
   assert.ok(await page.isVisible('dialog'));
   await page.keyboard.press('Escape');
-  assert.ok(!(await page.isVisible('dialog')));
+  await page.waitForSelector('dialog', { state: 'hidden' });
+  await page.waitForFunction(() => document.activeElement === document.body);
   await page.keyboard.press(' ');
   await page.waitForFunction(() => Number(document.querySelector('.slider').value) > 2);
   await page.keyboard.press(' ');
@@ -135,6 +136,7 @@ test('the keyboard alone does everything', async () => {
 
 test('a click on a contact or a body shows its numbers against their limits', async () => {
   const { page, close } = await open('what-merging-is');
+  for (let i = 0; i < 40 && !(await page.getAttribute('.layer.active', 'd')); ++i) await page.keyboard.press('ArrowRight');
   const mark = await page.$eval('.layer.active', (path) => {
     const at = path.getPointAtLength(0).matrixTransform(path.getScreenCTM());
     return [at.x + 3, at.y];
