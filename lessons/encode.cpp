@@ -209,6 +209,11 @@ class Encoder {
       }
       out.close(']');
     });
+    out.array("orders", r_.orders, [&](const SweepOrder& order) {
+      out.open('[').value(order.step).open('[');
+      for (const NotedVisit& visit : order.visits) out.row(visit.a, visit.b, visit.depth);
+      out.close(']').close(']');
+    });
     out.array("springs", r_.scene.springs, [&](const SpringDesc& s) { headSpring(out, s); });
     out.close('}');
     return std::string(out.text());

@@ -194,6 +194,17 @@ class Ledger : public Observer {
   std::size_t events_ = 0;
 };
 
+void keepOrder(const Notes& notes, Recording& out) {
+  if (notes.seeds.empty() || out.orders.size() >= Recording::kMostOrders) return;
+  SweepOrder order{.step = out.steps, .visits = {}};
+  for (const NotedVisit& visit : notes.order) {
+    if (visit.depth > 0 && order.visits.size() < Recording::kMostVisits) {
+      order.visits.push_back(visit);
+    }
+  }
+  if (!order.visits.empty()) out.orders.push_back(std::move(order));
+}
+
 }  // namespace
 
 Recording record(const Scene& scene, const RecordOptions& options) {
@@ -215,6 +226,7 @@ Recording record(const Scene& scene, const RecordOptions& options) {
     world.capture(snapshot);
     recorder.add(snapshot);
     ++out.steps;
+    if (full) keepOrder(world.notes(), out);
     if (options.progress) options.progress(out.steps);
   }
   return out;

@@ -8,6 +8,7 @@
 
 #include "render/palette.h"
 #include "src2d/scene/scene.h"
+#include "src2d/trace/notes.h"
 #include "src2d/trace/snapshot.h"
 
 namespace merge2d {
@@ -72,6 +73,12 @@ struct LedgerEntry {
   bool anchored = false;  ///< something was welded to a fixed body, which takes momentum up
 };
 
+/// The breadth-first order of the sweep in a step with something new.
+struct SweepOrder {
+  std::int64_t step = 0;
+  std::vector<NotedVisit> visits;
+};
+
 /// The slot of the palette that a collection has for life.
 struct CollectionColor {
   CollectionId id{};
@@ -96,6 +103,9 @@ struct Recording {
   std::vector<TimedEvent> events;  ///< in order
   std::vector<Stats> stats;        ///< per step from 0; seconds are left out
   std::vector<CollectionColor> colors;
+  std::vector<SweepOrder> orders;  ///< of the first kMostOrders steps with something new
+  static constexpr std::size_t kMostOrders = 60;
+  static constexpr std::size_t kMostVisits = 400;
   std::vector<LedgerEntry> ledger;  ///< of each stage that merged or unmerged something
 
   bool present(BodyId body, std::int64_t step) const {

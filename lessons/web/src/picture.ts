@@ -77,6 +77,7 @@ export class Picture {
   private readonly layer = new Map<string, SVGPathElement>();
   private readonly ghostGroup: SVGGElement;
   private readonly labels: SVGGElement;
+  private readonly numbers = svg('g', { class: 'numbers' });
   private readonly focusMark: SVGPathElement;
   private contacts: Contact[] = [];
   private readonly mark: number;
@@ -127,15 +128,15 @@ export class Picture {
       }
     }
     this.root.append(bodyGroup, this.ghostGroup);
-    for (const id of ['springs', 'before', 'boxes', 'graph', 'welds', 'cone', 'heat-calm', 'heat-warm', 'heat-near', 'heat-over',
-      'idle', 'merged', 'active', 'broken', 'cut', 'fresh', 'force', 'friction', 'inner', 'velocity']) {
+    for (const id of ['springs', 'boxes', 'centre', 'graph', 'welds', 'cone', 'heat-calm', 'heat-warm', 'heat-near', 'heat-over',
+      'idle', 'merged', 'active', 'broken', 'cut', 'fresh', 'force', 'friction', 'inner', 'velocity', 'before', 'corners']) {
       const path = svg('path', { class: `layer ${id}` });
       this.layer.set(id, path);
       this.root.append(path);
     }
     this.focusMark = svg('path', { class: 'layer focus' });
     this.labels = svg('g', { class: 'labels' });
-    this.root.append(this.focusMark, this.labels, this.scaleBar());
+    this.root.append(this.focusMark, this.numbers, this.labels, this.scaleBar());
     if (interactive) this.root.addEventListener('click', (event) => this.click(event));
   }
 
@@ -181,6 +182,7 @@ export class Picture {
     this.drawHeat(state);
     this.drawSprings(state, posed);
     this.drawVelocities(state, posed);
+    this.drawStage(state, posed, grouped);
     this.drawFocus(state, posed);
     this.drawLabels(state, posed, grouped);
   }
@@ -314,6 +316,79 @@ export class Picture {
       }
     }
     for (const [id, d] of Object.entries(paths)) this.set(id, d);
+  }
+
+  /** What only this stage does: where bodies were, how box corners move, who is new. */
+  private drawStage(state: State, posed: number, grouped: Int32Array): void {
+    const { trace, step } = state;
+    let [before, corners, centre] = ['', '', ''];
+    const stage = kStages[state.stage].id;
+    const still = !state.playing && step > 0;
+    if (still && stage === 'AdvancePositions') {
+      for (let i = 0; i < this.bodies.length; ++i) {
+        if (trace.head.bodies[i].motion === 'pinned' || !trace.present(i, step - 1) || !trace.present(i, step)) continue;
+        const [was, is] = [trace.pose(i, step - 1), trace.pose(i, step)];
+        // The way of one step is short: it is drawn ten times as long.
+        before += arrow(this.view.x(was.x), this.view.y(was.y), 10 * this.view.scale * (is.x - was.x), -10 * this.view.scale * (is.y - was.y));
+      }
+    }
+    const pair = state.selection?.kind === 'pair' ? state.selection : null;
+    if (still && stage === 'AccumulateRelativeMotion' && pair) {
+      const motion = (body: number) => {
+        const pose = trace.pose(body, posed);
+        const v = trace.velocity(body, step);
+        return (x: number, y: number): Vec => [v.vx - v.omega * (y - pose.y), v.vy + v.omega * (x - pose.x)];
+      };
+      const [of, against] = [motion(pair.a), motion(pair.b)];
+      const dynamic = [pair.a, pair.b].filter((body) => trace.head.bodies[body].motion === 'dynamic');
+      const limit = this.velocityScale / 0.05;
+      for (const body of dynamic) {
+        const members = grouped[body] < 0 ? [body] : [...grouped.keys()].filter((i) => grouped[i] === grouped[body]);
+        for (const [x, y] of boxOf(trace, posed, members)) {
+          const [a, b] = [of(x, y), against(x, y)];
+          const [px, py] = [this.view.x(x), this.view.y(y)];
+          const [dx, dy] = [limit * (a[0] - b[0]), -limit * (a[1] - b[1])];
+          const long = Math.max(1, Math.hypot(dx, dy) / (3 * this.velocityScale));
+          corners += disc(px, py, 4) + arrow(px, py, dx / long, dy / long);
+        }
+      }
+    }
+    if (still && state.stage === kLast) {
+      const born = new Set((trace.eventsAt.get(step) ?? []).filter((e) => e[1] === 'merge').map((e) => e[4]));
+      for (const id of born) {
+        const members = trace.members(id, step);
+        if (members.length === 0) continue;
+        let [mass, mx, my] = [0, 0, 0];
+        for (const i of members) {
+          const m = trace.head.bodies[i].mass;
+          const pose = trace.pose(i, posed);
+          [mass, mx, my] = [mass + m, mx + m * pose.x, my + m * pose.y];
+        }
+        const [x, y] = [this.view.x(mx / mass), this.view.y(my / mass)];
+        centre += `${disc(x, y, 7)}M${fixed(x - 11)} ${fixed(y)}h22M${fixed(x)} ${fixed(y - 11)}v22`;
+        centre += `M${boxOf(trace, posed, members).map(([u, v]) => `${fixed(this.view.x(u))} ${fixed(this.view.y(v))}`).join('L')}z`;
+      }
+    }
+    this.set('before', before);
+    this.set('corners', corners);
+    this.set('centre', centre);
+    this.drawOrder(state, stage);
+  }
+
+  /** The sweep's order: how many contacts from what is new. */
+  private drawOrder(state: State, stage: string): void {
+    this.numbers.replaceChildren();
+    if (state.playing || (stage !== 'ContactOrdering' && stage !== 'SingleIterationPGS')) return;
+    const order = state.trace.head.orders?.find(([step]) => step === state.step);
+    if (!order) return;
+    const depth = new Map(order[1].map(([a, b, d]) => [`${Math.min(a, b)}-${Math.max(a, b)}`, d]));
+    for (const c of this.contacts) {
+      const d = depth.get(`${c.a}-${c.b}`);
+      if (d === undefined) continue;
+      const [x, y] = [this.view.x(c.x), this.view.y(c.y)];
+      this.numbers.append(svg('circle', { cx: fixed(x), cy: fixed(y), r: 9, class: d === 1 ? 'seed' : 'visit', style: `opacity:${Math.max(0.35, 1.1 - 0.1 * d).toFixed(2)}` }),
+        svg('text', { x: fixed(x), y: fixed(y + 4) }, String(d)));
+    }
   }
 
   private drawSprings(state: State, posed: number): void {
