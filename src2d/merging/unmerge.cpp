@@ -33,7 +33,6 @@ class WeldTest {
         scratch_(scratch),
         c_(c),
         turn_(state[c.rigid].rotation),
-        disturbed_(disturbed),
         whole_(disturbed) {}
 
   /// Adds this step's evidence to what was summed, and cuts the welds whose sum is too large. Only
@@ -48,7 +47,6 @@ class WeldTest {
       testLost(c_.welds[pivot]);
       testMotion(c_.welds[pivot]);
     }
-    if (growing_) c_.settled = false;  // what is about to part does not fall asleep
   }
 
   bool contactOpened() const { return opened_; }
@@ -90,7 +88,7 @@ class WeldTest {
         at_ = state_[c_.rigid].frame() * inner.contact.points[static_cast<std::size_t>(i)].position;
       }
       if (edge || !pressed) {
-        const ContactVelocity w = velocityAt(k, i);
+        const ContactVelocity w = lookAtPoint(k, inner.contact, i);
         if (!pressed && inner.active[i]) inner.lost[i] = testBroken(weld, inner.opening[i], w.n);
         if (edge) testSliding(weld, inner.slip[i], w.t);
       }
@@ -102,20 +100,23 @@ class WeldTest {
   }
 
   /// Velocity at a point after the sweep.
-  ContactVelocity velocityAt(const ContactBlock& k, int i) const {
+  ContactVelocity lookAtPoint(const ContactBlock& k, Contact& contact, int i) {
     const double nx = turn_.c * k.nx - turn_.s * k.ny, ny = turn_.s * k.nx + turn_.c * k.ny;
-    return contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
+    const ContactVelocity w =
+        contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
+    contact.points[static_cast<std::size_t>(i)].w_n = static_cast<float>(w.n);
+    contact.points[static_cast<std::size_t>(i)].w_t = static_cast<float>(w.t);
+    return w;
   }
 
   /// Adds to what was summed. Evidence that more sweeps do not confirm is forgotten.
-  Evidence weigh(Drift& drift, double w, double threshold) {
+  Evidence weigh(Drift& drift, double w, double threshold) const {
     if (confirming_) {
       if (std::abs(w) < residualVelocity(state_)) w = 0.0;
       drift.sum = static_cast<float>(w * std::max(drift.steps, 1));
     } else {
       drift.sum += static_cast<float>(w);
       drift.steps += 1;
-      growing_ |= std::abs(w) > residualVelocity(state_);
     }
     const double sum = std::abs(drift.sum);
     const Evidence found{sum, drift.steps, sum > threshold};
@@ -126,7 +127,7 @@ class WeldTest {
   /// True when the contact has opened.
   bool testBroken(std::uint32_t weld, Drift& opening, double w_n) {
     const bool literal = rule() == Rule::Paper;
-    const double threshold = literal ? 0.0 : openingThreshold();
+    const double threshold = literal ? 0.0 : state_.settings.unmerging.sliding;
     const Evidence found = weigh(opening, std::max(0.0, w_n), threshold);
     const bool lost = found.exceeds || literal;
     note(c_.welds[weld], {.criterion = "opening",
@@ -153,13 +154,6 @@ class WeldTest {
                 .value = static_cast<double>(held),
                 .threshold = 1.0,
                 .verdict = held == 0 ? "unmerge" : "keep"});
-  }
-
-  /// How much may open. Where something new entered, the sweeps have converged, and less will do.
-  double openingThreshold() const {
-    constexpr double kBeyondResidual = 5.0;
-    const double sliding = state_.settings.unmerging.sliding;
-    return disturbed_ ? std::min(sliding, kBeyondResidual * residualVelocity(state_)) : sliding;
   }
 
   bool hadContact(const Weld& weld) const {
@@ -253,9 +247,7 @@ class WeldTest {
   Collection& c_;
   Rotation turn_;
   bool confirming_ = false;
-  bool growing_ = false;    ///< some sum did grow in this step
   bool opened_ = false;     ///< some contact was lost that held before
-  bool disturbed_ = false;  ///< something new entered in this step: the sweeps have converged
   bool whole_ = false;      ///< dormant contacts were swept too
   Vec2 at_ = Vec2::Zero();  ///< the contact point at hand, for the notes
 };
@@ -267,47 +259,37 @@ struct Parts {
   std::vector<std::uint8_t> anchored;  ///< per part
 };
 
-/// True when all members hang together, or each on the frame, by welds with two contacts alone: a
-/// quick answer that is right most times.
-bool hangsTogether(const State& state, const Collection& c, DisjointSets& sets) {
-  const auto node = [&](BodyId b) {
-    return state[b].rigid == c.rigid ? static_cast<std::uint32_t>(memberIndex(c, b)) + 1 : 0u;
-  };
-  sets.reset(c.members.size() + 1);
-  std::size_t joined = 0;
-  bool on_frame = state[c.rigid].floating();
-  for (const Weld& weld : c.welds) {
-    if (weld.cut || activeContacts(c, weld) < 2) continue;
-    const std::uint32_t a = node(weld.a), b = node(weld.b);
-    if (a == 0 || b == 0) {
-      on_frame = true;
-    } else {
-      joined += sets.unite(a, b) ? 1 : 0;
+/// The contacts of a weld that hold, in the collection's frame.
+void addPins(const Collection& c, const Weld& weld, std::uint32_t a, std::uint32_t b,
+             std::vector<Pin>& pins) {
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    const InternalContact& inner = c.contacts[i];
+    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.contact.count); ++p) {
+      if (!inner.active[p] || inner.lost[p]) continue;
+      pins.push_back({.a = a, .b = b, .at = inner.contact.points[p].position, .placed = true});
     }
   }
-  return on_frame && joined + 1 == c.members.size();
 }
 
 Parts partsWithoutCuts(const State& state, const Collection& c) {
   const auto node = [&](BodyId b) {
     return state[b].rigid == c.rigid ? static_cast<std::uint32_t>(memberIndex(c, b)) + 1 : 0u;
   };
-  std::vector<ContactEdge> edges;
+  std::vector<Pin> pins;
   for (const Weld& weld : c.welds) {
-    const int contacts = activeContacts(c, weld);
-    if (!weld.cut && contacts > 0) edges.push_back({node(weld.a), node(weld.b), contacts});
+    if (!weld.cut) addPins(c, weld, node(weld.a), node(weld.b), pins);
   }
   const auto nodes = static_cast<std::uint32_t>(c.members.size() + 1);
   const CycleCriterion criterion = state.settings.unmerging.rule == Rule::Paper
                                        ? CycleCriterion::Off
                                        : state.settings.merging.cycles;
-  const auto group = rigidGroups(nodes, edges, criterion);
+  const Groups group = heldGroups(nodes, pins, criterion);
 
   // Bodies of one rigid group that touch each other, not only the frame, stay one part.
   DisjointSets parts;
   parts.reset(nodes);
-  for (const ContactEdge& e : edges) {
-    if (e.a != 0 && e.b != 0 && group[e.a] == group[e.b]) parts.unite(e.a, e.b);
+  for (const Pin& pin : pins) {
+    if (pin.a != 0 && pin.b != 0 && group[pin.a] == group[pin.b]) parts.unite(pin.a, pin.b);
   }
   Parts result;
   std::vector<std::uint32_t> number(nodes, ~0u);
@@ -390,7 +372,6 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   // Broken welds that do not part the graph are found again in each step: look anew only when
   // there is one more.
   if (!newCut(c, scratch) && !test.contactOpened()) return;
-  if (hangsTogether(state, c, scratch.sets)) return;
   Parts parts = partsWithoutCuts(state, c);
   if (!fallsApart(state, c, parts)) return;
   const UnmergingSettings& settings = state.settings.unmerging;
