@@ -4,6 +4,7 @@
 
 #include "src2d/dynamics/setup.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/sleep.h"
 #include "src2d/merging/unmerge.h"
 
 namespace merge2d {
@@ -24,10 +25,10 @@ void emitBodies(State& state, Actions& actions, Scratch& scratch) {
 
 /// A body, and all that it touches, must not sleep through this step.
 void wakeAround(const State& state, Scratch& scratch, BodyId body) {
-  scratch.woken.push_back(body);
+  scratch.stirred.push_back(body);
   const auto wakeOther = [&](BodyId a, BodyId b) {
-    if (a == body) scratch.woken.push_back(b);
-    if (b == body) scratch.woken.push_back(a);
+    if (a == body) scratch.stirred.push_back(b);
+    if (b == body) scratch.stirred.push_back(a);
   };
   for (const ContactTable::Entry& entry : state.contacts.order) {
     wakeOther(entry.key.a, entry.key.b);
@@ -79,12 +80,17 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
 
 void beginStep(State& state, Actions& actions, Scratch& scratch) {
   scratch.events.clear();
+  scratch.stirred.clear();
   emitBodies(state, actions, scratch);
   letGo(state, actions, scratch);
   switchMagnets(state, actions, scratch);
   moveScripted(state, actions);
   listLoads(state, actions, scratch);
   listKicks(state, actions, scratch);
+  // What is about to be struck looks ahead for contacts already in this step.
+  for (const Kick& kick : scratch.kicks) {
+    if (state.rigid(kick.body).asleep) wakeUp(state, scratch, state[kick.body].rigid);
+  }
 }
 
 }  // namespace merge2d

@@ -108,7 +108,7 @@ Snapshot World::capture() const {
 }
 
 void World::applyImpulse(BodyId body, const Vec2& at, const Vec2& impulse) {
-  impl_->setup.actions.user_kicks.push_back({body, at, impulse});
+  impl_->setup.actions.user_kicks.push_back({body, placedOnGrid(at), impulse});
 }
 
 }  // namespace merge2d

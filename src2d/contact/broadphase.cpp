@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src2d/contact/approach.h"
 #include "src2d/core/memory.h"
 
 namespace merge2d {
@@ -12,6 +13,14 @@ namespace {
 constexpr double kNear = 0.05;
 
 Aabb worldBounds(const Rigid& r) { return placed(r.frame(), r.bounds); }
+
+/// Where a rigid thing is, and where it can be at the end of this step.
+Aabb sweptBounds(const Rigid& r, const Vec2& way) {
+  const Aabb now = worldBounds(r);
+  Aabb swept = now;
+  swept.include(Aabb{now.lower + way, now.upper + way});
+  return swept;
+}
 
 std::array<Vec2, 4> cornersSeenFrom(const Pose& relative, const Aabb& box) {
   return {relative * box.lower, relative * Vec2(box.upper.x(), box.lower.y()), relative * box.upper,
@@ -63,10 +72,12 @@ void moveLeaves(State& state, Scratch& scratch) {
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
     Rigid& r = state.rigids[i];
     if (!r.present() || (!moves(r) && !r.resized)) continue;
-    const bool left = state.broadphase.tree.move(r.leaf, worldBounds(r), state.h * r.v);
+    const RigidId id{static_cast<std::uint32_t>(i)};
+    const Vec2 way = state.h * startMotion(state, scratch, id).v;
+    const bool left = state.broadphase.tree.move(r.leaf, sweptBounds(r, way), way);
     if (!left && !r.resized) continue;
     r.resized = false;
-    scratch.moved.push_back(RigidId{static_cast<std::uint32_t>(i)});
+    scratch.moved.push_back(id);
     scratch.moved_flag[i] = 1;
   }
 }
@@ -115,20 +126,21 @@ void updateNearPairs(State& state, Scratch& scratch) {
   std::inplace_merge(near.begin(), near.begin() + middle, near.end());
 }
 
-/// Pairs of shapes of `host` (which has a tree) and `guest` that are nearer than kNear.
-void pairShapes(State& state, Scratch& scratch, RigidId host, RigidId guest) {
-  const Pose relative = state[host].frame().inverse() * state[guest].frame();
+/// Pairs of shapes of `host` (which has a tree) and `guest` that are nearer than kNear, or can be
+/// after coming nearer by `ahead` [m].
+void pairShapes(State& state, Scratch& scratch, RigidId host, RigidId guest, double ahead) {
+  const double reach = 2.0 * kNear + ahead;
+  const Pose relative = state[host].frame().toLocal(state[guest].frame());
   const auto& host_tree = *state.broadphase.shape_trees[index(host)];
   const auto add = [&](std::uint32_t shape_host, std::uint32_t shape_guest) {
     if (bodiesCollide(state, state.shape_body[shape_host], state.shape_body[shape_guest])) {
       scratch.candidates.push_back(keyOf(state, shape_host, shape_guest));
     }
   };
-  const Aabb all = placed(relative, state[guest].bounds).grown(2.0 * kNear);
+  const Aabb all = placed(relative, state[guest].bounds).grown(reach);
   host_tree.query(all, [&](std::uint32_t shape_host) {
     if (!hasShapeTree(state, guest)) return add(shape_host, onlyShape(state, guest));
-    const Aabb box =
-        placed(relative.inverse(), shapeBounds(state, host, shape_host)).grown(2.0 * kNear);
+    const Aabb box = placed(relative.inverse(), shapeBounds(state, host, shape_host)).grown(reach);
     state.broadphase.shape_trees[index(guest)]->query(
         box, [&](std::uint32_t shape_guest) { add(shape_host, shape_guest); });
   });
@@ -145,8 +157,9 @@ void refineNearPairs(State& state, Scratch& scratch) {
     const bool a_hosts = hasShapeTree(state, p.a);
     const RigidId host = a_hosts ? p.a : p.b, guest = a_hosts ? p.b : p.a;
     const auto corners =
-        cornersSeenFrom(state[host].frame().inverse() * state[guest].frame(), state[guest].bounds);
-    bool moved = p.fresh;
+        cornersSeenFrom(state[host].frame().toLocal(state[guest].frame()), state[guest].bounds);
+    const double ahead = approach(state, scratch, p.a, p.b);
+    bool moved = p.fresh || ahead > kNear;
     for (std::size_t k = 0; k < 4 && !moved; ++k) {
       moved = (corners[k] - p.corners[k]).squaredNorm() > kNear * kNear;
     }
@@ -154,7 +167,7 @@ void refineNearPairs(State& state, Scratch& scratch) {
     p.corners = corners;
     p.fresh = false;
     scratch.near_refined[i] = 1;
-    pairShapes(state, scratch, host, guest);
+    pairShapes(state, scratch, host, guest, ahead);
   }
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "src2d/contact/approach.h"
 #include "src2d/contact/broadphase.h"
+#include "src2d/contact/internal_edges.h"
 
 namespace merge2d {
 namespace {
@@ -10,15 +12,6 @@ namespace {
 /// Far enough apart to skip the manifold: the distance of b's box, seen from a, to a's box.
 bool boxesApart(const Aabb& a, const Aabb& b, const Pose& b_in_a, double margin) {
   return !placed(b_in_a, b).grown(margin).overlaps(a);
-}
-
-/// Contacts are found ahead by the way that the two bodies can go towards each other in one step.
-double detectionMargin(const State& state, const Contact& contact) {
-  const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
-  const double turning = std::abs(a.omega) * state[rigidOf(contact.key.a)].bounds.extent().norm() +
-                         std::abs(b.omega) * state[rigidOf(contact.key.b)].bounds.extent().norm();
-  const double speed = (b.v - a.v).norm() + turning;
-  return std::max(state.settings.solver.margin, state.h * speed);
 }
 
 /// Hands on what is remembered of a point, or marks it as new.
@@ -52,7 +45,7 @@ void prune(State& state, const BodyPair& pair, Notes* notes) {
     return all;
   };
   const std::vector<Vec2> found = notes ? points() : std::vector<Vec2>{};
-  prunePair(state.contacts, pair, frame);
+  prunePair(state.contacts, pair);
   if (!notes) return;
   const std::vector<Vec2> kept = points();
   for (const Vec2& x : found) {
@@ -65,14 +58,14 @@ bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
 
 }  // namespace
 
-void updateManifold(const State& state, Contact& contact) {
-  const Pose b_in_a = state.pose(contact.key.a).inverse() * state.pose(contact.key.b);
-  const double margin = detectionMargin(state, contact);
+void updateManifold(const State& state, Contact& contact, double ahead) {
+  const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
+  const double margin = std::max(state.settings.solver.margin, ahead);
   const Collider& a = state.collider(contact.key.shape_a);
   const Collider& b = state.collider(contact.key.shape_b);
   if (boxesApart(state.bounds(contact.key.shape_a), state.bounds(contact.key.shape_b), b_in_a,
                  margin)) {
-    contact.count = 0;
+    contact.count = contact.quiet_steps = 0;
     return;
   }
   const Manifold manifold = collide(a, b, b_in_a, margin);
@@ -87,6 +80,8 @@ void updateManifold(const State& state, Contact& contact) {
     inherit(point, old);
     contact.points[i] = point;
   }
+  dropInternalEdges(state, b_in_a, contact);
+  if (contact.count == 0) contact.quiet_steps = 0;
 }
 
 void collectPairs(const State& state, Scratch& scratch) {
@@ -107,7 +102,8 @@ void detectContacts(State& state, Scratch& scratch) {
   for (const ContactTable::Entry& entry : state.contacts.order) {
     const Rigid &a = state.rigid(entry.key.a), &b = state.rigid(entry.key.b);
     if (resting(a) && resting(b)) continue;
-    updateManifold(state, state.contacts[entry]);
+    const double ahead = approach(state, scratch, entry.key.a, entry.key.b);
+    updateManifold(state, state.contacts[entry], ahead);
   }
   collectPairs(state, scratch);
   for (const BodyPair& pair : scratch.pairs) {

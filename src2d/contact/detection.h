@@ -10,14 +10,15 @@ namespace merge2d {
 void detectContacts(State& state, Scratch& scratch);
 
 /// Computes one contact's manifold from the current poses, keeping what is remembered of points
-/// whose features are still there.
-void updateManifold(const State& state, Contact& contact);
+/// whose features are still there. Points count up to the solver's margin apart, or as far as the
+/// two come nearer in this step, `ahead` [m].
+void updateManifold(const State& state, Contact& contact, double ahead);
 
 /// Lists the body pairs that have a contact point, ascending.
 void collectPairs(const State& state, Scratch& scratch);
 
 /// At most two well-spread points per flat region of a pair of bodies: keeps the outermost two of
 /// each group of points with one normal and in one line, over all shape contacts of the pair.
-void prunePair(ContactTable& table, const BodyPair& pair, const Pose& pose_a);
+void prunePair(ContactTable& table, const BodyPair& pair);
 
 }  // namespace merge2d

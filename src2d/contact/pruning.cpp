@@ -23,7 +23,7 @@ struct Region {
 
 }  // namespace
 
-void prunePair(ContactTable& table, const BodyPair& pair, const Pose&) {
+void prunePair(ContactTable& table, const BodyPair& pair) {
   // All contacts of the pair are in a's frame already.
   thread_local std::vector<Region> regions;
   regions.clear();

@@ -1,7 +1,7 @@
 #pragma once
 /// Rigid placements of the plane.
 
-#include "src2d/core/vec.h"
+#include "src2d/core/grid.h"
 
 namespace merge2d {
 
@@ -18,14 +18,15 @@ struct Rotation {
   double angle() const { return std::atan2(s, c); }
 };
 
-/// Places a local frame in the world: world = position + rotation · local.
+/// Places a local frame in the world: world = position + rotation · local, on the grid when the
+/// position is.
 struct Pose {
   Vec2 position = Vec2::Zero();  ///< [m]
   Rotation rotation;
 
   static Pose at(const Vec2& position, double angle) { return {position, Rotation::of(angle)}; }
 
-  Vec2 operator*(const Vec2& local) const { return position + rotation * local; }
+  Vec2 operator*(const Vec2& local) const { return position + onGrid(rotation * local); }
   Pose operator*(const Pose& o) const { return {*this * o.position, rotation * o.rotation}; }
 
   Pose inverse() const {
@@ -34,6 +35,10 @@ struct Pose {
   }
   /// The local coordinates of a world point.
   Vec2 toLocal(const Vec2& world) const { return rotation.inverse() * (world - position); }
+  /// Another placement seen from this one.
+  Pose toLocal(const Pose& world) const {
+    return {toLocal(world.position), rotation.inverse() * world.rotation};
+  }
 };
 
 }  // namespace merge2d

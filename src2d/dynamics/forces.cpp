@@ -70,8 +70,8 @@ double smooth(double s) { return s * s * (3.0 - 2.0 * s); }
 
 ScriptPose poseOf(const Sinusoid& script, const Actions::Scripted& s, double time) {
   const double phase = 2.0 * std::numbers::pi * time / script.period;
-  return {s.start.position + script.axis * (script.amplitude * (1.0 - std::cos(phase))),
-          s.start_angle};
+  const Vec2 offset = script.axis * (script.amplitude * (1.0 - std::cos(phase)));
+  return {s.start.position + onGrid(offset), s.start_angle};
 }
 
 ScriptPose poseOf(const Keyframes& script, const Actions::Scripted&, double time) {
@@ -82,11 +82,12 @@ ScriptPose poseOf(const Keyframes& script, const Actions::Scripted&, double time
                                       [](double t, const Keyframes::Key& k) { return t < k.time; });
   const Keyframes::Key &k1 = *after, &k0 = *(after - 1);
   const double s = smooth((time - k0.time) / (k1.time - k0.time));
-  return {k0.position + s * (k1.position - k0.position), k0.angle + s * (k1.angle - k0.angle)};
+  return {k0.position + onGrid(s * (k1.position - k0.position)),
+          k0.angle + s * (k1.angle - k0.angle)};
 }
 
 ScriptPose poseOf(const SteadyMotion& script, const Actions::Scripted& s, double time) {
-  return {s.start.position + time * script.velocity, s.start_angle + time * script.spin};
+  return {s.start.position + onGrid(time * script.velocity), s.start_angle + time * script.spin};
 }
 
 }  // namespace
@@ -100,7 +101,7 @@ void moveScripted(State& state, const Actions& actions) {
   for (const Actions::Scripted& scripted : actions.scripts) {
     Rigid& r = state[rigidOf(scripted.body)];
     const ScriptPose next = scriptPose(scripted, state.time + state.h);
-    const Vec2 center = next.position + Rotation::of(next.angle) * scripted.center;
+    const Vec2 center = Pose::at(next.position, next.angle) * scripted.center;
     r.v = (center - r.x) / state.h;
     r.omega = (next.angle - r.angle) / state.h;
   }
@@ -113,7 +114,10 @@ void listLoads(State& state, Actions& actions, Scratch& scratch) {
   const double middle = state.time + 0.5 * state.h;
   for (const ForceDesc& f : actions.forces) {
     const BodyId body{static_cast<std::uint32_t>(f.body)};
-    if (middle < f.from || middle >= f.until || !state[body].alive) continue;
+    if (!state[body].alive) continue;
+    const auto acts = [&](double time) { return time >= f.from && time < f.until; };
+    if (acts(middle) != acts(middle - state.h)) scratch.stirred.push_back(body);
+    if (!acts(middle)) continue;
     scratch.loads.push_back(loadAt(state, body, state.pose(body) * f.at, f.force));
   }
 }

@@ -139,14 +139,22 @@ ContactBlock makeBlock(const State& state, const Scratch& scratch, const RowSour
   k.b = static_cast<std::uint32_t>(source.b);
   k.mu = contact.mu;
   k.bilateral = state[contact.key.a].magnet_on || state[contact.key.b].magnet_on;
-  prepareBlock(k, g, scratch.u[k.a], scratch.u[k.b]);
-  for (int i = 0; i < k.count; ++i) {
+  bool rests = false;
+  for (int i = 0; i < source.count; ++i) {
     ContactPoint& point = *source.points[static_cast<std::size_t>(i)];
     const Vec2 before = b.v + cross(b.omega, g.arm_b[i]) - a.v - cross(a.omega, g.arm_a[i]);
-    k.bias[i] = restitutionBias(state, contact, point, g.normal.dot(before),
-                                contactBias(settings, state.h, point.gap));
+    const double rest = contactBias(settings, state.h, point.gap);
+    k.bias[i] = restitutionBias(state, contact, point, g.normal.dot(before), rest);
     k.lambda_n(i) = point.lambda_n;
     k.lambda_t(i) = point.lambda_t;
+    rests |= point.gap <= 0.0 && k.bias[i] >= rest;
+  }
+  // Only what rests breathes: compliance would take speed from a bounce.
+  if (!rests) g.softness = 0.0;
+  prepareBlock(k, g, scratch.u[k.a], scratch.u[k.b]);
+  for (int i = k.count; i < source.count; ++i) {  // too close to the first point to count
+    source.points[static_cast<std::size_t>(i)]->lambda_n = 0.0;
+    source.points[static_cast<std::size_t>(i)]->lambda_t = 0.0;
   }
   return k;
 }

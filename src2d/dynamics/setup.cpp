@@ -5,6 +5,7 @@
 #include <random>
 
 #include "src2d/contact/broadphase.h"
+#include "src2d/contact/internal_edges.h"
 #include "src2d/core/assert.h"
 
 namespace merge2d {
@@ -29,6 +30,7 @@ class Builder {
       setup_.actions.forces.push_back(force);
     }
     setup_.actions.impulses = scene_.impulses;
+    for (ImpulseDesc& impulse : setup_.actions.impulses) impulse.at = placedOnGrid(impulse.at);
     std::stable_sort(setup_.actions.impulses.begin(), setup_.actions.impulses.end(),
                      [](const auto& x, const auto& y) { return x.time < y.time; });
     std::stable_sort(setup_.actions.emissions.begin(), setup_.actions.emissions.end(),
@@ -58,7 +60,7 @@ class Builder {
     addShapes(desc, area.centroid, body, r);
     r.angle = desc.angle;
     r.rotation = r.previous_rotation = Rotation::of(desc.angle);
-    r.x = at + r.rotation * area.centroid;
+    r.x = Pose{placedOnGrid(at), r.rotation} * area.centroid;
     r.mass = body.mass;
     r.inertia = body.inertia;
     r.anchor = anchorOf(desc, id);
@@ -69,8 +71,13 @@ class Builder {
       r.inv_inertia = 1.0 / r.inertia;
     }
     if (desc.script) {
-      setup_.actions.scripts.push_back(
-          {BodyId{id}, *desc.script, Pose::at(at, desc.angle), desc.angle, area.centroid});
+      auto script = *desc.script;
+      if (auto* keyframes = std::get_if<Keyframes>(&script)) {
+        for (Keyframes::Key& key : keyframes->keys) key.position = placedOnGrid(key.position);
+      }
+      setup_.actions.scripts.push_back({BodyId{id}, std::move(script),
+                                        Pose::at(placedOnGrid(at), desc.angle), desc.angle,
+                                        area.centroid});
     }
     s.bodies.push_back(body);
     s.rigids.push_back(r);
@@ -145,7 +152,7 @@ class Builder {
     TimedSpring t;
     t.body = spring.body;
     t.anchor = spring.anchor - centers_[spring.body];
-    t.to = spring.to;
+    t.to = placedOnGrid(spring.to);
     if (spring.to_body) {
       t.to_body = static_cast<std::int64_t>(*spring.to_body);
       t.to -= centers_[*spring.to_body];
@@ -160,12 +167,13 @@ class Builder {
     State& s = setup_.state;
     s.broadphase.shape_trees.resize(s.rigids.size());
     s.broadphase.shape_leaves.assign(s.shape_body.size(), -1);
+    listSiblings(s);
     for (const Actions::Scripted& script : setup_.actions.scripts) {
       Rigid& r = s[rigidOf(script.body)];
       const ScriptPose pose = scriptPose(script, 0.0);
       r.angle = pose.angle;
       r.rotation = r.previous_rotation = Rotation::of(pose.angle);
-      r.x = pose.position + r.rotation * script.center;
+      r.x = Pose{pose.position, r.rotation} * script.center;
     }
     for (std::uint32_t i = 0; i < s.bodies.size(); ++i) {
       if (s.bodies[i].alive) bringIn(s, BodyId{i});

@@ -5,7 +5,6 @@
 #include <compare>
 #include <cstdint>
 #include <memory>
-#include <random>
 #include <vector>
 
 #include "src2d/core/ids.h"
@@ -53,7 +52,7 @@ struct Rigid {
 
   bool present() const { return leaf >= 0; }
   bool floating() const { return anchor == kFloating; }
-  Pose frame() const { return {x - rotation * center, rotation}; }
+  Pose frame() const { return {x - onGrid(rotation * center), rotation}; }
   Vec2 velocityAt(const Vec2& p) const { return v + cross(omega, p - x); }
 };
 
@@ -161,8 +160,9 @@ struct InternalContact {
   Contact contact;                  ///< positions and normal in the collection's frame
   bool active[2] = {false, false};  ///< has carried a force, so that its loss is a break
   bool lost[2] = {false, false};    ///< has opened since
-  Drift slip[2];     ///< along the tangent, over consecutive steps on the edge of the cone
-  Drift opening[2];  ///< along the normal, over consecutive steps without a force
+  Drift slip[2];           ///< along the tangent, over consecutive steps on the edge of the cone
+  Drift opening[2];        ///< along the normal, over consecutive steps without a force
+  std::int64_t since = 0;  ///< step of the merge that brought it in
 };
 
 /// A pair of bodies held together: a run of Collection::contacts.
@@ -195,6 +195,7 @@ struct Collection {
   Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
   int frame_known = 0;                                     ///< steps since it was formed, up to 2
   bool settled = false;  ///< inner forces did not change in the last sweep
+  bool refuted = false;  ///< more sweeps did not confirm what seemed to part, and nothing is new
 };
 
 struct TimedSpring {
@@ -216,6 +217,8 @@ struct State {
   std::vector<Aabb> collider_bounds;          ///< in the body frame
   std::vector<std::uint32_t> shape_collider;  ///< per shape of a body: which of them it is
   std::vector<BodyId> shape_body;             ///< per shape: whose it is
+  std::vector<std::uint32_t> first_sibling;   ///< per shape: its run of `siblings`, and the end
+  std::vector<std::uint32_t> siblings;        ///< shapes of the same body that touch it
 
   // what moves
   std::int64_t step = 0;
@@ -321,15 +324,19 @@ struct Scratch {
   std::vector<NearPair> near_candidates;
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
 
-  // ContactOrdering: breadth-first distance of each contact from what is new
+  // ContactOrdering: where something new enters
   std::vector<std::uint32_t> seeds;  ///< bodies
 
+  /// Bodies for which something is new in this step that is no contact and no impulse: a force
+  /// begins or ends, a magnet is switched, a pin is drawn.
+  std::vector<BodyId> stirred;
+
   // SleepAndWake
-  std::vector<BodyId> woken;                         ///< to be kept awake in this step
   std::vector<std::uint8_t> restless, island_awake;  ///< per rigid
 
   // SingleIterationPGS
   bool sweeping = false;                ///< some collection is swept
+  std::int64_t last_sweep = -1;         ///< step whose velocities are in sweep_u
   std::vector<SolverVelocity> sweep_u;  ///< per body
   std::vector<Twist> sweep_before;      ///< per member
   std::vector<SweepContact> sweep_contacts;

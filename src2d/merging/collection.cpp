@@ -11,7 +11,7 @@ namespace {
 void enlist(State& state, RigidId id, BodyId b, const Pose& world, double angle) {
   Body& body = state[b];
   const Rigid& r = state[id];
-  const Pose local = r.frame().inverse() * world;
+  const Pose local = r.frame().toLocal(world);
   body.rigid = id;
   body.local = local.position;
   body.local_angle = angle - r.angle;
@@ -43,7 +43,7 @@ RigidId asCollection(State& state, RigidId id) {
 /// Moves the members of `from` into `to`, whose frame stays.
 void absorbMembers(State& state, RigidId to, RigidId from) {
   Collection &target = state.collection(to), &source = state.collection(from);
-  const Pose relative = state[to].frame().inverse() * state[from].frame();
+  const Pose relative = state[to].frame().toLocal(state[from].frame());
   saveForces(target);
   saveForces(source);
   for (const BodyId b : source.members) enlist(state, to, b, state.pose(b), state.angle(b));
@@ -80,7 +80,7 @@ void fix(State& state, RigidId id, FrameId frame, const Rigid& anchor) {
 
   // Re-express members, contacts and shapes in the new frame.
   Collection& c = state.collection(id);
-  const Pose relative = r.frame().inverse() * old;
+  const Pose relative = r.frame().toLocal(old);
   saveForces(c);
   removeShapes(state, id, c.members);
   for (const BodyId b : c.members) {
@@ -122,7 +122,7 @@ void freeCollection(State& state, RigidId id) {
 
 void addMotion(Rigid& c, const Rigid& b) {
   const double mass = c.mass + b.mass;
-  const Vec2 x = (c.mass * c.x + b.mass * b.x) / mass;
+  const Vec2 x = c.x + onGrid(b.mass / mass * (b.x - c.x));
   const Vec2 r_c = c.x - x, r_b = b.x - x;
   const double inertia =
       c.inertia + c.mass * r_c.squaredNorm() + b.inertia + b.mass * r_b.squaredNorm();
@@ -194,7 +194,8 @@ void absorbContacts(State& state) {
 
     InternalContact inner;
     inner.contact = contact;
-    const Pose from_a = state[id].frame().inverse() * state.pose(contact.key.a);
+    inner.since = state.step;
+    const Pose from_a = state[id].frame().toLocal(state.pose(contact.key.a));
     inner.contact.normal = from_a.rotation * contact.normal;
     for (int i = 0; i < contact.count; ++i) {
       ContactPoint& p = inner.contact.points[static_cast<std::size_t>(i)];

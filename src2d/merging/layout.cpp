@@ -19,15 +19,17 @@ void gatherMass(State& state, RigidId id) {
   Rigid& r = state[id];
   const Collection& c = state.collection(id);
   const Pose frame = r.frame();
+  // Seen from a member, so that the rounding does not depend on where in the frame they are.
+  const Vec2 origin = state[c.members.front()].local;
   r.mass = 0.0;
   Vec2 first = Vec2::Zero();
   r.bounds = {};
   for (const BodyId b : c.members) {
     r.mass += state[b].mass;
-    first += state[b].mass * state[b].local;
+    first += state[b].mass * (state[b].local - origin);
     r.bounds.include(memberBounds(state, b));
   }
-  const Vec2 center = first / r.mass;
+  const Vec2 center = origin + onGrid(first / r.mass);
   r.inertia = 0.0;
   for (const BodyId b : c.members) {
     r.inertia += state[b].inertia + state[b].mass * (state[b].local - center).squaredNorm();
@@ -152,7 +154,9 @@ void layOutBlocks(const State& state, Collection& c) {
   c.pivots_stale = true;
   c.active_blocks = 0;
   for (const Item& item : items) {
-    c.blocks.push_back(makeBlock(state, c, c.contacts[item.contact]));
+    InternalContact& inner = c.contacts[item.contact];
+    c.blocks.push_back(makeBlock(state, c, inner));
+    inner.contact.count = c.blocks.back().count;  // points too close to each other count as one
     c.block_contact.push_back(item.contact);
     c.block_weld.push_back(weld_of[item.contact]);
     if (!item.dormant) ++c.active_blocks;
@@ -196,7 +200,7 @@ void layOutCollections(State& state) {
     layOutBlocks(state, c);
     layOutPush(state, c);
     c.stale = false;
-    c.settled = false;
+    c.settled = c.refuted = false;
   }
 }
 

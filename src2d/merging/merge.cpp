@@ -9,6 +9,7 @@
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/metric.h"
+#include "src2d/merging/sweep.h"
 
 namespace merge2d {
 namespace {
@@ -65,7 +66,8 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
       ++seen.active;
       seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
       seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
-      seen.on_edge += std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
+      const bool at_rest = std::abs(p.w_t) < residualVelocity(state);
+      seen.on_edge += !at_rest && std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
     }
   }
   return seen;

@@ -20,7 +20,7 @@ void markRestless(State& state, Scratch& scratch, std::vector<std::uint8_t>& res
   restless.assign(state.rigids.size(), 0);
   const auto mark = [&](BodyId b) { restless[index(state[b].rigid)] = 1; };
   for (const Kick& kick : scratch.kicks) mark(kick.body);
-  for (const BodyId b : scratch.woken) mark(b);
+  for (const BodyId b : scratch.stirred) mark(b);
   for (const Load& load : scratch.loads) {
     const Body& body = state[load.body];
     const double change = (body.load - body.load_asleep).norm();
@@ -55,17 +55,6 @@ void fallAsleep(State& state, Scratch& scratch, std::size_t i) {
   }
   scratch.events.push_back(
       {EventType::Sleep, first, first, c ? c->id : kNoCollection, EventReason::None});
-}
-
-void wakeUp(State& state, Scratch& scratch, std::size_t i) {
-  Rigid& r = state.rigids[i];
-  r.asleep = false;
-  r.quiet_steps = 0;
-  const bool collection = i >= state.bodies.size();
-  const Collection* c = collection ? &state.collections[i - state.bodies.size()] : nullptr;
-  const BodyId first = c ? c->members.front() : BodyId{static_cast<std::uint32_t>(i)};
-  scratch.events.push_back(
-      {EventType::Wake, first, first, c ? c->id : kNoCollection, EventReason::None});
 }
 
 /// Writes down what becomes of a rigid thing, and the one test that decided it.
@@ -115,6 +104,16 @@ bool ready(const State& state, std::size_t i, bool restless) {
 
 }  // namespace
 
+void wakeUp(State& state, Scratch& scratch, RigidId id) {
+  Rigid& r = state[id];
+  r.asleep = false;
+  r.quiet_steps = 0;
+  const Collection* c = state.isCollection(id) ? &state.collection(id) : nullptr;
+  const BodyId first = c ? c->members.front() : BodyId{static_cast<std::uint32_t>(id)};
+  scratch.events.push_back(
+      {EventType::Wake, first, first, c ? c->id : kNoCollection, EventReason::None});
+}
+
 void sleepAndWake(State& state, Scratch& scratch) {
   if (!sleeps(state.mode)) return;
   sumLoads(state, scratch);
@@ -140,10 +139,11 @@ void sleepAndWake(State& state, Scratch& scratch) {
     if (!canSleep(state.rigids[i], state, i)) continue;
     const bool stays_awake = awake[sets.find(static_cast<std::uint32_t>(i))] != 0;
     noteSleep(state, scratch.notes, i, restless[i] != 0, stays_awake);
-    if (state.rigids[i].asleep && stays_awake) wakeUp(state, scratch, i);
+    if (state.rigids[i].asleep && stays_awake) {
+      wakeUp(state, scratch, RigidId{static_cast<std::uint32_t>(i)});
+    }
     if (!state.rigids[i].asleep && !stays_awake) fallAsleep(state, scratch, i);
   }
-  scratch.woken.clear();
 }
 
 }  // namespace merge2d

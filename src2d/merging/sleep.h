@@ -11,4 +11,7 @@ namespace merge2d {
 
 void sleepAndWake(State& state, Scratch& scratch);
 
+/// Wakes one rigid thing; its island follows in the stage.
+void wakeUp(State& state, Scratch& scratch, RigidId id);
+
 }  // namespace merge2d

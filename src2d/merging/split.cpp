@@ -64,6 +64,23 @@ RigidId newPart(State& state, const std::vector<BodyId>& members, const Rigid& w
   return id;
 }
 
+/// What leaves the world's frame gets its frame's origin at its centre of mass: as it turns, the
+/// rounding must not depend on how far from the world's origin it was.
+void centreFrame(State& state, RigidId id) {
+  Rigid& r = state[id];
+  Collection& c = state.collection(id);
+  const Vec2 offset = onGrid(r.center);
+  removeShapes(state, id, c.members);
+  r.center -= offset;
+  r.bounds = {r.bounds.lower - offset, r.bounds.upper - offset};
+  for (const BodyId b : c.members) state[b].local -= offset;
+  for (InternalContact& inner : c.contacts) {
+    for (ContactPoint& point : inner.contact.points) point.position -= offset;
+  }
+  addShapes(state, id, c.members);
+  r.resized = true;
+}
+
 /// Contacts between the parts return to the table with their impulses and today's geometry.
 void releaseContacts(State& state, std::vector<InternalContact>& released) {
   std::vector<ContactKey> keys;
@@ -78,7 +95,7 @@ void releaseContacts(State& state, std::vector<InternalContact>& released) {
     Contact& contact = state.contacts[*at];
     contact = inner.contact;
     contact.quiet_steps = 0;
-    updateManifold(state, contact);
+    updateManifold(state, contact, 0.0);
   }
 }
 
@@ -122,6 +139,7 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
     } else {
       const RigidId made = newPart(state, members[p], whole, anchor, anchored[p] != 0);
       state.collection(made).contacts = std::move(kept[p]);
+      if (whole.anchor == kWorldFrame && !anchored[p]) centreFrame(state, made);
       result.push_back(made);
     }
   }
@@ -141,6 +159,7 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
     inheritMotion(state, id, whole, anchored[largest] != 0);
     state[id].resized = true;
     state[id].quiet_steps = 0;
+    if (whole.anchor == kWorldFrame && !anchored[largest]) centreFrame(state, id);
   }
   releaseContacts(state, released);
   return result;

@@ -409,6 +409,7 @@ void orderContacts(State& state, Scratch& scratch) {
     }
   }
   for (const Kick& kick : scratch.kicks) seed(kick.body);
+  for (const BodyId b : scratch.stirred) seed(b);
   for (const BodyPair& pair : scratch.pairs) {
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
       const Contact& contact = state.contacts[state.contacts.order[i]];
@@ -447,6 +448,7 @@ void warmStartSweep(State& state, Scratch& scratch) {
                                [&](const Collection& c) { return isSwept(state, c); });
   scratch.sweeping = any;
   if (!any) return;
+  scratch.last_sweep = state.step;
   scratch.sweep_u.resize(state.bodies.size());
   startOthers(state, scratch);
   for (const Collection& c : state.collections) {

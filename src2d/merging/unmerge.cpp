@@ -33,6 +33,7 @@ class WeldTest {
         scratch_(scratch),
         c_(c),
         turn_(state[c.rigid].rotation),
+        disturbed_(disturbed),
         whole_(disturbed) {}
 
   /// Adds this step's evidence to what was summed, and cuts the welds whose sum is too large. Only
@@ -47,14 +48,19 @@ class WeldTest {
       testLost(c_.welds[pivot]);
       testMotion(c_.welds[pivot]);
     }
+    // What may be about to part does not fall asleep.
+    if (disturbed_) c_.refuted = false;
+    if (growing_ && !c_.refuted && !confirming_) c_.settled = false;
   }
 
   bool contactOpened() const { return opened_; }
+  bool somethingGrows() const { return growing_; }
 
   /// Looks again after more sweeps. What was summed may have come from a sweep that had not
   /// converged: it is replaced by today's velocity, as if it had been the same in all those steps.
   void confirmAll() {
     confirming_ = whole_ = true;
+    growing_ = false;
     for (const std::uint32_t weld : c_.cut_welds) c_.welds[weld].cut = false;
     c_.cut_welds.clear();
     testAll();
@@ -88,7 +94,7 @@ class WeldTest {
         at_ = state_[c_.rigid].frame() * inner.contact.points[static_cast<std::size_t>(i)].position;
       }
       if (edge || !pressed) {
-        const ContactVelocity w = lookAtPoint(k, inner.contact, i);
+        const ContactVelocity w = velocityAt(k, i);
         if (!pressed && inner.active[i]) inner.lost[i] = testBroken(weld, inner.opening[i], w.n);
         if (edge) testSliding(weld, inner.slip[i], w.t);
       }
@@ -100,17 +106,13 @@ class WeldTest {
   }
 
   /// Velocity at a point after the sweep.
-  ContactVelocity lookAtPoint(const ContactBlock& k, Contact& contact, int i) {
+  ContactVelocity velocityAt(const ContactBlock& k, int i) const {
     const double nx = turn_.c * k.nx - turn_.s * k.ny, ny = turn_.s * k.nx + turn_.c * k.ny;
-    const ContactVelocity w =
-        contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
-    contact.points[static_cast<std::size_t>(i)].w_n = static_cast<float>(w.n);
-    contact.points[static_cast<std::size_t>(i)].w_t = static_cast<float>(w.t);
-    return w;
+    return contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
   }
 
   /// Adds to what was summed. Evidence that more sweeps do not confirm is forgotten.
-  Evidence weigh(Drift& drift, double w, double threshold) const {
+  Evidence weigh(Drift& drift, double w, double threshold) {
     if (confirming_) {
       if (std::abs(w) < residualVelocity(state_)) w = 0.0;
       drift.sum = static_cast<float>(w * std::max(drift.steps, 1));
@@ -120,6 +122,7 @@ class WeldTest {
     }
     const double sum = std::abs(drift.sum);
     const Evidence found{sum, drift.steps, sum > threshold};
+    growing_ |= !found.exceeds && std::abs(w) > residualVelocity(state_);
     if (confirming_ && !found.exceeds) drift = {};
     return found;
   }
@@ -127,7 +130,7 @@ class WeldTest {
   /// True when the contact has opened.
   bool testBroken(std::uint32_t weld, Drift& opening, double w_n) {
     const bool literal = rule() == Rule::Paper;
-    const double threshold = literal ? 0.0 : state_.settings.unmerging.sliding;
+    const double threshold = literal ? 0.0 : openingThreshold();
     const Evidence found = weigh(opening, std::max(0.0, w_n), threshold);
     const bool lost = found.exceeds || literal;
     note(c_.welds[weld], {.criterion = "opening",
@@ -154,6 +157,13 @@ class WeldTest {
                 .value = static_cast<double>(held),
                 .threshold = 1.0,
                 .verdict = held == 0 ? "unmerge" : "keep"});
+  }
+
+  /// How much may open. Where something new entered, the sweeps have converged, and less will do.
+  double openingThreshold() const {
+    constexpr double kBeyondResidual = 5.0;
+    const double sliding = state_.settings.unmerging.sliding;
+    return disturbed_ ? std::min(sliding, kBeyondResidual * residualVelocity(state_)) : sliding;
   }
 
   bool hadContact(const Weld& weld) const {
@@ -247,7 +257,9 @@ class WeldTest {
   Collection& c_;
   Rotation turn_;
   bool confirming_ = false;
+  bool growing_ = false;    ///< some sum grew in this step, and is not too large yet
   bool opened_ = false;     ///< some contact was lost that held before
+  bool disturbed_ = false;  ///< something new entered in this step: the sweeps have converged
   bool whole_ = false;      ///< dormant contacts were swept too
   Vec2 at_ = Vec2::Zero();  ///< the contact point at hand, for the notes
 };
@@ -258,6 +270,27 @@ struct Parts {
   std::vector<std::uint32_t> part;     ///< per member
   std::vector<std::uint8_t> anchored;  ///< per part
 };
+
+/// True when all members hang together, or each on the frame, by welds with two contacts alone: a
+/// quick answer that is right most times.
+bool hangsTogether(const State& state, const Collection& c, DisjointSets& sets) {
+  const auto node = [&](BodyId b) {
+    return state[b].rigid == c.rigid ? static_cast<std::uint32_t>(memberIndex(c, b)) + 1 : 0u;
+  };
+  sets.reset(c.members.size() + 1);
+  std::size_t joined = 0;
+  bool on_frame = state[c.rigid].floating();
+  for (const Weld& weld : c.welds) {
+    if (weld.cut || activeContacts(c, weld) < 2) continue;
+    const std::uint32_t a = node(weld.a), b = node(weld.b);
+    if (a == 0 || b == 0) {
+      on_frame = true;
+    } else {
+      joined += sets.unite(a, b) ? 1 : 0;
+    }
+  }
+  return on_frame && joined + 1 == c.members.size();
+}
 
 /// The contacts of a weld that hold, in the collection's frame.
 void addPins(const Collection& c, const Weld& weld, std::uint32_t a, std::uint32_t b,
@@ -372,6 +405,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   // Broken welds that do not part the graph are found again in each step: look anew only when
   // there is one more.
   if (!newCut(c, scratch) && !test.contactOpened()) return;
+  if (hangsTogether(state, c, scratch.sets)) return;
   Parts parts = partsWithoutCuts(state, c);
   if (!fallsApart(state, c, parts)) return;
   const UnmergingSettings& settings = state.settings.unmerging;
@@ -381,6 +415,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
     sweepAgain(state, scratch, c);
     test.confirmAll();
     parts = partsWithoutCuts(state, c);
+    c.refuted = !test.somethingGrows();
     if (!fallsApart(state, c, parts)) return;
   }
   splitAtCuts(state, scratch, c.rigid, parts);

@@ -1,6 +1,7 @@
 #include "src2d/trace/capture.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "src2d/merging/collection.h"
 
@@ -56,7 +57,26 @@ ContactView view(const Contact& contact, const ContactPoint& p, const Pose& fram
   return seen;
 }
 
-void captureContacts(const State& state, Snapshot& out) {
+/// Velocity at a point inside a collection: what the last sweep left, or the full solve for one
+/// that became internal after it; asleep nothing moves.
+void showInternalVelocity(const State& state, const Scratch& scratch, const Collection& c,
+                          std::size_t block, int i, ContactPoint& p) {
+  const Rigid& r = state[c.rigid];
+  if (r.asleep) {
+    p.w_n = p.w_t = 0.0F;
+  } else if (c.contacts[c.block_contact[block]].since < scratch.last_sweep) {
+    const ContactBlock& k = c.blocks[block];
+    const bool step_is_over = state.step > scratch.last_sweep;
+    const Rotation turn = step_is_over ? r.previous_rotation : r.rotation;
+    const Vec2 n = turn * Vec2(k.nx, k.ny);
+    const ContactVelocity w =
+        contactVelocity(k, i, n.x(), n.y(), scratch.sweep_u[k.a], scratch.sweep_u[k.b]);
+    p.w_n = static_cast<float>(w.n);
+    p.w_t = static_cast<float>(w.t);
+  }
+}
+
+void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) {
   out.contacts.clear();
   for (const ContactTable::Entry& entry : state.contacts.order) {
     const Contact& contact = state.contacts[entry];
@@ -76,15 +96,18 @@ void captureContacts(const State& state, Snapshot& out) {
         p.lambda_n = k.lambda_n(i);
         p.lambda_t = k.lambda_t(i);
         p.fresh = false;
+        showInternalVelocity(state, scratch, c, b, i, p);
         out.contacts.push_back(view(contact, p, frame));
         out.contacts.back().internal = true;
       }
     }
   }
-  std::stable_sort(out.contacts.begin(), out.contacts.end(),
-                   [](const ContactView& x, const ContactView& y) {
-                     return std::pair(x.a, x.b) < std::pair(y.a, y.b);
-                   });
+  std::sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
+    const auto key = [](const ContactView& c) {
+      return std::tuple(c.a, c.b, c.feature, c.x.x(), c.x.y());
+    };
+    return key(x) < key(y);
+  });
 }
 
 /// Of an anchored collection centre and inertia are those of its members.
@@ -166,7 +189,7 @@ void captureState(const State& state, const Actions& actions, const Scratch& scr
   out.step = state.step;
   out.time = state.time;
   captureBodies(state, out);
-  captureContacts(state, out);
+  captureContacts(state, scratch, out);
   captureCollections(state, out);
   out.springs = scratch.springs;
   out.events = scratch.events;

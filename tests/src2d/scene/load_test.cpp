@@ -368,7 +368,7 @@ TEST(Builtin, TheTowerHasTheNumberOfBodiesOfThePaper) {
 
 TEST(Builtin, AnotherFolderMayBeNamedInTheEnvironment) {
   const TemporaryFile file("other-scene.toml", "title = \"Other\"\n");
-  ASSERT_EQ(setenv("MERGE2D_SCENES", testing::TempDir().c_str(), 1), 0);
+  ASSERT_EQ(setenv("MERGE2D_SCENES", file.path().parent_path().c_str(), 1), 0);
   EXPECT_EQ(loadScene("other-scene").title, "Other");
   ASSERT_EQ(unsetenv("MERGE2D_SCENES"), 0);
 }

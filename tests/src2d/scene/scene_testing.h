@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -30,14 +31,20 @@ inline std::string firstLineOf(std::string_view toml, const Overrides& overrides
   return whole.substr(0, whole.find('\n'));
 }
 
-/// A file in the temporary folder of the tests, which goes with it.
+/// A file in a temporary folder of this process, which goes with it.
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, std::string_view bytes)
-      : path_(std::filesystem::path(testing::TempDir()) / name) {
+      : path_(std::filesystem::path(testing::TempDir()) /
+              ("merge2d_scene_" + std::to_string(::getpid())) / name) {
+    std::filesystem::create_directories(path_.parent_path());
     std::ofstream(path_, std::ios::binary) << bytes;
   }
-  ~TemporaryFile() { std::filesystem::remove(path_); }
+  ~TemporaryFile() {
+    std::error_code still_used;
+    std::filesystem::remove(path_);
+    std::filesystem::remove(path_.parent_path(), still_used);
+  }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   const std::filesystem::path& path() const { return path_; }

@@ -1,0 +1,48 @@
+#include "src2d/contact/approach.h"
+
+namespace merge2d {
+namespace {
+
+/// Distance of the farthest point of a box from `center`, at most.
+double radius(const Aabb& bounds, const Vec2& center) {
+  return (bounds.lower - center).cwiseAbs().cwiseMax((bounds.upper - center).cwiseAbs()).norm();
+}
+
+}  // namespace
+
+StartMotion startMotion(const State& state, const Scratch& scratch, RigidId id) {
+  const Rigid& r = state[id];
+  StartMotion motion{r.v, r.omega};
+  for (const Kick& kick : scratch.kicks) {
+    if (state[kick.body].rigid != id) continue;
+    motion.v += r.inv_mass * kick.impulse;
+    motion.omega += r.inv_inertia * cross(kick.at - r.x, kick.impulse);
+  }
+  return motion;
+}
+
+double approach(const State& state, const Scratch& scratch, RigidId a, RigidId b) {
+  const StartMotion of_a = startMotion(state, scratch, a), of_b = startMotion(state, scratch, b);
+  const auto turning = [&](RigidId id, double omega) {
+    return std::abs(omega) * radius(state[id].bounds, state[id].center);
+  };
+  return state.h * ((of_b.v - of_a.v).norm() + turning(a, of_a.omega) + turning(b, of_b.omega));
+}
+
+double approach(const State& state, const Scratch& scratch, BodyId a, BodyId b) {
+  const auto motion = [&](BodyId body) {
+    const Rigid& r = state.rigid(body);
+    StartMotion at_body = startMotion(state, scratch, state[body].rigid);
+    if (state.isCollection(state[body].rigid)) {
+      at_body.v += cross(at_body.omega, state.pose(body).position - r.x);
+    }
+    return at_body;
+  };
+  const auto turning = [&](BodyId body, double omega) {
+    return std::abs(omega) * radius(state[rigidOf(body)].bounds, Vec2::Zero());
+  };
+  const StartMotion of_a = motion(a), of_b = motion(b);
+  return state.h * ((of_b.v - of_a.v).norm() + turning(a, of_a.omega) + turning(b, of_b.omega));
+}
+
+}  // namespace merge2d

@@ -1,0 +1,23 @@
+#pragma once
+/// How far two things can come towards each other in this step: contacts are looked for that far
+/// ahead, so that nothing passes through anything.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Velocity at the start of a step, with the impulses that the step is about to give.
+struct StartMotion {
+  Vec2 v = Vec2::Zero();  ///< of the centre of mass [m/s]
+  double omega = 0.0;     ///< [rad/s]
+};
+StartMotion startMotion(const State& state, const Scratch& scratch, RigidId id);
+
+/// An upper bound of the way [m] that a point of the first can go against one of the second in this
+/// step, but for what contacts and forces add.
+double approach(const State& state, const Scratch& scratch, RigidId a, RigidId b);
+
+/// The same for two bodies, wherever their rigid things have their centres.
+double approach(const State& state, const Scratch& scratch, BodyId a, BodyId b);
+
+}  // namespace merge2d
