@@ -8,6 +8,7 @@
 #include "src2d/core/memory.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
+#include "src2d/merging/joint_welds.h"
 #include "src2d/merging/metric.h"
 
 namespace merge2d {
@@ -34,19 +35,6 @@ void noteCorners(Notes* notes, const BodyPair& pair, const OrientedBox& box, con
   notes->corners.push_back(seen);
 }
 
-/// Eq. (15); the box of what is fixed to the world or to a script is not looked at.
-double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
-  const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
-  double fastest = 0.0;
-  for (const Rigid* r : {&a, &b}) {
-    if (!r->floating()) continue;
-    const OrientedBox box = worldBox(*r);
-    fastest = std::max(fastest, fastestCorner(box, fieldOf(a), fieldOf(b)));
-    noteCorners(notes, pair, box, a, b);
-  }
-  return fastest;
-}
-
 /// What the contacts of one pair say.
 struct PairContacts {
   int active = 0;
@@ -57,15 +45,16 @@ struct PairContacts {
 
 PairContacts lookAt(const State& state, const BodyPair& pair) {
   PairContacts seen;
+  const bool bilateral = isBilateral(state, pair.a, pair.b);
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
     const Contact& contact = state.contacts[state.contacts.order[i]];
     for (int k = 0; k < contact.count; ++k) {
       const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
-      if (p.lambda_n <= 0.0) continue;
+      if (p.lambda_n <= 0.0 && !bilateral) continue;
       ++seen.active;
       seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
       seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
-      seen.on_edge += std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
+      seen.on_edge += !bilateral && std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
     }
   }
   return seen;
@@ -233,7 +222,9 @@ class MergeGraph {
 void noteMerge(const State& state, Notes* notes, const BodyPair& pair, std::string_view criterion,
                double value, double threshold, bool merges) {
   if (!notes) return;
-  const int count = state.contacts[state.contacts.order[pair.first]].quiet_steps;
+  const bool touches = pair.count > 0;  // or is held by joints alone
+  const int count = touches ? state.contacts[state.contacts.order[pair.first]].quiet_steps
+                            : state.settings.merging.steps;
   notes->decisions.push_back({.a = pair.a,
                               .b = pair.b,
                               .stage = "Merge",
@@ -262,6 +253,10 @@ std::vector<BodyPair> pairsToWeld(const State& state, const Scratch& scratch) {
     if (!counted) continue;
     ready.push_back(pair);
     edges.push_back({graph.node(pair.a), graph.node(pair.b), activePoints(state, pair)});
+  }
+  for (const JointEdge& joint : readyJoints(state)) {
+    ready.push_back({joint.a, joint.b, 0, 0});
+    edges.push_back({graph.node(joint.a), graph.node(joint.b), joint.contacts});
   }
   if (ready.empty()) return ready;
   const CycleCriterion cycles = m.rule == Rule::Paper ? CycleCriterion::Off : m.cycles;
@@ -310,8 +305,21 @@ void releaseRows(Scratch& scratch) {
 
 }  // namespace
 
+double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
+  const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
+  double fastest = 0.0;
+  for (const Rigid* r : {&a, &b}) {
+    if (!r->floating()) continue;
+    const OrientedBox box = worldBox(*r);
+    fastest = std::max(fastest, fastestCorner(box, fieldOf(a), fieldOf(b)));
+    noteCorners(notes, pair, box, a, b);
+  }
+  return fastest;
+}
+
 void accumulateRelativeMotion(State& state, Scratch& scratch) {
   if (merges(state.mode)) countQuietPairs(state, scratch);
+  if (merges(state.mode) && !state.joints.empty()) countQuietJoints(state, scratch);
   if (sleeps(state.mode)) countQuietRigids(state, scratch.notes);
 }
 

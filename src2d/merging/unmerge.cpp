@@ -5,6 +5,7 @@
 #include "src2d/contact/detection.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
+#include "src2d/merging/joint_welds.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/sweep.h"
 
@@ -163,6 +164,7 @@ class WeldTest {
   }
 
   bool hadContact(const Weld& weld) const {
+    if (weld.joints > 0) return true;
     for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
       if (c_.contacts[i].active[0] || c_.contacts[i].active[1]) return true;
     }
@@ -370,6 +372,17 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
   scratch.split = true;
 }
 
+/// Breaks the joints that bear too much, also after more sweeps, and parts what they held.
+bool breakInside(State& state, Scratch& scratch, Collection& c) {
+  sweepAgain(state, scratch, c);
+  if (!anyJointBreaks(state, c)) return false;
+  breakJointsInside(state, c);
+  const Parts parts = partsWithoutCuts(state, c);
+  if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, c.rigid, parts);
+  scratch.split = true;  // to be laid out anew
+  return true;
+}
+
 /// Some weld is cut that was not in the last step.
 bool newCut(const Collection& c, const Scratch& scratch) {
   return std::any_of(c.cut_welds.begin(), c.cut_welds.end(), [&](std::uint32_t weld) {
@@ -384,13 +397,15 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   scratch.cuts_before.assign(c.cut_welds.begin(), c.cut_welds.end());
   for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
   c.cut_welds.clear();
+  if (anyJointBreaks(state, c) && breakInside(state, scratch, c)) return;
+  const bool loosened = loosenJoints(state, c, scratch.sweep_u);
   const std::size_t first = scratch.notes ? scratch.notes->decisions.size() : 0;
   WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
   test.testAll();
   // Broken welds that do not part the graph are found again in each step: look anew only when
   // there is one more.
-  if (!newCut(c, scratch) && !test.contactOpened()) return;
-  if (hangsTogether(state, c, scratch.sets)) return;
+  if (!newCut(c, scratch) && !test.contactOpened() && !loosened) return;
+  if (!loosened && hangsTogether(state, c, scratch.sets)) return;
   Parts parts = partsWithoutCuts(state, c);
   if (!fallsApart(state, c, parts)) return;
   const UnmergingSettings& settings = state.settings.unmerging;
@@ -398,6 +413,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
     // One sweep may not have converged: before anything parts, look again after more.
     restate(state, scratch.notes, first, "recheck");
     sweepAgain(state, scratch, c);
+    confirmJoints(state, c, scratch.sweep_u);
     test.confirmAll();
     parts = partsWithoutCuts(state, c);
     if (!fallsApart(state, c, parts)) return;
@@ -415,7 +431,7 @@ void finishSplits(State& state, Scratch& scratch) {
 }  // namespace
 
 int activeContacts(const Collection& c, const Weld& weld) {
-  int active = 0;
+  int active = weld.joints;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const InternalContact& inner = c.contacts[i];
     for (int p = 0; p < inner.contact.count; ++p) active += inner.active[p] && !inner.lost[p];

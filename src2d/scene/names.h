@@ -36,6 +36,13 @@ inline constexpr std::array<Named<CycleCriterion>, 3> kNames<CycleCriterion>{
      {"triangle", CycleCriterion::Triangle},
      {"rigid", CycleCriterion::Rigid}}};
 
+template <>
+inline constexpr std::array<Named<JointKind>, 4> kNames<JointKind>{
+    {{"revolute", JointKind::Revolute},
+     {"weld", JointKind::Weld},
+     {"distance", JointKind::Distance},
+     {"prismatic", JointKind::Prismatic}}};
+
 template <class E>
 concept HasNames = !kNames<E>.empty();
 
