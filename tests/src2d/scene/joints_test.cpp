@@ -26,7 +26,7 @@ script = { spin = 1 }
 circle = 1
 )";
 
-/// The joint stands from line 15 on.
+/// The joint stands from line 16 on.
 std::string joint(std::string_view lines) { return kBodies + "[[joint]]\n" + std::string(lines); }
 
 void expectError(std::string_view lines, std::string_view message) {
@@ -112,47 +112,47 @@ TEST(Joints, AreChangedFromTheCommandLine) {
 
 TEST(Joints, NeedTwoBodiesThatAreThere) {
   expectError("kind = \"weld\"\nbodies = [\"crate\", \"carr\"]\nat = [0, 0]",
-              "17:20: no body is called 'carr' (did you mean 'cart'?)");
+              "18:20: no body is called 'carr' (did you mean 'cart'?)");
   expectError("kind = \"weld\"\nbodies = [\"crate\", \"crate\"]\nat = [0, 0]",
-              "17:20: a joint needs two bodies, but both are 'crate'");
+              "18:20: a joint needs two bodies, but both are 'crate'");
   expectError("kind = \"weld\"\nbodies = []\nat = [0, 0]",
-              "17:10: 'bodies' in [[joint]] must be [\"a\", \"b\"], or [\"a\"] for a joint to the "
-              "world, but is []");
-  expectError("kind = \"weld\"\nat = [0, 0]", "15:1: [[joint]] needs the key 'bodies'");
+              "18:10: 'bodies' in [[joint]] must be [\"a\", \"b\"], or [\"a\"] for a joint to the "
+              "world, but is a list of 0");
+  expectError("kind = \"weld\"\nat = [0, 0]", "16:1: [[joint]] needs the key 'bodies'");
 }
 
 TEST(Joints, NeedABodyThatMoves) {
   expectError("kind = \"weld\"\nbodies = [\"wall\", \"ship\"]\nat = [0, 0]",
-              "17:10: a joint has no effect between 'wall', which is pinned, and 'ship', which is "
+              "18:10: a joint has no effect between 'wall', which is pinned, and 'ship', which is "
               "scripted");
   expectError("kind = \"weld\"\nbodies = [\"wall\"]\nat = [0, 0]",
-              "17:10: a joint to the world has no effect on 'wall', which is pinned");
+              "18:10: a joint to the world has no effect on 'wall', which is pinned");
 }
 
 TEST(Joints, AreOfAKnownKindWithItsOwnKeys) {
   expectError("kind = \"weldd\"\nbodies = [\"crate\"]\nat = [0, 0]",
-              "16:8: 'kind' in [[joint]] must be one of \"revolute\", \"weld\", \"distance\", "
+              "17:8: 'kind' in [[joint]] must be one of \"revolute\", \"weld\", \"distance\", "
               "\"prismatic\", but is \"weldd\" (did you mean 'weld'?)");
   expectError("kind = \"weld\"\nbodies = [\"crate\"]\nat = [0, 0]\naxis = [1, 0]",
-              "19:8: 'axis' belongs to a prismatic joint, but this one is \"weld\"");
+              "20:8: 'axis' belongs to a prismatic joint, but this one is \"weld\"");
   expectError("kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nlength = 2",
-              "19:10: 'length' belongs to a distance joint, but this one is \"revolute\"");
+              "20:10: 'length' belongs to a distance joint, but this one is \"revolute\"");
   expectError("kind = \"weld\"\nbodies = [\"crate\"]\nat = [0, 0]\nbrek_force = 2",
-              "19:1: unknown key 'brek_force' in [[joint]] (did you mean 'break_force'?)");
-  expectError("kind = \"revolute\"\nbodies = [\"crate\"]", "15:1: [[joint]] needs the key 'at'");
+              "20:1: unknown key 'brek_force' in [[joint]] (did you mean 'break_force'?)");
+  expectError("kind = \"revolute\"\nbodies = [\"crate\"]", "16:1: [[joint]] needs the key 'at'");
 }
 
 TEST(Joints, SayWhatIsWrongWithTheirNumbers) {
   expectError("kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nlimits = [30, -30]",
-              "19:10: the lower limit must come first");
+              "20:10: the lower limit must come first");
   expectError("kind = \"prismatic\"\nbodies = [\"crate\"]\nat = [0, 0]\naxis = [0, 0]",
-              "19:8: 'axis' must not be [0, 0]");
+              "20:8: 'axis' must not be [0, 0]");
   expectError("kind = \"distance\"\nbodies = [\"crate\"]\nat = [1, 0]\nto = [1, 0]",
-              "19:6: the ends of a distance joint must be apart: 'at' and 'to' are one point");
+              "20:6: the ends of a distance joint must be apart: 'at' and 'to' are one point");
   expectError("kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nmotor = { speed = 1 }",
-              "19:9: 'motor' in [[joint]] needs the key 'torque'");
+              "20:9: [motor] needs the key 'torque'");
   expectError("kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nbreak_force = 0",
-              "19:15: 'break_force' in [[joint]] must be positive, but is 0");
+              "20:15: 'break_force' in [[joint]] must be positive, but is 0");
 }
 
 }  // namespace
