@@ -67,7 +67,7 @@ void World::Impl::step() {
   run(Stage::SolveLCP, [&] { solveContacts(state, s); });
   run(Stage::AdvanceVelocities, [&] { advanceVelocities(state, s); });
   run(Stage::AccumulateRelativeMotion, [&] { accumulateRelativeMotion(state, s); });
-  run(Stage::AdvancePositions, [&] { advancePositions(state); });
+  run(Stage::AdvancePositions, [&] { advancePositions(state, s); });
   run(Stage::Merge, [&] { merge(state, s); });
 
   state.step += 1;

@@ -2,10 +2,15 @@
 
 #include <Eigen/LU>
 
+#include "src2d/dynamics/stabilise.h"
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
 namespace {
+
+bool postStabilised(const State& state) {
+  return state.settings.solver.stabilisation == Stabilisation::Post;
+}
 
 /// Fills the rows of a block and what is derived from them.
 class JointBuilder {
@@ -15,12 +20,13 @@ class JointBuilder {
       : state_(state),
         joint_(joint),
         place_(place),
-        rigid_(kind == JointRows::Rigid),
+        rigid_(kind == JointRows::Rigid || (kind == JointRows::Soft && postStabilised(state))),
         a_(a),
         b_(b) {
     const double other = joint.to_world ? 0.0 : responds(joint.b);
     const double self = responds(joint.a);
-    const double c = state.settings.solver.compliance;
+    const double c = kind == JointRows::Soft ? state.settings.solver.compliance : 0.0;
+    share_ = kind == JointRows::Correction ? kCorrectedShare : state.settings.solver.erp;
     softness_ = c * (self / mass(joint.a) + (other > 0.0 ? other / mass(joint.b) : 0.0));
     turning_softness_ =
         c * (self / inertia(joint.a) + (other > 0.0 ? other / inertia(joint.b) : 0.0));
@@ -84,7 +90,7 @@ class JointBuilder {
 
   /// A row that keeps `error` at 0.
   void hold(JointRow row, double error) {
-    row.bias = rigid_ ? 0.0 : state_.settings.solver.erp * error / state_.h;
+    row.bias = rigid_ ? 0.0 : share_ * error / state_.h;
     block_.rows[static_cast<std::size_t>(block_.coupled++)] = row;
   }
 
@@ -108,7 +114,7 @@ class JointBuilder {
     const bool at_lower = value - lower < upper - value;
     const double gap = at_lower ? value - lower : upper - value;
     const double sign = at_lower ? 1.0 : -1.0;
-    const double way = gap > 0.0 ? gap / state_.h : state_.settings.solver.erp * gap / state_.h;
+    const double way = gap > 0.0 ? gap / state_.h : share_ * gap / state_.h;
     const bool pressed = joint_.lambda[kLimitRow] != 0.0;
     row.bias = rigid_ && (pressed || gap <= 0.0) ? 0.0 : sign * way;
     if (gap > 0.0) row.softness = 0.0;
@@ -163,7 +169,7 @@ class JointBuilder {
   const JointPlace& place_;
   bool rigid_;
   const SolverVelocity &a_, &b_;
-  double softness_ = 0.0, turning_softness_ = 0.0;
+  double softness_ = 0.0, turning_softness_ = 0.0, share_ = 0.0;
   JointBlock block_;
 };
 

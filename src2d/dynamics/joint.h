@@ -53,8 +53,9 @@ struct JointPlace {
   double turn = 0.0;  ///< of b against a since the start [rad]
 };
 
-/// Whether rows are to remove what error there is, or only to keep it.
-enum class JointRows { Soft, Rigid };
+/// Whether rows are to remove what error there is, as softly as contacts; only to keep it; or to
+/// correct positions.
+enum class JointRows { Soft, Rigid, Correction };
 
 /// Bodies that are there, and not broken apart.
 bool holds(const State& state, const Joint& joint);

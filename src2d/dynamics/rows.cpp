@@ -207,10 +207,12 @@ void listIslandBodies(const State& state, Scratch& scratch) {
 
 double contactBias(const SolverSettings& settings, double h, double gap) {
   if (gap > 0.0) return gap / h;
+  if (settings.stabilisation == Stabilisation::Post) return 0.0;
   return std::max(settings.erp * gap / h, -settings.max_correction);
 }
 
 double contactSoftness(const SolverSettings& settings, double inv_mass_a, double inv_mass_b) {
+  if (settings.stabilisation == Stabilisation::Post) return 0.0;
   return settings.compliance * (inv_mass_a + inv_mass_b);
 }
 

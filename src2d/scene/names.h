@@ -31,6 +31,9 @@ template <>
 inline constexpr std::array<Named<SolverMethod>, 3> kNames<SolverMethod>{
     {{"nncg", SolverMethod::Nncg}, {"block", SolverMethod::Block}, {"pgs", SolverMethod::Pgs}}};
 template <>
+inline constexpr std::array<Named<Stabilisation>, 2> kNames<Stabilisation>{
+    {{"baumgarte", Stabilisation::Baumgarte}, {"post", Stabilisation::Post}}};
+template <>
 inline constexpr std::array<Named<CycleCriterion>, 3> kNames<CycleCriterion>{
     {{"off", CycleCriterion::Off},
      {"triangle", CycleCriterion::Triangle},
