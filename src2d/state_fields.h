@@ -123,8 +123,8 @@ void fields(Ar& ar, Some<Joint> auto& j) {
 
 template <class Ar>
 void fields(Ar& ar, Some<InternalContact> auto& c) {
-  auto& [contact, active, lost, slip, opening] = c;
-  ar(contact, active, lost, slip, opening);
+  auto& [contact, active, lost, slip, opening, since] = c;
+  ar(contact, active, lost, slip, opening, since);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {
@@ -144,9 +144,9 @@ void fields(Ar& ar, Some<Collection> auto& c) {
 /// What moves of a state; constants come from the scene, trees are built anew.
 template <class Ar>
 void fields(Ar& ar, Some<State> auto& state) {
-  auto& [settings, mode, h, gravity, colliders, collider_bounds, shape_collider, shape_body, step,
-         time, bodies, rigids, collections, next_collection, contacts, joints, joined_pairs,
-         broadphase] = state;
+  auto& [settings, mode, h, gravity, colliders, collider_bounds, shape_collider, shape_body,
+         first_sibling, siblings, step, time, bodies, rigids, collections, next_collection,
+         contacts, joints, joined_pairs, broadphase] = state;
   ar(step, time, bodies, rigids, collections, next_collection, contacts, joints, joined_pairs,
      broadphase.near);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "src2d/core/grid.h"
 #include "src2d/dynamics/nncg.h"
 
 namespace merge2d {
@@ -76,7 +77,7 @@ void correctPositions(State& state, Scratch& scratch) {
   for (const std::uint32_t i : scratch.island_bodies) {
     const SolverVelocity& u = scratch.u[i];
     Rigid& r = state.rigids[i];
-    r.x += state.h * Vec2(u.vx, u.vy);
+    r.x += onGrid(state.h * Vec2(u.vx, u.vy));
     if (u.omega == 0.0) continue;
     r.angle += state.h * u.omega;
     r.rotation = Rotation::of(r.angle);

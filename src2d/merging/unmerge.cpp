@@ -405,7 +405,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   // Broken welds that do not part the graph are found again in each step: look anew only when
   // there is one more.
   if (!newCut(c, scratch) && !test.contactOpened() && !loosened) return;
-  if (!loosened && hangsTogether(state, c, scratch.sets)) return;
+  if (hangsTogether(state, c, scratch.sets)) return;
   Parts parts = partsWithoutCuts(state, c);
   if (!fallsApart(state, c, parts)) return;
   const UnmergingSettings& settings = state.settings.unmerging;
