@@ -6,6 +6,8 @@
 #include "app/output_file.h"
 #include "app/progress.h"
 #include "app/simulation.h"
+#include "app/usage_error.h"
+#include "lessons/lesson.h"
 #include "lessons/page.h"
 
 namespace merge2d {
@@ -14,7 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kExamples = R"(Examples:
+  merge2d lesson what-merging-is
   merge2d lesson tower-platform
+  merge2d lesson my-lesson/
   merge2d lesson my-scene.toml -o page.html
 
 The page is one file with everything in it: it needs no network, and sends nothing anywhere.)";
@@ -28,6 +32,15 @@ struct LessonOptions : SceneOptions {
   std::string output;  ///< empty: frames/<name>/lesson.html
 };
 
+/// A built-in lesson's folder, or a folder that holds one.
+std::optional<fs::path> lessonNamed(const std::string& name) {
+  for (const BuiltinLesson& lesson : builtinLessons()) {
+    if (lesson.name == name) return lesson.folder;
+  }
+  if (fs::is_directory(name)) return fs::path(name);
+  return std::nullopt;
+}
+
 /// Runs a scene in one mode.
 Recording recorded(const Scene& scene, Mode mode, Detail detail, const Console& console) {
   const std::int64_t steps = stepCount(scene);
@@ -39,14 +52,10 @@ Recording recorded(const Scene& scene, Mode mode, Detail detail, const Console& 
               }});
 }
 
-void run(const LessonOptions& options) {
-  check(options);
-  const Console console(options);
-  catchInterrupts();
+/// A scene's page: no text, no questions, the reference as ghost.
+PageContent scenePage(const LessonOptions& options, const Console& console, std::string& name_out) {
   const Scene scene = loadScene(options, console);
-  const std::string path = options.output.empty()
-                               ? (fs::path("frames") / scene.name / "lesson.html").string()
-                               : options.output;
+  name_out = scene.name;
   PageContent content{.title = scene.title, .lesson = "null", .traces = {}};
   content.traces.push_back(
       {std::string(name(options.mode)), recorded(scene, options.mode, Detail::Full, console)});
@@ -54,6 +63,40 @@ void run(const LessonOptions& options) {
     content.traces.push_back(
         {"reference", recorded(scene, Mode::Reference, Detail::Motion, console)});
   }
+  return content;
+}
+
+PageContent lessonPage(const fs::path& folder, const LessonOptions& options, const Console& console,
+                       std::string& name_out) {
+  if (!options.overrides.empty() || options.steps || options.seconds) {
+    throw UsageError(
+        "a lesson says itself how its scene is run; --set, --seed, --steps and "
+        "--seconds are for scenes");
+  }
+  const Lesson lesson = loadLesson(folder);
+  name_out = lesson.name;
+  std::vector<Recording> recordings =
+      recordLesson(lesson, [](std::int64_t) { stopIfInterrupted(); });
+  for (const std::string& failure : failures(lesson, recordings)) console.warn(failure);
+  PageContent content{
+      .title = lesson.title, .lesson = lessonJson(lesson, recordings), .traces = {}};
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    content.traces.push_back({lesson.traces[i].label, std::move(recordings[i])});
+  }
+  return content;
+}
+
+void run(const LessonOptions& options) {
+  check(options);
+  const Console console(options);
+  catchInterrupts();
+  std::string name;
+  const auto folder = lessonNamed(options.scene);
+  const PageContent content =
+      folder ? lessonPage(*folder, options, console, name) : scenePage(options, console, name);
+  const std::string path = options.output.empty()
+                               ? (fs::path("frames") / name / "lesson.html").string()
+                               : options.output;
   if (options.output.empty()) fs::create_directories(fs::path(path).parent_path());
   writeFile(path, makePage(content), {.everything = options.force, .ours = kPageStart});
   if (path != "-") print(fmt::format("{}\n", path));

@@ -4,6 +4,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "lessons/lesson.h"
 #include "src2d/scene/load.h"
 
 namespace merge2d {
@@ -12,6 +13,7 @@ namespace {
 void list(const MessageOptions& options) {
   check(options);
   const std::vector<BuiltinScene> scenes = builtinScenes();
+  const std::vector<BuiltinLesson> lessons = builtinLessons();
   if (options.json) {
     nlohmann::ordered_json out;
     out["scenes"] = nlohmann::ordered_json::array();
@@ -19,21 +21,30 @@ void list(const MessageOptions& options) {
     for (const BuiltinScene& scene : scenes) {
       out["scenes"].push_back({{"name", scene.name}, {"title", scene.title}});
     }
+    for (const BuiltinLesson& lesson : lessons) {
+      out["lessons"].push_back({{"name", lesson.name}, {"title", lesson.title}});
+    }
     print(out.dump() + "\n");
     return;
   }
   std::size_t width = 0;
   for (const BuiltinScene& scene : scenes) width = std::max(width, scene.name.size());
+  for (const BuiltinLesson& lesson : lessons) width = std::max(width, lesson.name.size());
   print("Scenes:\n");
   for (const BuiltinScene& scene : scenes) {
     print(fmt::format("  {:<{}}  {}\n", scene.name, width, scene.title));
+  }
+  if (lessons.empty()) return;
+  print("Lessons:\n");
+  for (const BuiltinLesson& lesson : lessons) {
+    print(fmt::format("  {:<{}}  {}\n", lesson.name, width, lesson.title));
   }
 }
 
 }  // namespace
 
 void addListCommand(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("list", "Name the built-in scenes");
+  CLI::App* command = program.add_subcommand("list", "Name the built-in scenes and lessons");
   command->footer("Examples:\n  merge2d list\n  merge2d list --json");
   const auto options = std::make_shared<MessageOptions>();
   addMessageOptions(*command, *options);

@@ -197,6 +197,23 @@ class Encoder {
               name(e.event.reason));
     });
     out.array("colors", r_.colors, [&](const CollectionColor& c) { out.row(c.id, c.slot); });
+    out.array("ledger", r_.ledger, [&](const LedgerEntry& e) {
+      const auto change = [&](double LedgerEntry::Sums::*of) {
+        return std::pair{e.before.*of, e.after.*of};
+      };
+      out.open('[').value(e.step).value(static_cast<int>(e.stage)).value(e.anchored ? 1 : 0);
+      for (const auto of : {&LedgerEntry::Sums::px, &LedgerEntry::Sums::py,
+                            &LedgerEntry::Sums::angular, &LedgerEntry::Sums::kinetic}) {
+        const auto [before, after] = change(of);
+        out.value(static_cast<float>(before)).value(static_cast<float>(after));
+      }
+      out.close(']');
+    });
+    out.array("orders", r_.orders, [&](const SweepOrder& order) {
+      out.open('[').value(order.step).open('[');
+      for (const NotedVisit& visit : order.visits) out.row(visit.a, visit.b, visit.depth);
+      out.close(']').close(']');
+    });
     out.array("springs", r_.scene.springs, [&](const SpringDesc& s) { headSpring(out, s); });
     out.close('}');
     return std::string(out.text());

@@ -1,10 +1,12 @@
 #include "lessons/recording.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
 
+#include "src2d/dynamics/state.h"
 #include "src2d/world.h"
 
 namespace merge2d {
@@ -19,6 +21,10 @@ void extend(std::vector<Span>& spans, std::int64_t step) {
 bool sampledAt(const std::vector<Span>& spans, std::int64_t step) {
   return !spans.empty() && spans.back().first + spans.back().count == step + 1;
 }
+
+/// The criteria that compare a measured number with a limit: what charts and questions are about.
+constexpr std::array<std::string_view, 6> kCharted = {"relative-motion", "sliding", "breathing",
+                                                      "opening",         "cone",    "rest"};
 
 /// Whether a verdict keeps a pair apart, or takes it apart.
 bool parts(std::string_view verdict) {
@@ -96,7 +102,13 @@ class Recorder {
     return out_.contacts[at->second];
   }
 
-  void addDecision(std::int64_t step, const Decision& d) {
+  /// The edge of the cone moves with the force: friction is kept as its part of what it may be.
+  void addDecision(std::int64_t step, Decision d) {
+    if (std::find(kCharted.begin(), kCharted.end(), d.criterion) == kCharted.end()) return;
+    if (d.criterion == "cone") {
+      d.value = d.threshold > 0.0 ? std::abs(d.value) / d.threshold : 0.0;
+      d.threshold = 1.0;
+    }
     const auto key =
         std::tuple{index(d.a), index(d.b), std::string(d.stage), std::string(d.criterion)};
     const auto [at, added] = decision_of_.try_emplace(key, out_.decisions.size());
@@ -132,6 +144,67 @@ class Recorder {
       decision_of_;
 };
 
+/// Momentum and energy before and after the stages that join and part bodies.
+class Ledger : public Observer {
+ public:
+  explicit Ledger(std::vector<LedgerEntry>& out) : out_(out) {}
+
+  void afterStage(Stage stage, const State& state, const Scratch& scratch) override {
+    if (stage != Stage::Unmerge && stage != Stage::Merge) {
+      events_ = scratch.events.size();
+      const bool needed = stage == Stage::SingleIterationPGS || stage == Stage::AdvancePositions;
+      if (needed) before_ = sums(state);
+      return;
+    }
+    const auto changes = [](const Event& e) {
+      return e.type == EventType::Merge || e.type == EventType::Unmerge;
+    };
+    const auto first = scratch.events.begin() + static_cast<std::ptrdiff_t>(events_);
+    if (std::any_of(first, scratch.events.end(), changes)) {
+      LedgerEntry entry{
+          .step = state.step + 1, .stage = stage, .before = before_, .after = sums(state)};
+      for (const Collection& c : state.collections) {
+        entry.anchored |= c.id != kNoCollection && !state[c.rigid].floating();
+      }
+      out_.push_back(entry);
+    }
+    events_ = scratch.events.size();
+  }
+
+ private:
+  static LedgerEntry::Sums sums(const State& state) {
+    LedgerEntry::Sums s;
+    for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
+      const BodyId id{i};
+      const Body& body = state[id];
+      const bool alone = body.rigid == rigidOf(id);
+      if (!body.alive || (alone && !state[body.rigid].floating())) continue;
+      const Vec2 x = state.pose(id).position, v = state.rigid(id).velocityAt(x);
+      const double omega = state.rigid(id).omega;
+      s.px += body.mass * v.x();
+      s.py += body.mass * v.y();
+      s.angular += body.inertia * omega + body.mass * cross(x, v);
+      s.kinetic += 0.5 * (body.mass * v.squaredNorm() + body.inertia * omega * omega);
+    }
+    return s;
+  }
+
+  std::vector<LedgerEntry>& out_;
+  LedgerEntry::Sums before_;
+  std::size_t events_ = 0;
+};
+
+void keepOrder(const Notes& notes, Recording& out) {
+  if (notes.seeds.empty() || out.orders.size() >= Recording::kMostOrders) return;
+  SweepOrder order{.step = out.steps, .visits = {}};
+  for (const NotedVisit& visit : notes.order) {
+    if (visit.depth > 0 && order.visits.size() < Recording::kMostVisits) {
+      order.visits.push_back(visit);
+    }
+  }
+  if (!order.visits.empty()) out.orders.push_back(std::move(order));
+}
+
 }  // namespace
 
 Recording record(const Scene& scene, const RecordOptions& options) {
@@ -143,6 +216,8 @@ Recording record(const Scene& scene, const RecordOptions& options) {
   out.detail = options.detail;
   out.bodies = world.bodies();
   Recorder recorder(out);
+  Ledger ledger(out.ledger);
+  world.observe(&ledger);
   Snapshot snapshot;
   world.capture(snapshot);
   recorder.add(snapshot);
@@ -151,6 +226,7 @@ Recording record(const Scene& scene, const RecordOptions& options) {
     world.capture(snapshot);
     recorder.add(snapshot);
     ++out.steps;
+    if (full) keepOrder(world.notes(), out);
     if (options.progress) options.progress(out.steps);
   }
   return out;

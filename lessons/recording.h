@@ -8,6 +8,7 @@
 
 #include "render/palette.h"
 #include "src2d/scene/scene.h"
+#include "src2d/trace/notes.h"
 #include "src2d/trace/snapshot.h"
 
 namespace merge2d {
@@ -60,6 +61,24 @@ struct TimedEvent {
   Event event;
 };
 
+/// Momentum and energy of all bodies that respond to forces, about one stage.
+struct LedgerEntry {
+  std::int64_t step = 0;
+  Stage stage = Stage::Merge;  ///< Unmerge or Merge
+  struct Sums {
+    double px = 0.0, py = 0.0;  ///< [N s]
+    double angular = 0.0;       ///< about the world's origin [N m s]
+    double kinetic = 0.0;       ///< [J]
+  } before, after;
+  bool anchored = false;  ///< something was welded to a fixed body, which takes momentum up
+};
+
+/// The breadth-first order of the sweep in a step with something new.
+struct SweepOrder {
+  std::int64_t step = 0;
+  std::vector<NotedVisit> visits;
+};
+
 /// The slot of the palette that a collection has for life.
 struct CollectionColor {
   CollectionId id{};
@@ -84,6 +103,10 @@ struct Recording {
   std::vector<TimedEvent> events;  ///< in order
   std::vector<Stats> stats;        ///< per step from 0; seconds are left out
   std::vector<CollectionColor> colors;
+  std::vector<SweepOrder> orders;  ///< of the first kMostOrders steps with something new
+  static constexpr std::size_t kMostOrders = 60;
+  static constexpr std::size_t kMostVisits = 400;
+  std::vector<LedgerEntry> ledger;  ///< of each stage that merged or unmerged something
 
   bool present(BodyId body, std::int64_t step) const {
     const BodyTrack& track = tracks[index(body)];

@@ -150,7 +150,7 @@ ContactBlock makeBlock(const State& state, const Scratch& scratch, const RowSour
     k.bias[i] = restitutionBias(state, contact, point, g.normal.dot(before), rest);
     k.lambda_n(i) = point.lambda_n;
     k.lambda_t(i) = point.lambda_t;
-    rests |= point.gap <= 0.0 && k.bias[i] >= rest;
+    rests |= k.bilateral || (point.gap <= 0.0 && k.bias[i] >= rest);
   }
   // Only what rests breathes: compliance would take speed from a bounce.
   if (!rests) g.softness = 0.0;

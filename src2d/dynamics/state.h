@@ -198,6 +198,7 @@ struct Collection {
   Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
   int frame_known = 0;                                     ///< steps since it was formed, up to 2
   bool settled = false;  ///< inner forces did not change in the last sweep
+  bool refuted = false;  ///< more sweeps did not confirm what seemed to part, and nothing is new
 };
 
 struct TimedSpring {

@@ -2,88 +2,77 @@
 
 #include <algorithm>
 
+#include "src2d/cycles/rigid.h"
+#include "src2d/cycles/tolerance.h"
+#include "src2d/cycles/triangle.h"
 #include "src2d/dynamics/islands.h"
 
 namespace merge2d {
 namespace {
 
-/// Edges between different groups, one per pair of groups, ascending, with all their contacts.
-std::vector<ContactEdge> contract(std::span<const ContactEdge> edges, DisjointSets& groups) {
-  std::vector<ContactEdge> contracted;
-  for (const ContactEdge& edge : edges) {
-    const std::uint32_t a = groups.find(edge.a), b = groups.find(edge.b);
-    if (a != b) contracted.push_back({std::min(a, b), std::max(a, b), edge.contacts});
-  }
-  const auto key = [](const ContactEdge& e) { return (std::uint64_t{e.a} << 32) | e.b; };
-  std::sort(contracted.begin(), contracted.end(),
-            [&](const ContactEdge& x, const ContactEdge& y) { return key(x) < key(y); });
-  std::size_t kept = 0;
-  for (const ContactEdge& edge : contracted) {
-    if (kept > 0 && key(contracted[kept - 1]) == key(edge)) {
-      contracted[kept - 1].contacts += edge.contacts;
-    } else {
-      contracted[kept++] = edge;
-    }
-  }
-  contracted.resize(kept);
-  return contracted;
+Groups namedBy(DisjointSets& sets, std::uint32_t nodes) {
+  Groups groups(nodes);
+  for (std::uint32_t i = 0; i < nodes; ++i) groups[i] = sets.find(i);
+  return groups;
 }
 
-bool uniteDoubled(std::span<const ContactEdge> edges, DisjointSets& groups) {
-  bool changed = false;
-  for (const ContactEdge& edge : edges) {
-    if (edge.contacts >= 2) changed |= groups.unite(edge.a, edge.b);
+/// Most pairs in a pile have two contacts and need no theory: joins them at once.
+void joinFirmPairs(std::span<const Pin> pins, CycleCriterion criterion, DisjointSets& sets) {
+  double largest = 0.0;
+  for (const Pin& pin : pins) largest = std::max(largest, pin.at.cwiseAbs().maxCoeff());
+  const double resolution = criterion == CycleCriterion::Rigid ? kPointTolerance * largest : -1.0;
+  for (std::size_t i = 1; i < pins.size(); ++i) {
+    const Pin &p = pins[i - 1], &q = pins[i];
+    const bool one_pair = p.a == q.a && p.b == q.b;
+    if (one_pair && (p.at - q.at).norm() > resolution) sets.unite(p.a, p.b);
   }
-  return changed;
 }
 
-/// Joins every cycle of three; `edges` ascending, at most one per pair.
-bool uniteTriangles(std::uint32_t nodes, std::span<const ContactEdge> edges, DisjointSets& groups) {
-  // Neighbours with a larger number, per node: a cycle is then found once, from its smallest node.
-  std::vector<std::uint32_t> first(nodes + 1, 0);
-  for (const ContactEdge& edge : edges) ++first[edge.a + 1];
-  for (std::uint32_t i = 0; i < nodes; ++i) first[i + 1] += first[i];
-  const auto neighbours = [&](std::uint32_t node) {
-    return edges.subspan(first[node], first[node + 1] - first[node]);
+/// The pins between different sets, with the nodes that they mention numbered from 0.
+struct Core {
+  std::vector<std::uint32_t> nodes;
+  std::vector<Pin> pins;
+};
+
+Core coreOf(std::span<const Pin> pins, DisjointSets& sets) {
+  Core core;
+  for (Pin pin : pins) {
+    pin.a = sets.find(pin.a);
+    pin.b = sets.find(pin.b);
+    if (pin.a == pin.b) continue;
+    core.pins.push_back(pin);
+    core.nodes.insert(core.nodes.end(), {pin.a, pin.b});
+  }
+  std::sort(core.nodes.begin(), core.nodes.end());
+  core.nodes.erase(std::unique(core.nodes.begin(), core.nodes.end()), core.nodes.end());
+  const auto number = [&](std::uint32_t node) {
+    const auto at = std::lower_bound(core.nodes.begin(), core.nodes.end(), node);
+    return static_cast<std::uint32_t>(at - core.nodes.begin());
   };
-  bool changed = false;
-  for (const ContactEdge& edge : edges) {
-    const auto of_a = neighbours(edge.a), of_b = neighbours(edge.b);
-    std::size_t i = 0, j = 0;
-    while (i < of_a.size() && j < of_b.size()) {
-      if (of_a[i].b < of_b[j].b) {
-        ++i;
-      } else if (of_b[j].b < of_a[i].b) {
-        ++j;
-      } else {
-        changed |= groups.unite(edge.a, edge.b);
-        changed |= groups.unite(edge.a, of_a[i].b);
-        ++i, ++j;
-      }
-    }
+  for (Pin& pin : core.pins) {
+    pin.a = number(pin.a);
+    pin.b = number(pin.b);
   }
-  return changed;
+  return core;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> rigidGroups(std::uint32_t nodes, std::span<const ContactEdge> edges,
-                                       CycleCriterion criterion) {
-  DisjointSets groups;
-  groups.reset(nodes);
+Groups heldGroups(std::uint32_t nodes, std::span<const Pin> pins, CycleCriterion criterion) {
+  DisjointSets sets;
+  sets.reset(nodes);
   if (criterion == CycleCriterion::Off) {
-    for (const ContactEdge& edge : edges) groups.unite(edge.a, edge.b);
-  } else {
-    bool changed = true;
-    while (changed) {
-      const auto contracted = contract(edges, groups);
-      changed = uniteDoubled(contracted, groups);
-      if (!changed) changed = uniteTriangles(nodes, contracted, groups);
-    }
+    for (const Pin& pin : pins) sets.unite(pin.a, pin.b);
+    return namedBy(sets, nodes);
   }
-  std::vector<std::uint32_t> group(nodes);
-  for (std::uint32_t i = 0; i < nodes; ++i) group[i] = groups.find(i);
-  return group;
+  joinFirmPairs(pins, criterion, sets);
+  const Core core = coreOf(pins, sets);
+  const auto size = static_cast<std::uint32_t>(core.nodes.size());
+  const Groups joined = criterion == CycleCriterion::Triangle
+                            ? triangleGroups(size, core.pins).groups
+                            : rigidGroups(size, core.pins);
+  for (std::uint32_t i = 0; i < size; ++i) sets.unite(core.nodes[i], core.nodes[joined[i]]);
+  return namedBy(sets, nodes);
 }
 
 }  // namespace merge2d

@@ -14,12 +14,18 @@ using Pair = std::pair<BodyId, BodyId>;
 Pair pairOf(const Joint& joint) { return std::minmax(joint.a, joint.b); }
 Pair pairOf(const Weld& weld) { return {weld.a, weld.b}; }
 
+Vec2 endOf(const State& state, const Joint& joint) {
+  return joint.to_world ? joint.anchor_b : state.pose(joint.b) * joint.anchor_b;
+}
+
 /// The relative freedoms that the joints of one pair take away.
 struct Hold {
   int freedoms = 0;
-  bool pivot = false;  ///< some point is shared
-  void add(const State& state, const Joint& joint) {
-    freedoms += freedomsTaken(state, joint);
+  bool pivot = false;      ///< some point is shared
+  Vec2 at = Vec2::Zero();  ///< in the world, a shared one if there is any [m]
+  void add(const State& state, const Joint& joint, int taken) {
+    if (freedoms == 0 || (joint.kind == JointKind::Revolute && !pivot)) at = endOf(state, joint);
+    freedoms += taken;
     pivot |= joint.kind == JointKind::Revolute;
   }
   /// In contacts: a pivot takes two freedoms, three are all.
@@ -47,8 +53,7 @@ Hold holdOf(const State& state, const Collection& c, const Weld& weld) {
   for (const JointBlock& k : c.joints) {
     const Joint& joint = state.joints[k.joint];
     if (joint.to_world || pairOf(joint) != pairOf(weld)) continue;
-    hold.freedoms += freedomsInside(state, k);
-    hold.pivot |= joint.kind == JointKind::Revolute;
+    hold.add(state, joint, freedomsInside(state, k));
   }
   return hold;
 }
@@ -99,6 +104,10 @@ void record(const Scratch& scratch, const Joint& joint, std::string_view criteri
 }
 
 }  // namespace
+
+Vec2 jointPoint(const State& state, const Collection& c, const Weld& weld) {
+  return state[c.rigid].frame().inverse() * holdOf(state, c, weld).at;
+}
 
 void addJointWelds(const State& state, Collection& c) {
   for (const JointBlock& k : c.joints) {
@@ -174,7 +183,7 @@ std::vector<JointEdge> readyJoints(const State& state) {
     const bool quiet = joint.quiet_steps >= state.settings.merging.steps && !joint.to_world;
     if (!quiet || !holds(state, joint) || isInside(state, joint)) continue;
     ready.push_back({pairOf(joint), {}});
-    ready.back().second.add(state, joint);
+    ready.back().second.add(state, joint, freedomsTaken(state, joint));
   }
   std::stable_sort(ready.begin(), ready.end(),
                    [](const auto& x, const auto& y) { return x.first < y.first; });
@@ -186,7 +195,9 @@ std::vector<JointEdge> readyJoints(const State& state) {
       hold.freedoms += ready[i].second.freedoms;
       hold.pivot |= ready[i].second.pivot;
     }
-    if (hold.contacts() > 0) edges.push_back({pair.first, pair.second, hold.contacts()});
+    if (hold.contacts() > 0) {
+      edges.push_back({pair.first, pair.second, hold.contacts(), hold.at});
+    }
   }
   return edges;
 }

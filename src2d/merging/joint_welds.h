@@ -12,6 +12,9 @@ namespace merge2d {
 /// hold just now. Welds stay ascending.
 void addJointWelds(const State& state, Collection& collection);
 
+/// Where the joints of a weld hold, in the collection's frame.
+Vec2 jointPoint(const State& state, const Collection& collection, const Weld& weld);
+
 /// After a sweep with the velocities `u`: says anew what the joints of each weld hold. A limit lets
 /// go, and a brake yields, once the velocities that the sweep finds there sum up to
 /// `unmerging.sliding`. True when some weld holds less.
@@ -34,6 +37,7 @@ void countQuietJoints(State& state, Scratch& scratch);
 struct JointEdge {
   BodyId a{}, b{};
   int contacts = 0;
+  Vec2 at = Vec2::Zero();  ///< in the world [m]
 };
 
 /// The pairs whose joints were quiet for `merging.steps` steps, ascending.

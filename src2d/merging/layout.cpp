@@ -207,7 +207,7 @@ void layOutCollections(State& state) {
     layOutBlocks(state, c);
     layOutPush(state, c);
     c.stale = false;
-    c.settled = false;
+    c.settled = c.refuted = false;
   }
 }
 

@@ -10,6 +10,7 @@
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/metric.h"
+#include "src2d/merging/sweep.h"
 
 namespace merge2d {
 namespace {
@@ -54,7 +55,9 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
       ++seen.active;
       seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
       seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
-      seen.on_edge += !bilateral && std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
+      const bool at_rest = std::abs(p.w_t) < residualVelocity(state);
+      seen.on_edge +=
+          !at_rest && !bilateral && std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
     }
   }
   return seen;
@@ -197,6 +200,14 @@ void countQuietRigids(State& state, Notes* notes) {
   }
 }
 
+/// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.
+struct ReadyPair {
+  BodyPair pair;
+  std::uint32_t node_a = 0, node_b = 0;
+  int contacts = 0;              ///< active ones, or what joints are worth
+  Vec2 joint_at = Vec2::Zero();  ///< where there are no contacts
+};
+
 int activePoints(const State& state, const BodyPair& pair) { return lookAt(state, pair).active; }
 
 /// Rigid things as nodes; everything fixed to one frame is one node.
@@ -206,71 +217,109 @@ class MergeGraph {
 
   std::uint32_t node(BodyId b) const {
     const Rigid& r = state_.rigid(b);
-    const auto rigids = static_cast<std::uint32_t>(state_.rigids.size());
     return r.floating() ? static_cast<std::uint32_t>(state_[b].rigid)
-                        : rigids + static_cast<std::uint32_t>(r.anchor);
+                        : rigids() + static_cast<std::uint32_t>(r.anchor);
   }
   std::uint32_t nodes() const {
-    return static_cast<std::uint32_t>(state_.rigids.size() + state_.bodies.size() + 1);
+    return rigids() + static_cast<std::uint32_t>(state_.bodies.size() + 1);
+  }
+
+  /// The active contacts of pairs, about one of them: far from the origin nothing is lost.
+  std::vector<Pin> pinsOf(const std::vector<ReadyPair>& ready) const {
+    std::vector<Pin> pins;
+    Vec2 origin = Vec2::Zero();
+    const auto add = [&](const ReadyPair& edge, const Vec2& at) {
+      if (pins.empty()) origin = at;
+      pins.push_back({.a = edge.node_a, .b = edge.node_b, .at = at - origin, .placed = true});
+    };
+    for (const ReadyPair& edge : ready) {
+      const Pose pose = state_.pose(edge.pair.a);
+      for (std::uint32_t i = edge.pair.first; i < edge.pair.first + edge.pair.count; ++i) {
+        const Contact& contact = state_.contacts[state_.contacts.order[i]];
+        for (int k = 0; k < contact.count; ++k) {
+          const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
+          if (p.lambda_n <= 0.0 && !isBilateral(state_, edge.pair.a, edge.pair.b)) continue;
+          add(edge, pose * p.position);
+        }
+      }
+      if (edge.pair.count > 0) continue;
+      for (int k = 0; k < edge.contacts; ++k) add(edge, edge.joint_at + k * Vec2::UnitX());
+    }
+    return pins;
   }
 
  private:
+  std::uint32_t rigids() const { return static_cast<std::uint32_t>(state_.rigids.size()); }
+
   const State& state_;
 };
 
-/// Writes down whether a pair that counts is welded.
-void noteMerge(const State& state, Notes* notes, const BodyPair& pair, std::string_view criterion,
-               double value, double threshold, bool merges) {
+/// Writes down whether a pair is welded, as far as one test knows.
+void noteMerge(const State& state, Notes* notes, const BodyPair& pair, Decision test) {
   if (!notes) return;
+  test.a = pair.a;
+  test.b = pair.b;
+  test.stage = "Merge";
+  test.needed = state.settings.merging.steps;
   const bool touches = pair.count > 0;  // or is held by joints alone
-  const int count = touches ? state.contacts[state.contacts.order[pair.first]].quiet_steps
-                            : state.settings.merging.steps;
-  notes->decisions.push_back({.a = pair.a,
-                              .b = pair.b,
-                              .stage = "Merge",
-                              .criterion = criterion,
-                              .equation = criterion == "cycle" ? "Section 8.2" : "Section 5.1",
-                              .value = value,
-                              .threshold = threshold,
-                              .count = count,
-                              .needed = state.settings.merging.steps,
-                              .verdict = merges ? "merge" : "wait",
-                              .before = count});
+  test.count = touches ? state.contacts[state.contacts.order[pair.first]].quiet_steps : test.needed;
+  test.before = test.count;
+  notes->decisions.push_back(test);
 }
 
-/// The pairs to weld: ready, and rigid in the group that they would form.
-std::vector<BodyPair> pairsToWeld(const State& state, const Scratch& scratch) {
-  const MergingSettings& m = state.settings.merging;
-  const MergeGraph graph(state);
-  std::vector<BodyPair> ready;
-  std::vector<ContactEdge> edges;
+/// The pairs that were ready for long enough.
+std::vector<ReadyPair> readyPairs(const State& state, const Scratch& scratch,
+                                  const MergeGraph& graph) {
+  const int needed = state.settings.merging.steps;
+  std::vector<ReadyPair> ready;
   for (const BodyPair& pair : scratch.pairs) {
     const Contact& first = state.contacts[state.contacts.order[pair.first]];
-    const bool counted = first.quiet_steps >= m.steps;
+    const bool counted = first.quiet_steps >= needed;
     if (first.quiet_steps > 0) {
-      noteMerge(state, scratch.notes, pair, "count", first.quiet_steps, m.steps, counted);
+      noteMerge(state, scratch.notes, pair,
+                {.criterion = "count",
+                 .equation = "Section 5.1",
+                 .value = static_cast<double>(first.quiet_steps),
+                 .threshold = static_cast<double>(needed),
+                 .verdict = counted ? "merge" : "wait"});
     }
     if (!counted) continue;
-    ready.push_back(pair);
-    edges.push_back({graph.node(pair.a), graph.node(pair.b), activePoints(state, pair)});
+    ready.push_back({.pair = pair,
+                     .node_a = graph.node(pair.a),
+                     .node_b = graph.node(pair.b),
+                     .contacts = activePoints(state, pair)});
   }
   for (const JointEdge& joint : readyJoints(state)) {
-    ready.push_back({joint.a, joint.b, 0, 0});
-    edges.push_back({graph.node(joint.a), graph.node(joint.b), joint.contacts});
+    ready.push_back({.pair = {joint.a, joint.b, 0, 0},
+                     .node_a = graph.node(joint.a),
+                     .node_b = graph.node(joint.b),
+                     .contacts = joint.contacts,
+                     .joint_at = joint.at});
   }
-  if (ready.empty()) return ready;
-  const CycleCriterion cycles = m.rule == Rule::Paper ? CycleCriterion::Off : m.cycles;
-  const auto group = rigidGroups(graph.nodes(), edges, cycles);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < ready.size(); ++i) {
-    const bool rigid = group[edges[i].a] == group[edges[i].b];
-    if (cycles != CycleCriterion::Off) {
-      noteMerge(state, scratch.notes, ready[i], "cycle", edges[i].contacts, 2.0, rigid);
-    }
-    if (rigid) ready[kept++] = ready[i];
-  }
-  ready.resize(kept);
   return ready;
+}
+
+/// The pairs to weld: ready, and held in the group that they would form.
+std::vector<BodyPair> pairsToWeld(const State& state, const Scratch& scratch) {
+  const MergingSettings& m = state.settings.merging;
+  const CycleCriterion criterion = m.rule == Rule::Paper ? CycleCriterion::Off : m.cycles;
+  const MergeGraph graph(state);
+  const std::vector<ReadyPair> ready = readyPairs(state, scratch, graph);
+  std::vector<BodyPair> welds;
+  if (ready.empty()) return welds;
+  const Groups group = heldGroups(graph.nodes(), graph.pinsOf(ready), criterion);
+  for (const ReadyPair& edge : ready) {
+    const bool held = group[edge.node_a] == group[edge.node_b];
+    if (held) welds.push_back(edge.pair);
+    if (criterion == CycleCriterion::Off) continue;
+    noteMerge(state, scratch.notes, edge.pair,
+              {.criterion = "cycle",
+               .equation = "Section 8.2",
+               .value = static_cast<double>(edge.contacts),
+               .threshold = 2.0,
+               .verdict = held ? "merge" : "wait"});
+  }
+  return welds;
 }
 
 /// Welds one pair, unless what they are fixed to moves differently.

@@ -49,15 +49,19 @@ class WeldTest {
       testLost(c_.welds[pivot]);
       testMotion(c_.welds[pivot]);
     }
-    if (growing_) c_.settled = false;  // what is about to part does not fall asleep
+    // What may be about to part does not fall asleep.
+    if (disturbed_) c_.refuted = false;
+    if (growing_ && !c_.refuted && !confirming_) c_.settled = false;
   }
 
   bool contactOpened() const { return opened_; }
+  bool somethingGrows() const { return growing_; }
 
   /// Looks again after more sweeps. What was summed may have come from a sweep that had not
   /// converged: it is replaced by today's velocity, as if it had been the same in all those steps.
   void confirmAll() {
     confirming_ = whole_ = true;
+    growing_ = false;
     for (const std::uint32_t weld : c_.cut_welds) c_.welds[weld].cut = false;
     c_.cut_welds.clear();
     testAll();
@@ -116,10 +120,10 @@ class WeldTest {
     } else {
       drift.sum += static_cast<float>(w);
       drift.steps += 1;
-      growing_ |= std::abs(w) > residualVelocity(state_);
     }
     const double sum = std::abs(drift.sum);
     const Evidence found{sum, drift.steps, sum > threshold};
+    growing_ |= !found.exceeds && std::abs(w) > residualVelocity(state_);
     if (confirming_ && !found.exceeds) drift = {};
     return found;
   }
@@ -255,7 +259,7 @@ class WeldTest {
   Collection& c_;
   Rotation turn_;
   bool confirming_ = false;
-  bool growing_ = false;    ///< some sum did grow in this step
+  bool growing_ = false;    ///< some sum grew in this step, and is not too large yet
   bool opened_ = false;     ///< some contact was lost that held before
   bool disturbed_ = false;  ///< something new entered in this step: the sweeps have converged
   bool whole_ = false;      ///< dormant contacts were swept too
@@ -290,26 +294,42 @@ bool hangsTogether(const State& state, const Collection& c, DisjointSets& sets) 
   return on_frame && joined + 1 == c.members.size();
 }
 
+/// The contacts of a weld that hold, in the collection's frame, and what its joints are worth.
+void addPins(const State& state, const Collection& c, const Weld& weld, std::uint32_t a,
+             std::uint32_t b, std::vector<Pin>& pins) {
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    const InternalContact& inner = c.contacts[i];
+    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.contact.count); ++p) {
+      if (!inner.active[p] || inner.lost[p]) continue;
+      pins.push_back({.a = a, .b = b, .at = inner.contact.points[p].position, .placed = true});
+    }
+  }
+  if (weld.joints == 0) return;
+  const Vec2 at = jointPoint(state, c, weld);
+  for (int i = 0; i < weld.joints; ++i) {
+    pins.push_back({.a = a, .b = b, .at = at + i * Vec2::UnitX(), .placed = true});
+  }
+}
+
 Parts partsWithoutCuts(const State& state, const Collection& c) {
   const auto node = [&](BodyId b) {
     return state[b].rigid == c.rigid ? static_cast<std::uint32_t>(memberIndex(c, b)) + 1 : 0u;
   };
-  std::vector<ContactEdge> edges;
+  std::vector<Pin> pins;
   for (const Weld& weld : c.welds) {
-    const int contacts = activeContacts(c, weld);
-    if (!weld.cut && contacts > 0) edges.push_back({node(weld.a), node(weld.b), contacts});
+    if (!weld.cut) addPins(state, c, weld, node(weld.a), node(weld.b), pins);
   }
   const auto nodes = static_cast<std::uint32_t>(c.members.size() + 1);
   const CycleCriterion criterion = state.settings.unmerging.rule == Rule::Paper
                                        ? CycleCriterion::Off
                                        : state.settings.merging.cycles;
-  const auto group = rigidGroups(nodes, edges, criterion);
+  const Groups group = heldGroups(nodes, pins, criterion);
 
   // Bodies of one rigid group that touch each other, not only the frame, stay one part.
   DisjointSets parts;
   parts.reset(nodes);
-  for (const ContactEdge& e : edges) {
-    if (e.a != 0 && e.b != 0 && group[e.a] == group[e.b]) parts.unite(e.a, e.b);
+  for (const Pin& pin : pins) {
+    if (pin.a != 0 && pin.b != 0 && group[pin.a] == group[pin.b]) parts.unite(pin.a, pin.b);
   }
   Parts result;
   std::vector<std::uint32_t> number(nodes, ~0u);
@@ -416,6 +436,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
     confirmJoints(state, c, scratch.sweep_u);
     test.confirmAll();
     parts = partsWithoutCuts(state, c);
+    c.refuted = !test.somethingGrows();
     if (!fallsApart(state, c, parts)) return;
   }
   splitAtCuts(state, scratch, c.rigid, parts);

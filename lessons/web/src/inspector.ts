@@ -9,7 +9,7 @@ const kNames: Record<string, [string, string]> = {
   sliding: ['Slip', 'm/s'],
   breathing: ['Breathing: change of overlap', 'm'],
   edge: ['On the edge of the friction cone', ''],
-  cone: ['Friction', 'N s'],
+  cone: ['Friction, as a part of its cone', ''],
   opening: ['Opening', 'm/s'],
   broken: ['Contacts left', ''],
   count: ['Calm steps', ''],
@@ -130,7 +130,7 @@ function pairView(state: State, a: number, b: number): HTMLElement[] {
   const now: Series[] = [];
   for (const track of trace.decisionTracksOf(a, b)) {
     const name = track.criterion.criterion;
-    if (['relative-motion', 'sliding', 'breathing', 'opening'].includes(name)) now.push(decisionSeries(state, track));
+    if (['relative-motion', 'sliding', 'breathing', 'opening', 'cone'].includes(name)) now.push(decisionSeries(state, track));
   }
   out.push(...now.map((series) => figure(state, series)));
   const forces: Series = { label: 'Normal force', unit: 'N', points: [] };

@@ -1,4 +1,9 @@
 // A lesson page: reads the recorded runs inside it and shows them.
+import { equationCard } from './equation';
+import { familyTree } from './family';
+import { handout } from './handout';
+import { ledger } from './ledger';
+import { type Lesson, LessonPanel } from './lesson';
 import { layerSwitches, ribbon, transport } from './controls';
 import { h } from './dom';
 import { inspector } from './inspector';
@@ -10,7 +15,7 @@ import { Trace, type Packed } from './trace';
 
 interface PageData {
   title: string;
-  lesson: null;
+  lesson: Lesson | null;
   traces: Packed[];
 }
 
@@ -38,25 +43,71 @@ function start(): void {
   const picture = new Picture(state.trace);
   const controls = transport(state);
   const help = helpDialog();
+  const panel = data.lesson ? new LessonPanel(data.lesson, state, data.title) : null;
   picture.onPick = ({ body, contact }) => {
+    const bodies = contact ? [contact.a, contact.b] : body !== undefined ? [body] : [];
+    if (panel?.pick(bodies) || (body !== undefined && panel?.pick([body]))) return;
     state.selection = contact ? { kind: 'pair', a: contact.a, b: contact.b }
       : body !== undefined ? { kind: 'body', body } : null;
     state.changed();
   };
-  state.onChange(() => picture.draw(state));
+  state.onChange(() => {
+    picture.draw(state);
+    picture.show(panel?.marked());
+  });
   app.append(
-    h('header', {}, h('h1', {}, data.title),
-      h('div', { class: 'tools' }, themeButton(),
+    h('header', {}, h('h1', {}, h('span', { class: 'kicker' }, data.lesson ? 'A lesson on adaptive merging' : 'Adaptive merging, step by step'), data.title),
+      h('div', { class: 'tools' }, whatIf(state), themeButton(),
         h('button', { type: 'button', class: 'plain', onclick: () => help.showModal() }, 'Keys', h('kbd', { 'aria-hidden': true }, '?')))),
     h('main', {},
-      h('div', { class: 'stage-area' },
-        h('div', { class: 'frame' }, picture.root),
-        controls.root, layerSwitches(state), ribbon(state)),
-      h('div', { class: 'side' }, nowCard(state), inspector(state))),
+      h('div', { class: 'left' }, h('div', { class: 'stage-area' },
+        h('div', { class: 'frame' }, picture.root, badge(state)),
+        controls.root, layerSwitches(state), ribbon(state)), familyTree(state), ledger(state)),
+      h('div', { class: 'side' }, panel?.root ?? null, nowCard(state), equationCard(state), inspector(state))),
     help);
-  listenToKeys(state, controls, { help: () => help.showModal(), part: () => {} });
+  listenToKeys(state, controls, { help: () => help.showModal(), part: (by) => panel?.move(by) });
+  printing(data, state);
   state.changed();
   document.documentElement.dataset.ready = 'true';
+}
+
+/** The other runs, computed beforehand. */
+function whatIf(state: State): HTMLElement | null {
+  if (state.traces.length < 2) return null;
+  const select = h('select', { 'aria-label': 'What if: another run of the scene', onchange: () => {
+    state.trace = state.traces[Number(select.value)];
+    state.playing = false;
+    state.goTo(state.step, state.stage);
+  } }, ...state.traces.map((trace, i) => h('option', { value: i }, i === 0 ? `What if … (${trace.label})` : trace.label)));
+  state.onChange(() => { select.value = String(state.traces.indexOf(state.trace)); });
+  return select;
+}
+
+function badge(state: State): HTMLElement {
+  const root = h('div', { class: 'badge' });
+  state.onChange(() => {
+    root.textContent = state.trace === state.traces[0] ? '' : `What if: ${state.trace.label}`;
+    root.hidden = root.textContent === '';
+  });
+  return root;
+}
+
+function printing(data: PageData, state: State): void {
+  let sheet: HTMLElement | null = null;
+  let theme: string | undefined;
+  const root = document.documentElement;
+  window.addEventListener('beforeprint', () => {
+    theme = root.dataset.theme;
+    root.dataset.theme = 'light';
+    sheet?.remove();
+    sheet = handout(data.title, data.lesson, state.traces);
+    document.body.append(sheet);
+  });
+  window.addEventListener('afterprint', () => {
+    sheet?.remove();
+    sheet = null;
+    root.dataset.theme = theme;
+  });
 }
 
 start();

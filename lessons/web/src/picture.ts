@@ -24,6 +24,11 @@ export class View {
   }
 }
 
+/** Criteria whose value grows towards a limit. */
+const kLimits = ['relative-motion', 'sliding', 'breathing', 'opening', 'cone'];
+
+let pictures = 0;
+
 const fixed = (value: number): string => value.toFixed(1);
 
 /** The pieces of a body as one path, in units about its centre of mass. */
@@ -72,6 +77,7 @@ export class Picture {
   private readonly layer = new Map<string, SVGPathElement>();
   private readonly ghostGroup: SVGGElement;
   private readonly labels: SVGGElement;
+  private readonly numbers = svg('g', { class: 'numbers' });
   private readonly focusMark: SVGPathElement;
   private contacts: Contact[] = [];
   private readonly mark: number;
@@ -85,15 +91,20 @@ export class Picture {
     const masses = trace.head.bodies.filter((b) => b.motion === 'dynamic').map((b) => b.mass).sort((a, b) => a - b);
     const typical = masses.length > 0 ? masses[masses.length >> 1] : 1;
     const size = Math.sqrt(kWidth * kHeight) / 16;
-    this.forceScale = (0.9 * size) / (typical * g);
     this.velocityScale = size;
     const widths = trace.head.bodies.filter((b) => b.motion === 'dynamic').map(thinnest).sort((a, b) => a - b);
     const width = widths.length > 0 ? widths[widths.length >> 1] * this.view.scale : 40;
+    // As long as a body's width for its weight, but no arrow much longer than a fifth of the picture.
+    this.forceScale = Math.min(Math.max(0.9 * size, Math.min(2.5 * size, width)) / (typical * g),
+      (0.2 * kHeight) / Math.max(1e-9, strongForce(trace)));
     this.mark = Math.max(2, Math.min(5, 0.16 * width));
     this.root = svg('svg', {
       viewBox: `0 0 ${kWidth} ${kHeight}`, class: interactive ? 'picture interactive' : 'picture', role: 'img', 'aria-label': trace.head.title,
     });
-    const hatch = svg('pattern', { id: 'hatch', width: 8, height: 8, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)' },
+    // Each picture its own: what is hidden lends no pattern to what is shown.
+    const id = `hatch-${++pictures}`;
+    this.root.style.setProperty('--fixed-fill', `url(#${id})`);
+    const hatch = svg('pattern', { id, width: 8, height: 8, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)' },
       svg('rect', { width: 8, height: 8, class: 'hatch-back' }), svg('line', { x1: 0, y1: 0, x2: 0, y2: 8, class: 'hatch-line' }));
     this.root.append(svg('defs', {}, hatch));
     this.ghostGroup = svg('g', { class: 'ghosts' });
@@ -117,15 +128,15 @@ export class Picture {
       }
     }
     this.root.append(bodyGroup, this.ghostGroup);
-    for (const id of ['springs', 'before', 'boxes', 'graph', 'welds', 'cone', 'heat-calm', 'heat-warm', 'heat-near', 'heat-over',
-      'idle', 'merged', 'active', 'broken', 'cut', 'fresh', 'force', 'friction', 'inner', 'velocity']) {
+    for (const id of ['springs', 'boxes', 'centre', 'graph', 'welds', 'cone', 'heat-calm', 'heat-warm', 'heat-near', 'heat-over',
+      'idle', 'merged', 'active', 'broken', 'cut', 'fresh', 'force', 'friction', 'inner', 'velocity', 'before', 'corners']) {
       const path = svg('path', { class: `layer ${id}` });
       this.layer.set(id, path);
       this.root.append(path);
     }
     this.focusMark = svg('path', { class: 'layer focus' });
     this.labels = svg('g', { class: 'labels' });
-    this.root.append(this.focusMark, this.labels, this.scaleBar());
+    this.root.append(this.focusMark, this.numbers, this.labels, this.scaleBar());
     if (interactive) this.root.addEventListener('click', (event) => this.click(event));
   }
 
@@ -171,6 +182,7 @@ export class Picture {
     this.drawHeat(state);
     this.drawSprings(state, posed);
     this.drawVelocities(state, posed);
+    this.drawStage(state, posed, grouped);
     this.drawFocus(state, posed);
     this.drawLabels(state, posed, grouped);
   }
@@ -229,7 +241,9 @@ export class Picture {
     const stage = kStages[state.stage].id;
     const scale = this.forceScale / state.trace.head.h;
     if (state.layers.has('forces')) {
-      const withCone = this.contacts.length <= 60 && (stage === 'SolveLCP' || stage === 'Unmerge' || stage === 'SingleIterationPGS');
+      const picked = state.selection;
+      const conesOf = (c: Contact) => (picked?.kind === 'pair' ? c.a === picked.a && c.b === picked.b : this.contacts.length <= 12);
+      const withCone = (stage === 'SolveLCP' || stage === 'Unmerge' || stage === 'SingleIterationPGS');
       for (const c of this.contacts) {
         if (c.lambdaN <= 0) continue;
         const x = this.view.x(c.x);
@@ -241,7 +255,7 @@ export class Picture {
         if (c.internal) inner += d;
         else force += d;
         if (c.state === 'sliding') friction += arrow(x, y, scale * c.lambdaT * tx, -scale * c.lambdaT * ty);
-        if (withCone) {
+        if (withCone && conesOf(c)) {
           const n = scale * c.lambdaN;
           const point = (side: number) =>
             `${fixed(x + n * (c.nx + side * c.mu * tx))} ${fixed(y - n * (c.ny + side * c.mu * ty))}`;
@@ -292,7 +306,7 @@ export class Picture {
     if (state.layers.has('heat') && state.trace.head.full) {
       const ratios = new Map<string, number>();
       for (const d of state.trace.decisionsAt(contactStep(state))) {
-        if (!(d.threshold > 0)) continue;
+        if (!(d.threshold > 0) || !kLimits.includes(d.criterion.criterion)) continue;
         const key = `${d.a}-${d.b}`;
         ratios.set(key, Math.max(ratios.get(key) ?? 0, Math.abs(d.value) / d.threshold));
       }
@@ -302,6 +316,79 @@ export class Picture {
       }
     }
     for (const [id, d] of Object.entries(paths)) this.set(id, d);
+  }
+
+  /** What only this stage does: where bodies were, how box corners move, who is new. */
+  private drawStage(state: State, posed: number, grouped: Int32Array): void {
+    const { trace, step } = state;
+    let [before, corners, centre] = ['', '', ''];
+    const stage = kStages[state.stage].id;
+    const still = !state.playing && step > 0;
+    if (still && stage === 'AdvancePositions') {
+      for (let i = 0; i < this.bodies.length; ++i) {
+        if (trace.head.bodies[i].motion === 'pinned' || !trace.present(i, step - 1) || !trace.present(i, step)) continue;
+        const [was, is] = [trace.pose(i, step - 1), trace.pose(i, step)];
+        // The way of one step is short: it is drawn ten times as long.
+        before += arrow(this.view.x(was.x), this.view.y(was.y), 10 * this.view.scale * (is.x - was.x), -10 * this.view.scale * (is.y - was.y));
+      }
+    }
+    const pair = state.selection?.kind === 'pair' ? state.selection : null;
+    if (still && stage === 'AccumulateRelativeMotion' && pair) {
+      const motion = (body: number) => {
+        const pose = trace.pose(body, posed);
+        const v = trace.velocity(body, step);
+        return (x: number, y: number): Vec => [v.vx - v.omega * (y - pose.y), v.vy + v.omega * (x - pose.x)];
+      };
+      const [of, against] = [motion(pair.a), motion(pair.b)];
+      const dynamic = [pair.a, pair.b].filter((body) => trace.head.bodies[body].motion === 'dynamic');
+      const limit = this.velocityScale / 0.05;
+      for (const body of dynamic) {
+        const members = grouped[body] < 0 ? [body] : [...grouped.keys()].filter((i) => grouped[i] === grouped[body]);
+        for (const [x, y] of boxOf(trace, posed, members)) {
+          const [a, b] = [of(x, y), against(x, y)];
+          const [px, py] = [this.view.x(x), this.view.y(y)];
+          const [dx, dy] = [limit * (a[0] - b[0]), -limit * (a[1] - b[1])];
+          const long = Math.max(1, Math.hypot(dx, dy) / (3 * this.velocityScale));
+          corners += disc(px, py, 4) + arrow(px, py, dx / long, dy / long);
+        }
+      }
+    }
+    if (still && state.stage === kLast) {
+      const born = new Set((trace.eventsAt.get(step) ?? []).filter((e) => e[1] === 'merge').map((e) => e[4]));
+      for (const id of born) {
+        const members = trace.members(id, step);
+        if (members.length === 0) continue;
+        let [mass, mx, my] = [0, 0, 0];
+        for (const i of members) {
+          const m = trace.head.bodies[i].mass;
+          const pose = trace.pose(i, posed);
+          [mass, mx, my] = [mass + m, mx + m * pose.x, my + m * pose.y];
+        }
+        const [x, y] = [this.view.x(mx / mass), this.view.y(my / mass)];
+        centre += `${disc(x, y, 7)}M${fixed(x - 11)} ${fixed(y)}h22M${fixed(x)} ${fixed(y - 11)}v22`;
+        centre += `M${boxOf(trace, posed, members).map(([u, v]) => `${fixed(this.view.x(u))} ${fixed(this.view.y(v))}`).join('L')}z`;
+      }
+    }
+    this.set('before', before);
+    this.set('corners', corners);
+    this.set('centre', centre);
+    this.drawOrder(state, stage);
+  }
+
+  /** The sweep's order: how many contacts from what is new. */
+  private drawOrder(state: State, stage: string): void {
+    this.numbers.replaceChildren();
+    if (state.playing || (stage !== 'ContactOrdering' && stage !== 'SingleIterationPGS')) return;
+    const order = state.trace.head.orders?.find(([step]) => step === state.step);
+    if (!order) return;
+    const depth = new Map(order[1].map(([a, b, d]) => [`${Math.min(a, b)}-${Math.max(a, b)}`, d]));
+    for (const c of this.contacts) {
+      const d = depth.get(`${c.a}-${c.b}`);
+      if (d === undefined) continue;
+      const [x, y] = [this.view.x(c.x), this.view.y(c.y)];
+      this.numbers.append(svg('circle', { cx: fixed(x), cy: fixed(y), r: 9, class: d === 1 ? 'seed' : 'visit', style: `opacity:${Math.max(0.35, 1.1 - 0.1 * d).toFixed(2)}` }),
+        svg('text', { x: fixed(x), y: fixed(y + 4) }, String(d)));
+    }
   }
 
   private drawSprings(state: State, posed: number): void {
@@ -356,6 +443,13 @@ export class Picture {
     this.focusMark.setAttribute('d', d);
   }
 
+  /** Marks bodies as chosen or right. */
+  show(marks: Map<number, string> = new Map()): void {
+    for (const [i, node] of this.bodies.entries()) {
+      for (const look of ['chosen', 'right']) node.classList.toggle(look, marks.get(i) === look);
+    }
+  }
+
   private drawLabels(state: State, posed: number, grouped: Int32Array): void {
     this.labels.replaceChildren();
     if (!state.layers.has('labels')) return;
@@ -395,6 +489,19 @@ export class Picture {
     const group = (event.target as Element).closest('[data-body]');
     this.onPick({ contact: best, body: group ? Number(group.getAttribute('data-body')) : undefined });
   }
+}
+
+/** A force that few contacts exceed, from a sample of the run [N]. */
+function strongForce(trace: Trace): number {
+  const forces: number[] = [];
+  if (trace.head.full) {
+    for (let i = 1; i <= 12; ++i) {
+      const step = Math.round((i * trace.head.steps) / 12);
+      for (const c of trace.contactsAt(step)) if (c.lambdaN > 0) forces.push(c.lambdaN / trace.head.h);
+    }
+  }
+  forces.sort((a, b) => a - b);
+  return forces[Math.floor(0.97 * forces.length)] ?? 0;
 }
 
 /** The smaller extent of a body [m]. */

@@ -41,6 +41,7 @@ export interface Head {
   colors: [number, number][];
   springs: [number, number, number, number, number, number][];
   ledger?: number[][];
+  orders?: [step: number, visits: [a: number, b: number, depth: number][]][];
 }
 
 export interface Packed {

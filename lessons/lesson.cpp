@@ -1,0 +1,308 @@
+#include "lessons/lesson.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lessons/folder.h"
+#include "lessons/markdown.h"
+#include "src2d/core/error.h"
+#include "src2d/core/suggest.h"
+#include "src2d/scene/file.h"
+#include "src2d/scene/load.h"
+#include "src2d/scene/toml_parse.h"
+#include "src2d/trace/json_text.h"
+
+namespace merge2d {
+
+namespace fs = std::filesystem;
+
+/// The files, which values and their errors point into.
+struct Lesson::Source {
+  explicit Source(const fs::path& folder)
+      : toml_text(readFile(folder / "lesson.toml")),
+        prose_text(readFile(folder / "text.md")),
+        toml((folder / "lesson.toml").string(), toml_text),
+        prose((folder / "text.md").string(), prose_text),
+        table(parseToml(toml)) {}
+
+  std::string toml_text, prose_text;
+  SourceText toml, prose;
+  toml::table table;
+};
+
+namespace {
+
+constexpr std::array<std::string_view, 8> kLayers = {"contacts", "forces",     "graph", "boxes",
+                                                     "heat",     "velocities", "ghost", "labels"};
+
+constexpr std::array kModes = {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep};
+
+Mode modeOf(const Value& value) {
+  const std::string word = value.text();
+  std::vector<std::string_view> names;
+  for (const Mode mode : kModes) {
+    if (word == name(mode)) return mode;
+    names.emplace_back(name(mode));
+  }
+  value.fail(fmt::format("'{}' is no mode{}; there are {}", word, didYouMean(word, names),
+                         fmt::join(names, ", ")));
+}
+
+std::string stageOf(const Value& value) {
+  const std::string word = value.text();
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < kStages; ++i) names.emplace_back(name(static_cast<Stage>(i)));
+  if (std::find(names.begin(), names.end(), word) == names.end()) {
+    value.fail(fmt::format("Algorithm 1 has no stage '{}'{}", word, didYouMean(word, names)));
+  }
+  return word;
+}
+
+/// Reads a folder into a lesson.
+class Loader {
+ public:
+  explicit Loader(const fs::path& folder) : folder_(folder) {
+    for (const char* file : {"lesson.toml", "text.md"}) {
+      if (fs::is_regular_file(folder / file)) continue;
+      throw InputError(
+          fmt::format("{}: a lesson's folder holds lesson.toml and text.md, but {} is "
+                      "missing",
+                      folder.string(), file));
+    }
+    source_ = std::make_shared<Lesson::Source>(folder);
+    lesson_.source = source_;
+  }
+
+  Lesson load() {
+    TableReader top(source_->toml, source_->table, "the lesson");
+    readHead(top);
+    readTraces(top);
+    readParts(top);
+    for (TableReader& table : top.tables("expect")) {
+      lesson_.expectations.emplace_back(table, scene(), labels_);
+    }
+    top.done();
+    return std::move(lesson_);
+  }
+
+ private:
+  const Scene& scene() const { return lesson_.traces.front().scene; }
+
+  void readHead(TableReader& top) {
+    if (const auto format = top.require("format")) format->integer({1, 1, "1"});
+    if (const auto title = top.require("title")) lesson_.title = title->text();
+    top.read("summary", lesson_.summary);
+    top.read("minutes", lesson_.minutes, {1, 120, "between 1 and 120"});
+    std::string name = fs::absolute(folder_).lexically_normal().filename().string();
+    if (name.empty())
+      name = fs::absolute(folder_).lexically_normal().parent_path().filename().string();
+    const bool numbered = name.size() > 3 &&
+                          std::isdigit(static_cast<unsigned char>(name[0])) != 0 &&
+                          std::isdigit(static_cast<unsigned char>(name[1])) != 0 && name[2] == '_';
+    lesson_.name = numbered ? name.substr(3) : name;
+  }
+
+  void readTraces(TableReader& top) {
+    LessonTrace first{.label = "as it is", .mode = Mode::MergeSleep, .scene = {}};
+    if (const auto mode = top.get("mode")) first.mode = modeOf(*mode);
+    std::optional<Value> named = top.require("scene");
+    if (!named) top.done();
+    const std::string wanted = named->text();
+    const fs::path file = folder_ / wanted;
+    const std::string path = fs::is_regular_file(file) ? file.string() : wanted;
+    if (path == wanted && wanted.find('.') != std::string::npos) {
+      named->fail(fmt::format("there is no file '{}' in the lesson's folder", wanted));
+    }
+    const auto load = [&](const Overrides& overrides) {
+      Scene scene = loadScene(path, overrides);
+      if (const auto seconds = top.get("seconds")) {
+        scene.duration = seconds->number({1e-3, 600, "between 0.001 and 600"});
+      }
+      return scene;
+    };
+    first.scene = load({});
+    lesson_.traces.push_back(first);
+    labels_.push_back(first.label);
+    for (TableReader& table : top.tables("trace")) {
+      LessonTrace trace{.label = "", .mode = first.mode, .scene = {}};
+      if (const auto label = table.require("label")) {
+        trace.label = label->text();
+        if (std::find(labels_.begin(), labels_.end(), trace.label) != labels_.end()) {
+          label->fail(fmt::format("there is another trace '{}'", trace.label));
+        }
+      }
+      if (const auto mode = table.get("mode")) trace.mode = modeOf(*mode);
+      Overrides overrides;
+      if (const auto set = table.get("set")) {
+        for (const Value& one : set->elements("[\"key=value\"]")) {
+          const std::string text = one.text();
+          const std::size_t at = text.find('=');
+          if (at == std::string::npos) one.fail("it should read \"key=value\", as after --set");
+          overrides.emplace_back(text.substr(0, at), text.substr(at + 1));
+        }
+      }
+      table.done();
+      trace.scene = load(overrides);
+      labels_.push_back(trace.label);
+      lesson_.traces.push_back(std::move(trace));
+    }
+  }
+
+  void readParts(TableReader& top) {
+    std::vector<Section> sections = sectionsOf(source_->prose_text);
+    lesson_.intro = markdownToHtml(sections.front().text);
+    sections.erase(sections.begin());
+    std::vector<TableReader> tables = top.tables("part");
+    if (tables.empty()) top.fail("a lesson has at least one [[part]]");
+    std::vector<std::string> titles;
+    for (const Section& section : sections) titles.push_back(section.title);
+    for (TableReader& table : tables) readPart(table, sections, titles);
+    for (const Section& section : sections) {
+      const bool used = std::any_of(lesson_.parts.begin(), lesson_.parts.end(),
+                                    [&](const LessonPart& p) { return p.title == section.title; });
+      if (used) continue;
+      throw InputError(source_->prose.message(
+          {static_cast<toml::source_index>(section.line), 1},
+          fmt::format("lesson.toml has no [[part]] with section = \"{}\"", section.title)));
+    }
+  }
+
+  void readPart(TableReader& table, const std::vector<Section>& sections,
+                const std::vector<std::string>& titles) {
+    const auto section = table.require("section");
+    const auto at = table.require("at");
+    if (!section || !at) table.done();
+    LessonPart part{.title = section->text(),
+                    .html = {},
+                    .at = Moment(*at, scene()),
+                    .stage = {},
+                    .layers = {},
+                    .select = {},
+                    .trace = 0,
+                    .question = std::nullopt};
+    const auto found = std::find(titles.begin(), titles.end(), part.title);
+    if (found == titles.end()) {
+      section->fail(fmt::format("text.md has no section '## {}'{}", part.title,
+                                didYouMean(part.title, titles)));
+    }
+    part.html = markdownToHtml(sections[static_cast<std::size_t>(found - titles.begin())].text);
+    if (const auto stage = table.get("stage")) part.stage = stageOf(*stage);
+    if (const auto layers = table.get("layers")) {
+      for (const Value& layer : layers->elements("[\"contacts\", \"forces\"]")) {
+        if (std::find(kLayers.begin(), kLayers.end(), layer.text()) == kLayers.end()) {
+          layer.fail(fmt::format("there is no layer '{}'{}; there are {}", layer.text(),
+                                 didYouMean(layer.text(), kLayers), fmt::join(kLayers, ", ")));
+        }
+        part.layers.push_back(layer.text());
+      }
+    }
+    if (const auto select = table.get("select")) readSelection(*select, part);
+    if (const auto trace = table.get("trace")) {
+      const auto label = std::find(labels_.begin(), labels_.end(), trace->text());
+      if (label == labels_.end()) {
+        trace->fail(fmt::format("the lesson has no trace '{}'{}", trace->text(),
+                                didYouMean(trace->text(), labels_)));
+      }
+      part.trace = static_cast<std::size_t>(label - labels_.begin());
+    }
+    if (auto question = table.table("question")) part.question.emplace(*question, scene());
+    table.done();
+    lesson_.parts.push_back(std::move(part));
+  }
+
+  void readSelection(const Value& value, LessonPart& part) const {
+    for (const Value& wanted : value.elements("[\"a body\"] or [\"a\", \"b\"]")) {
+      const auto at = std::find_if(scene().bodies.begin(), scene().bodies.end(),
+                                   [&](const BodyDesc& b) { return b.name == wanted.text(); });
+      if (at == scene().bodies.end()) {
+        std::vector<std::string_view> names;
+        for (const BodyDesc& body : scene().bodies) names.push_back(body.name);
+        wanted.fail(fmt::format("the scene has no body '{}'{}", wanted.text(),
+                                didYouMean(wanted.text(), names)));
+      }
+      part.select.push_back(BodyId{static_cast<std::uint32_t>(at - scene().bodies.begin())});
+    }
+    if (part.select.empty() || part.select.size() > 2) value.fail("it names a body, or a pair");
+    std::sort(part.select.begin(), part.select.end());
+  }
+
+  fs::path folder_;
+  std::shared_ptr<Lesson::Source> source_;
+  std::vector<std::string> labels_;
+  Lesson lesson_;
+};
+
+}  // namespace
+
+Lesson loadLesson(const fs::path& folder) { return Loader(folder).load(); }
+
+std::vector<Recording> recordLesson(const Lesson& lesson,
+                                    const std::function<void(std::int64_t)>& progress) {
+  std::vector<Recording> out;
+  for (const LessonTrace& trace : lesson.traces) {
+    const auto steps = std::llround(trace.scene.duration / trace.scene.step);
+    out.push_back(
+        record(trace.scene,
+               {.mode = trace.mode, .detail = Detail::Full, .steps = steps, .progress = progress}));
+  }
+  return out;
+}
+
+std::vector<std::string> failures(const Lesson& lesson, const std::vector<Recording>& recordings) {
+  std::vector<std::string> out;
+  for (const Expectation& expectation : lesson.expectations) {
+    if (auto failure = expectation.failure(recordings[expectation.trace()])) {
+      out.push_back(std::move(*failure));
+    }
+  }
+  return out;
+}
+
+std::string lessonJson(const Lesson& lesson, const std::vector<Recording>& recordings) {
+  JsonText out;
+  out.open('{').field("summary", lesson.summary).field("minutes", lesson.minutes);
+  out.field("intro", lesson.intro);
+  out.array("parts", lesson.parts, [&](const LessonPart& part) {
+    const Recording& recording = recordings[part.trace];
+    const std::int64_t step = part.at.in(recording).step;
+    out.open('{').field("title", part.title).field("html", part.html).field("step", step);
+    out.field("stage", part.stage).field("trace", part.trace);
+    out.array("layers", part.layers, [&](const std::string& layer) { out.value(layer); });
+    out.array("select", part.select, [&](BodyId b) { out.value(b); });
+    out.key("question");
+    if (part.question) {
+      part.question->write(out, recording, step);
+    } else {
+      out.value(nullptr);
+    }
+    out.close('}');
+  });
+  out.close('}');
+  return std::string(out.text());
+}
+
+std::vector<BuiltinLesson> builtinLessons() {
+  std::vector<BuiltinLesson> lessons;
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(lessonFolder(), ignored)) {
+    if (fs::is_regular_file(entry.path() / "lesson.toml")) folders.push_back(entry.path());
+  }
+  std::sort(folders.begin(), folders.end());
+  for (const fs::path& folder : folders) {
+    const std::string stem = folder.filename().string();
+    const std::string name = stem.substr(stem.find('_') + 1);
+    try {
+      const std::string text = readFile(folder / "lesson.toml");
+      lessons.push_back({name, parseToml(SourceText(stem, text))["title"].value_or(name), folder});
+    } catch (const std::runtime_error&) {
+      lessons.push_back({name, name, folder});
+    }
+  }
+  return lessons;
+}
+
+}  // namespace merge2d

@@ -1,0 +1,186 @@
+#include "lessons/question.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "src2d/core/suggest.h"
+#include "src2d/trace/json_text.h"
+
+namespace merge2d {
+namespace {
+
+constexpr std::array<std::string_view, 4> kCriteria = {"relative-motion", "sliding", "breathing",
+                                                       "opening"};
+
+std::string unitOf(std::string_view criterion) { return criterion == "breathing" ? "m" : "m/s"; }
+
+}  // namespace
+
+/// An option of an answer: its text, the bodies it means in the picture, and whether it is right.
+struct Question::Answer {
+  struct Option {
+    std::string text;
+    std::vector<BodyId> bodies;
+    bool right = false;
+  };
+  std::vector<Option> options;
+  bool several = false;
+  std::string because;
+};
+
+Question::Question(TableReader table, const Scene& scene) {
+  if (const auto value = table.require("ask")) ask_ = value->text();
+  if (const auto value = table.require("reveal")) reveal_.emplace(*value, scene);
+  table.read("because", because_);
+  int kinds = 0;
+  if (const auto value = table.get("choices")) {
+    ++kinds;
+    for (const Value& choice : value->elements("[\"one\", \"other\"]")) {
+      choices_.push_back(choice.text());
+    }
+    if (choices_.size() < 2) value->fail("a question has at least two choices");
+    const auto answer = table.require("answer");
+    if (answer) {
+      answer_ = static_cast<int>(
+          answer->integer({1, static_cast<double>(choices_.size()), "the number of a choice"}));
+    }
+  }
+  if (const auto value = table.get("threshold")) {
+    ++kinds;
+    kind_ = Kind::Threshold;
+    place_ = *value;
+    criterion_ = value->text();
+    if (std::find(kCriteria.begin(), kCriteria.end(), criterion_) == kCriteria.end()) {
+      value->fail(fmt::format("'{}' is no criterion with a threshold{}; there are {}", criterion_,
+                              didYouMean(criterion_, kCriteria), fmt::join(kCriteria, ", ")));
+    }
+    if (const auto pair = table.require("pair")) {
+      for (const Value& name : pair->elements("[\"a\", \"b\"]")) {
+        const auto at = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                     [&](const BodyDesc& b) { return b.name == name.text(); });
+        if (at == scene.bodies.end()) {
+          name.fail(fmt::format("the scene has no body '{}'", name.text()));
+        }
+        pair_.push_back(BodyId{static_cast<std::uint32_t>(at - scene.bodies.begin())});
+      }
+      if (pair_.size() != 2) pair->fail("a pair has two bodies");
+      std::sort(pair_.begin(), pair_.end());
+    }
+  }
+  const auto flag = [&](const char* key, Kind kind) {
+    bool on = false;
+    table.read(key, on);
+    if (!on) return;
+    ++kinds;
+    kind_ = kind;
+  };
+  flag("freed", Kind::Freed);
+  flag("contact", Kind::Contact);
+  flag("collections", Kind::Collections);
+  table.done();
+  if (kinds != 1) {
+    table.fail("a question has exactly one of choices, threshold, freed, contact, collections");
+  }
+}
+
+Question::Answer Question::aboveOrBelow(const Recording& r, std::int64_t step) const {
+  for (const DecisionTrack& t : r.decisions) {
+    if (t.a != pair_[0] || t.b != pair_[1] || t.criterion != criterion_) continue;
+    std::size_t sample = 0;
+    for (const Span& span : t.spans) {
+      if (step >= span.first && step < span.first + span.count) {
+        const double value = std::abs(
+            static_cast<double>(t.value[sample + static_cast<std::size_t>(step - span.first)]));
+        const bool above = value >= t.threshold;
+        const double ratio = above ? value / t.threshold : t.threshold / std::max(value, 1e-12);
+        const std::string unit = unitOf(criterion_);
+        return {{{"above the limit", {}, above}, {"below the limit", {}, !above}},
+                false,
+                fmt::format("It is {:.3g} {}, {} the limit of {:.3g} {}{} ({}).", value, unit,
+                            above ? "above" : "below", t.threshold, unit,
+                            ratio < 1e4 ? fmt::format(", {:.2g} times {}", ratio,
+                                                      above ? "as large" : "smaller")
+                                        : std::string(),
+                            t.equation.starts_with("(") ? "Eq. " + t.equation : t.equation)};
+      }
+      sample += static_cast<std::size_t>(span.count);
+    }
+  }
+  place_->fail(fmt::format("'{}' is not tested for this pair at step {}", criterion_, step));
+}
+
+Question::Answer Question::answered(const Recording& r, std::int64_t asked_at,
+                                    const Found& found) const {
+  Answer out;
+  const auto called = [&](BodyId b) { return r.bodies[index(b)].name; };
+  if (kind_ == Kind::Words) {
+    for (std::size_t i = 0; i < choices_.size(); ++i) {
+      out.options.push_back({choices_[i], {}, static_cast<int>(i) + 1 == answer_});
+    }
+  } else if (kind_ == Kind::Threshold) {
+    out = aboveOrBelow(r, found.step);
+  } else if (kind_ == Kind::Freed) {
+    out.several = true;
+    std::vector<std::string> freed;
+    for (std::size_t i = 0; i < r.bodies.size(); ++i) {
+      const BodyId b{static_cast<std::uint32_t>(i)};
+      if (r.collection(b, asked_at) == kNoCollection) continue;
+      const bool right = r.collection(b, found.step) == kNoCollection;
+      out.options.push_back({called(b), {b}, right});
+      if (right) freed.push_back(called(b));
+    }
+    out.because = freed.empty()
+                      ? "No body comes free."
+                      : fmt::format("Free at step {}: {}.", found.step, fmt::join(freed, ", "));
+  } else if (kind_ == Kind::Contact) {
+    if (!found.event) reveal_->place().fail("'contact' needs an event, as in \"first unmerge\"");
+    std::set<std::pair<BodyId, BodyId>> pairs, right;
+    for (const ContactTrack& c : r.contacts) {
+      for (const Span& s : c.spans) {
+        if (asked_at >= s.first && asked_at < s.first + s.count) pairs.insert({c.a, c.b});
+      }
+    }
+    for (const TimedEvent& e : r.events) {
+      if (e.step != found.step || e.event.type != found.event->type) continue;
+      right.insert(std::minmax(e.event.a, e.event.b));
+    }
+    pairs.insert(right.begin(), right.end());
+    std::vector<std::string> names;
+    for (const auto& [a, b] : pairs) {
+      const bool is = right.contains({a, b});
+      out.options.push_back({fmt::format("{} and {}", called(a), called(b)), {a, b}, is});
+      if (is) names.push_back(out.options.back().text);
+    }
+    out.because = fmt::format("At step {}: {}.", found.step, fmt::join(names, "; "));
+    if (found.event->reason != EventReason::None) {
+      out.because += fmt::format(" The reason is: {}.", name(found.event->reason));
+    }
+  } else {
+    const int right = r.stats[static_cast<std::size_t>(found.step)].collections;
+    const int first = std::max(0, right - 2);
+    for (int n = first; n < first + 5; ++n)
+      out.options.push_back({std::to_string(n), {}, n == right});
+    out.because = fmt::format("There {} {}.", right == 1 ? "is" : "are", right);
+  }
+  return out;
+}
+
+void Question::write(JsonText& out, const Recording& r, std::int64_t asked_at) const {
+  const Found found = reveal_->in(r);
+  const Answer answer = answered(r, asked_at, found);
+  std::string because = answer.because;
+  if (!because_.empty()) because += (because.empty() ? "" : " ") + because_;
+  out.open('{').field("ask", ask_).field("several", answer.several).field("reveal", found.step);
+  out.array("options", answer.options, [&](const Answer::Option& o) {
+    out.open('{').field("text", o.text).field("right", o.right);
+    out.array("bodies", o.bodies, [&](BodyId b) { out.value(b); });
+    out.close('}');
+  });
+  out.field("because", because).close('}');
+}
+
+}  // namespace merge2d

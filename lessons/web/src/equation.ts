@@ -1,0 +1,142 @@
+// The equation of the active stage, its symbols filled with the numbers of this step.
+import { h, number } from './dom';
+import { kStages } from './stages';
+import type { State } from './state';
+import type { Contact, Decision } from './trace';
+
+type Node = MathMLElement | string;
+
+function math(tag: string, ...children: Node[]): MathMLElement {
+  const node = document.createElementNS('http://www.w3.org/1998/Math/MathML', tag) as MathMLElement;
+  node.append(...children);
+  return node;
+}
+const mi = (text: string) => math('mi', text);
+const mn = (value: number) => math('mn', number(value));
+const mo = (text: string) => math('mo', text);
+const text = (value: string) => math('mtext', value);
+const sub = (base: string, index: string) => math('msub', mi(base), math('mrow', mi(index)));
+const row = (...children: Node[]) => math('mrow', ...children);
+
+interface Line {
+  symbols: MathMLElement;
+  numbers: MathMLElement | null;
+  note: string;
+}
+
+function block(node: MathMLElement): MathMLElement {
+  const root = math('math', node);
+  root.setAttribute('display', 'block');
+  return root;
+}
+
+/** The contact that is meant: of the selection, else the one that presses most. */
+function contactMeant(state: State): Contact | null {
+  const all = state.trace.head.full ? state.trace.contactsAt(state.step) : [];
+  const s = state.selection;
+  const wanted = s?.kind === 'pair' ? all.filter((c) => c.a === s.a && c.b === s.b)
+    : s?.kind === 'body' ? all.filter((c) => c.a === s.body || c.b === s.body) : all;
+  return wanted.reduce<Contact | null>((best, c) => (!best || c.lambdaN > best.lambdaN ? c : best), null);
+}
+
+/** The decision that is meant: of the selection, else the one nearest to its limit. */
+function decisionMeant(state: State, criteria: string[], stage: string): Decision | null {
+  const s = state.selection;
+  let best: Decision | null = null;
+  const far = (d: Decision) => Math.abs(Math.log10(Math.max(1e-12, Math.abs(d.value)) / d.threshold));
+  for (const d of state.trace.decisionsAt(state.step)) {
+    if (d.criterion.stage !== stage || !criteria.includes(d.criterion.criterion) || !(d.threshold > 0)) continue;
+    if (s?.kind === 'pair' && (d.a !== s.a || d.b !== s.b)) continue;
+    if (s?.kind === 'body' && d.a !== s.body && d.b !== s.body) continue;
+    if (!best || far(d) < far(best)) best = d;
+  }
+  return best;
+}
+
+function between(state: State, x: { a: number; b: number }): string {
+  return `${state.trace.name(x.a)} and ${state.trace.name(x.b)}`;
+}
+
+function bodyMeant(state: State): number {
+  const s = state.selection;
+  if (s?.kind === 'body') return s.body;
+  const dynamic = (i: number) => state.trace.head.bodies[i].motion === 'dynamic' && state.trace.present(i, state.step) && state.trace.present(i, state.step - 1);
+  if (s?.kind === 'pair') return dynamic(s.b) ? s.b : s.a;
+  return state.trace.head.bodies.findIndex((_, i) => dynamic(i));
+}
+
+function line(state: State): Line | null {
+  const { trace, step } = state;
+  const hh = trace.head.h;
+  switch (kStages[state.stage].id) {
+    case 'ContactDetection': case 'WarmStart': case 'SingleIterationPGS': case 'SolveLCP': {
+      const c = contactMeant(state);
+      const symbols = row(mn(0), mo('≤'), sub('w', 'n'), mo('⊥'), sub('λ', 'n'), mo('≥'), mn(0), mo(','), mo('|'), sub('λ', 't'), mo('|'), mo('≤'), mi('μ'), sub('λ', 'n'));
+      if (!c) return { symbols, numbers: null, note: 'Eqs. (4)–(7). Nothing touches now.' };
+      return {
+        symbols,
+        numbers: row(sub('w', 'n'), mo('='), mn(c.wN), text('\u2009m/s,\u2002'), sub('λ', 'n'), mo('='), mn(c.lambdaN), text('\u2009N\u2009s,\u2002'), mo('|'), mn(c.lambdaT), mo('|'), mo(Math.abs(c.lambdaT) <= c.mu * c.lambdaN * (1 + 1e-3) ? '≤' : '>'), mn(c.mu), mo('·'), mn(c.lambdaN), mo('='), mn(c.mu * c.lambdaN), text('\u2009N\u2009s')),
+        note: `Eqs. (4)–(7), for ${between(state, c)}${c.internal ? ', inside a collection' : ''}.`,
+      };
+    }
+    case 'ContactOrdering': return null;
+    case 'SleepAndWake': {
+      const d = decisionMeant(state, ['rest'], 'AccumulateRelativeMotion');
+      const symbols = row(math('msubsup', mi('v'), mi('rel'), mi('max')), mo('<'), sub('ε', 'sleep'));
+      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(Math.abs(d.value) < d.threshold ? '<' : '≥'), mn(d.threshold), text('\u2009m/s')) : null, note: d ? `Section 7, for ${trace.name(d.a)}: against the world.` : 'Section 7: the same measure, against the world.' };
+    }
+    case 'Unmerge': {
+      const d = decisionMeant(state, ['sliding', 'relative-motion', 'opening', 'cone'], 'Unmerge');
+      const symbols = row(mo('|'), sub('w', 't'), mo('|'), mo('>'), mi('ε'), text('\u2002and\u2002'), mo('|'), sub('λ', 't'), mo('|'), mo('='), mi('μ'), sub('λ', 'n'));
+      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(Math.abs(d.value) > d.threshold ? '>' : '≤'), mn(d.threshold), text(d.criterion.criterion === 'cone' ? '\u2002of the cone' : '\u2009m/s')) : null, note: d ? `${d.criterion.criterion}, ${d.criterion.equation.startsWith('(') ? `Eq. ${d.criterion.equation}` : d.criterion.equation}, for ${between(state, d)}: the weld ${d.passed ? 'holds' : 'is cut'}.` : 'Eqs. (19), (20): a weld is cut when its contact slides, breaks, or moves as a pivot. There is no weld here.' };
+    }
+    case 'AdvanceVelocities': {
+      const symbols = row(sub('u', '+'), mo('='), sub('u', '−'), mo('+'), mi('h'), math('msup', mi('M'), row(mo('−'), mn(1))), mi('f'), mo('+'), mi('h'), math('msup', mi('M'), row(mo('−'), mn(1))), math('msup', mi('J'), mi('T')), mi('λ'));
+      const b = bodyMeant(state);
+      if (b < 0 || step === 0) return { symbols, numbers: null, note: 'Eq. (8).' };
+      const [was, is] = [trace.velocity(b, step - 1), trace.velocity(b, step)];
+      const g = hh * trace.head.gravity[1];
+      return {
+        symbols,
+        numbers: row(mn(is.vy), mo('='), mn(was.vy), mo('+'), mo('('), mn(g), mo(')'), mo('+'), mo('('), mn(is.vy - was.vy - g), mo(')'), text('\u2009m/s')),
+        note: `Eq. (8), upwards, for ${trace.name(b)}: before, by gravity, by all the rest.`,
+      };
+    }
+    case 'AccumulateRelativeMotion': {
+      const d = decisionMeant(state, ['relative-motion'], 'AccumulateRelativeMotion');
+      const symbols = row(math('msubsup', mi('v'), mi('rel'), mi('max')), mo('='), math('munder', mo('max'), row(mi('p'), mo('∈'), text('OBBs'))), mo('|'), sub('v', 'rel'), mo('('), mi('p'), mo(')'), mo('|'), mo('<'), mi('ε'));
+      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(d.passed ? '<' : '≥'), mn(d.threshold), text('\u2009m/s')) : null, note: d ? `Eqs. (15)–(17), for ${between(state, d)}: ${d.passed ? `calm; ${d.count} of ${d.needed} steps` : 'too fast; the count starts again'}.` : 'Eqs. (15)–(17). No free pair is in contact now.' };
+    }
+    case 'AdvancePositions': {
+      const symbols = row(sub('x', '+'), mo('='), sub('x', '−'), mo('+'), mi('h'), sub('v', '+'));
+      const b = bodyMeant(state);
+      if (b < 0 || step === 0) return { symbols, numbers: null, note: '' };
+      const v = trace.velocity(b, step);
+      const [was, is] = [trace.pose(b, step - 1), trace.pose(b, step)];
+      return { symbols, numbers: row(mn(is.y), mo('='), mn(was.y), mo('+'), mn(hh), mo('·'), mo('('), mn(v.vy), mo(')'), text('\u2009m')), note: `Upwards, for ${trace.name(b)}.` };
+    }
+    default: {
+      const merged = (trace.eventsAt.get(step) ?? []).find((e) => e[1] === 'merge');
+      const symbols = row(sub('v', 'c'), mo('='), math('mfrac', row(sub('m', 'c'), sub('v', 'c'), mo('+'), sub('m', 'b'), sub('v', 'b')), row(sub('m', 'c'), mo('+'), sub('m', 'b'))));
+      if (!merged) return { symbols, numbers: null, note: 'Eqs. (10)–(14). Nothing merges in this step.' };
+      const members = trace.members(merged[4], step);
+      const mass = members.reduce((sum, b) => sum + trace.head.bodies[b].mass, 0);
+      const v = (axis: 'vx' | 'vy') => members.reduce((sum, b) => sum + trace.head.bodies[b].mass * trace.velocity(b, step)[axis], 0) / mass;
+      return { symbols, numbers: row(sub('v', 'c'), mo('='), mo('('), mn(v('vx')), mo(','), mn(v('vy')), mo(')'), text('\u2009m/s,\u2002'), sub('m', 'c'), mo('='), mn(mass), text('\u2009kg')), note: `Eqs. (10)–(14): C${merged[4]} has ${members.length} ${members.length === 1 ? 'body' : 'bodies'} now.` };
+    }
+  }
+}
+
+export function equationCard(state: State): HTMLElement {
+  const body = h('div', { class: 'equation' });
+  state.onChange(() => {
+    if (state.playing) return;
+    const found = line(state);
+    if (!found) {
+      body.replaceChildren(h('p', { class: 'hint' }, 'This stage only decides an order: breadth first from what is new.'));
+      return;
+    }
+    body.replaceChildren(block(found.symbols), ...(found.numbers ? [block(found.numbers)] : []), h('p', { class: 'hint' }, found.note));
+  });
+  return h('section', { class: 'card', 'aria-label': 'Equation of this stage' }, h('h2', {}, 'Equation'), body);
+}

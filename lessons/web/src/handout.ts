@@ -1,0 +1,43 @@
+// The page on paper: a comic strip of the key states, with their text and questions.
+import { h } from './dom';
+import { type Lesson, prose, selectionOf, stageIndex } from './lesson';
+import { describe } from './now';
+import { Picture } from './picture';
+import { kLast } from './stages';
+import { State } from './state';
+import type { Trace } from './trace';
+
+/** Without a lesson: the beginning, up to six steps with the most events, the end. */
+function keySteps(trace: Trace): number[] {
+  const busiest = [...trace.eventsAt].sort((a, b) => b[1].length - a[1].length).slice(0, 6).map(([step]) => step);
+  return [...new Set([0, ...busiest, trace.head.steps])].sort((a, b) => a - b);
+}
+
+export function handout(title: string, lesson: Lesson | null, traces: Trace[]): HTMLElement {
+  const strip = h('div', { class: 'strip' });
+  const panel = (heading: string, step: number, stage: number, trace: number, set: (state: State) => void, text: HTMLElement | null, question: string) => {
+    const state = new State(traces);
+    state.trace = traces[trace];
+    state.step = step;
+    state.stage = step === 0 ? kLast : stage;
+    set(state);
+    const picture = new Picture(state.trace, false);
+    picture.draw(state);
+    strip.append(h('article', {}, h('h3', {}, heading), picture.root, h('p', { class: 'caption' }, describe(state)), text,
+      question ? h('p', { class: 'blank' }, question) : null));
+  };
+  if (lesson) {
+    for (const [i, part] of lesson.parts.entries()) {
+      panel(`${i + 1}. ${part.title}`, part.step, stageIndex(part.stage), part.trace, (state) => {
+        if (part.layers.length > 0) state.layers.clear();
+        for (const layer of part.layers) state.layers.add(layer);
+        state.selection = selectionOf(part.select);
+      }, prose(part.html), part.question ? `${part.question.ask} ______________________________` : '');
+    }
+  } else {
+    for (const step of keySteps(traces[0])) {
+      panel(`${(step * traces[0].head.h).toFixed(2)} s`, step, kLast, 0, () => {}, null, '');
+    }
+  }
+  return h('div', { class: 'handout', 'aria-hidden': true }, h('h1', {}, title), lesson?.intro ? prose(lesson.intro) : null, strip);
+}

@@ -1,0 +1,236 @@
+// Lesson pages as a person uses them: in Chromium, from a file, with the network cut.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const here = fileURLToPath(new URL('.', import.meta.url));
+const merge2d = process.env.MERGE2D ?? join(here, '../../../build/merge2d');
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+let folder;
+let browser;
+const files = {};
+
+function make(name, source = name) {
+  files[name] = join(folder, `${name}.html`);
+  execFileSync(merge2d, ['lesson', source, '-o', files[name], '--quiet'], { cwd: folder });
+}
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'merge2d-pages-'));
+  writeFileSync(join(folder, 'evil.toml'), `format = 1
+title = "<script>window.hacked = 1</script><img src=x onerror='window.hacked = 1'>"
+duration = 0.5
+[[body]]
+name = "</script><b>"
+circle = 0.5
+`);
+  make('what-merging-is');
+  make('contact-forces');
+  make('books');
+  make('evil', 'evil.toml');
+  browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
+});
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** A page that is open, without a network, and complains about every error and request. */
+async function open(name, options = {}) {
+  const context = await browser.newContext({ offline: true, viewport: { width: 1280, height: 860 }, ...options });
+  const page = await context.newPage();
+  const trouble = [];
+  page.on('pageerror', (error) => trouble.push(String(error)));
+  page.on('console', (message) => { if (message.type() === 'error') trouble.push(message.text()); });
+  page.on('request', (request) => { if (!request.url().startsWith('file:')) trouble.push(`asked for ${request.url()}`); });
+  const start = Date.now();
+  await page.goto(`file://${files[name]}`);
+  await page.waitForSelector('html[data-ready]');
+  return {
+    page, took: Date.now() - start,
+    step: () => page.$eval('.slider', (slider) => Number(slider.value)),
+    stage: () => page.$eval('[aria-current=step] .number', (node) => Number(node.textContent)),
+    close: async () => {
+      await context.close();
+      assert.deepEqual(trouble, []);
+    },
+  };
+}
+
+test('what is checked in was made from the sources', () => {
+  execFileSync('node', ['build.mjs', join(folder, 'dist')], { cwd: join(here, '..') });
+  for (const file of ['player.js', 'player.css']) {
+    assert.equal(readFileSync(join(folder, 'dist', file), 'utf8'), readFileSync(join(here, '../dist', file), 'utf8'),
+      `${file} is out of date: npm run build`);
+  }
+});
+
+test('a page opens within two seconds, from a file, and is small', async () => {
+  for (const name of ['what-merging-is', 'books']) {
+    assert.ok(statSync(files[name]).size < 3_000_000);
+    const { took, close } = await open(name);
+    assert.ok(took < 2000 * Number(process.env.SLOW ?? 5), `${name} took ${took} ms`);
+    await close();
+  }
+});
+
+test('play moves on, pause stops', async () => {
+  const { page, step, close } = await open('books');
+  await page.click('button[aria-label=Play]');
+  await page.waitForFunction(() => Number(document.querySelector('.slider').value) > 5);
+  await page.click('button[aria-label=Pause]');
+  const at = await step();
+  await page.waitForTimeout(150);
+  assert.equal(await step(), at);
+  await close();
+});
+
+test('buttons and the slider step, and stages can be chosen', async () => {
+  const { page, step, stage, close } = await open('books');
+  await page.click('button[aria-label="One step forward"]');
+  assert.equal(await step(), 1);
+  await page.click('.stage:nth-child(7)');
+  assert.equal(await stage(), 7);
+  assert.match(await page.textContent('.now h2'), /Solve contacts/);
+  await page.locator('.slider').fill('200');
+  assert.equal(await step(), 200);
+  await page.click('button[aria-label="To the end"]');
+  assert.equal(await step(), Number(await page.getAttribute('.slider', 'max')));
+  await close();
+});
+
+test('the keyboard alone does everything', async () => {
+  const { page, step, stage, close } = await open('books');
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await step(), 1);
+  await page.keyboard.press('ArrowDown');
+  assert.deepEqual([await step(), await stage()], [2, 1]);
+  await page.keyboard.press('ArrowUp');
+  assert.deepEqual([await step(), await stage()], [1, 11]);
+  await page.keyboard.press('m');
+  assert.ok((await step()) > 1);
+  assert.match(await page.textContent('.now .events'), /merged|came apart/);
+  await page.keyboard.press('End');
+  await page.keyboard.press('Home');
+  assert.equal(await step(), 0);
+  await page.keyboard.press('2');
+  assert.equal(await page.getAttribute('.chip:nth-child(2)', 'aria-pressed'), 'true');
+  await page.keyboard.press('?');
+  assert.ok(await page.isVisible('dialog'));
+  await page.keyboard.press('Escape');
+  await page.waitForSelector('dialog', { state: 'hidden' });
+  await page.waitForFunction(() => document.activeElement === document.body);
+  await page.keyboard.press(' ');
+  await page.waitForFunction(() => Number(document.querySelector('.slider').value) > 2);
+  await page.keyboard.press(' ');
+  assert.equal(await page.locator('button[aria-label=Play]').count(), 1);
+  await close();
+});
+
+test('a click on a contact or a body shows its numbers against their limits', async () => {
+  const { page, close } = await open('what-merging-is');
+  for (let i = 0; i < 40 && !(await page.getAttribute('.layer.active', 'd')); ++i) await page.keyboard.press('ArrowRight');
+  const mark = await page.$eval('.layer.active', (path) => {
+    const at = path.getPointAtLength(0).matrixTransform(path.getScreenCTM());
+    return [at.x + 3, at.y];
+  });
+  await page.mouse.click(...mark);
+  assert.match(await page.textContent('.inspector h3'), /^(platform|brick\[\d,\d\]) and brick/);
+  assert.ok((await page.locator('.inspector .threshold').count()) > 0);
+  await page.locator('.picture .body.free').first().click();
+  assert.match(await page.textContent('.inspector h3'), /^brick\[\d,\d\]$/);
+  assert.match(await page.textContent('.inspector dl'), /Mass/);
+  await close();
+});
+
+test('a question waits for an answer, then shows and explains', async () => {
+  const { page, step, close } = await open('what-merging-is', { reducedMotion: 'reduce' });
+  const asked = await step();
+  assert.ok(await page.isDisabled('.ask .primary'));
+  await page.click('.option:nth-child(2)');
+  await page.click('.ask .primary');
+  assert.match(await page.textContent('.verdict'), /Right\./);
+  assert.ok((await step()) > asked);
+  await page.keyboard.press('n');
+  assert.match(await page.textContent('.place'), /Part 2/);
+  await close();
+});
+
+test('bodies are answers that can be clicked, and questions can be skipped', async () => {
+  const { page, close } = await open('what-merging-is', { reducedMotion: 'reduce' });
+  for (let i = 0; i < 3; ++i) await page.keyboard.press('n');
+  await page.locator('.picture [data-body="1"]').click();
+  assert.equal(await page.locator('.ask input:checked').count(), 1);
+  await page.click('text=Just show me');
+  assert.match(await page.textContent('.verdict'), /The answer: Free at step/);
+  await close();
+});
+
+test('what if shows another run, and says so', async () => {
+  const { page, close } = await open('what-merging-is');
+  await page.selectOption('select[aria-label^="What if"]', '1');
+  assert.match(await page.textContent('.badge'), /reference/);
+  assert.equal(await page.locator('.body.c0').count(), 0);
+  await close();
+});
+
+test('a narrow window needs no sideways scrolling', async () => {
+  for (const name of ['what-merging-is', 'books']) {
+    const { page, close } = await open(name, { viewport: { width: 360, height: 740 } });
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
+    await close();
+  }
+});
+
+test('it prints as a comic strip', async () => {
+  const { page, close } = await open('what-merging-is');
+  await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
+  await page.emulateMedia({ media: 'print' });
+  assert.equal(await page.locator('.strip article:visible').count(), 5);
+  assert.ok(!(await page.isVisible('#app')));
+  await page.evaluate(() => window.dispatchEvent(new Event('afterprint')));
+  assert.equal(await page.locator('.handout').count(), 0);
+  await page.emulateMedia({ media: 'screen' });
+  assert.ok((await page.pdf()).length > 10_000);
+  await close();
+});
+
+test('titles and names stay text', async () => {
+  const { page, close } = await open('evil');
+  assert.equal(await page.evaluate(() => window.hacked), undefined);
+  assert.match(await page.textContent('h1'), /<script>window\.hacked = 1<\/script>/);
+  await page.locator('.picture .body').click();
+  assert.equal(await page.textContent('.inspector h3'), '</script><b>');
+  await close();
+});
+
+test('the screen reader hears each state', async () => {
+  const { page, close } = await open('books');
+  await page.keyboard.press('m');
+  await page.waitForFunction(() => /merged|apart/.test(document.querySelector('[role=status][aria-live]').textContent));
+  assert.match(await page.getAttribute('.slider', 'aria-valuetext'), /step \d+ of \d+/);
+  await close();
+});
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe finds nothing to complain about in ${colorScheme}`, async () => {
+    for (const name of ['what-merging-is', 'contact-forces', 'books']) {
+      const { page, close } = await open(name, { colorScheme });
+      await page.keyboard.press('n');
+      await page.keyboard.press('m');
+      await page.locator('.picture .body:not(.fixed)').first().click({ force: true });
+      if (name === 'contact-forces') await page.click('text=Just show me');
+      await page.evaluate(axe);
+      const { violations } = await page.evaluate(() => window.axe.run());
+      assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(' | ')}`), []);
+      await close();
+    }
+  });
+}

@@ -1,0 +1,65 @@
+/// The lessons tell the truth: what each expects does happen, and its page can be made.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "lessons/lesson.h"
+#include "lessons/page.h"
+
+namespace merge2d {
+namespace {
+
+using ::testing::IsEmpty;
+
+class BuiltinLessons : public testing::TestWithParam<BuiltinLesson> {};
+
+TEST_P(BuiltinLessons, TellTheTruth) {
+  const Lesson lesson = loadLesson(GetParam().folder);
+  std::vector<Recording> recordings = recordLesson(lesson);
+  EXPECT_THAT(failures(lesson, recordings), IsEmpty());
+  EXPECT_GE(lesson.expectations.size(), 3u);
+
+  const std::string json = lessonJson(lesson, recordings);
+  const auto parsed = nlohmann::json::parse(json);
+  int questions = 0;
+  for (const auto& part : parsed["parts"]) {
+    if (part["question"].is_null()) continue;
+    ++questions;
+    EXPECT_GE(part["question"]["reveal"], part["step"]) << part["title"];
+    int right = 0;
+    for (const auto& option : part["question"]["options"]) right += option["right"] ? 1 : 0;
+    EXPECT_GT(right, 0) << part["title"];
+  }
+  EXPECT_GT(questions, 0);
+
+  PageContent content{.title = lesson.title, .lesson = json, .traces = {}};
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    content.traces.push_back({lesson.traces[i].label, std::move(recordings[i])});
+  }
+  EXPECT_LE(makePage(content).size(), kPageBytes);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BuiltinLessons, testing::ValuesIn(builtinLessons()),
+                         [](const auto& tested) {
+                           std::string name = tested.param.name;
+                           std::erase_if(name, [](char c) { return !std::isalnum(c); });
+                           return name;
+                         });
+
+TEST(BuiltinLessonList, HasTenInOrderEachWithItsOwnName) {
+  const std::vector<BuiltinLesson> lessons = builtinLessons();
+  EXPECT_EQ(lessons.size(), 10u);
+  std::set<std::string> names;
+  for (const BuiltinLesson& lesson : lessons) {
+    EXPECT_TRUE(names.insert(lesson.name).second) << lesson.name;
+    EXPECT_NE(lesson.title, lesson.name);
+  }
+  EXPECT_EQ(lessons.front().name, "one-step");
+}
+
+}  // namespace
+}  // namespace merge2d

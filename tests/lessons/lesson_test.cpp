@@ -1,0 +1,179 @@
+/// Lessons as people write them, with the mistakes that people make.
+
+#include "lessons/lesson.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "lessons/markdown.h"
+#include "src2d/core/error.h"
+
+namespace merge2d {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+constexpr const char* kScene = R"(
+format = 1
+duration = 1
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [10, 1]
+[[body]]
+name = "low"
+at = [0, 0.25]
+box = [1, 0.5]
+[[body]]
+name = "high"
+at = [0, 0.75]
+box = [1, 0.5]
+)";
+
+constexpr const char* kHead = R"(format = 1
+title = "Two boxes"
+scene = "scene.toml"
+mode = "merge"
+[[part]]
+section = "One"
+at = "start"
+)";
+
+/// Folders of lessons, gone afterwards.
+class LessonFolder : public testing::Test {
+ protected:
+  LessonFolder() {
+    folder_ = fs::path(testing::TempDir()) /
+              ("merge2d_lesson_" +
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::create_directories(folder_);
+    write("scene.toml", kScene);
+    write("text.md", "Hello.\n\n## One\nSome *text*.\n");
+  }
+  ~LessonFolder() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  Lesson load(const std::string& more) const {
+    write("lesson.toml", kHead + more);
+    return loadLesson(folder_);
+  }
+  std::string errorOf(const std::string& more) const {
+    try {
+      load(more);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  std::vector<std::string> failuresOf(const std::string& expectation) const {
+    const Lesson lesson = load("[[expect]]\n" + expectation);
+    return failures(lesson, recordLesson(lesson));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(LessonFolder, BecomesPartsOfHtml) {
+  const Lesson lesson = load("");
+  EXPECT_EQ(lesson.title, "Two boxes");
+  EXPECT_EQ(lesson.intro, "<p>Hello.</p>\n");
+  ASSERT_THAT(lesson.parts, SizeIs(1));
+  EXPECT_EQ(lesson.parts[0].html, "<p>Some <em>text</em>.</p>\n");
+}
+
+TEST_F(LessonFolder, MistakesAreShownWhereTheyAre) {
+  EXPECT_THAT(errorOf("at2 = 1\n"), HasSubstr("lesson.toml:8:1: unknown key 'at2'"));
+  EXPECT_THAT(
+      errorOf("stage = \"Murge\"\n"),
+      HasSubstr("lesson.toml:8:9: Algorithm 1 has no stage 'Murge' (did you mean 'Merge'?)"));
+  EXPECT_THAT(errorOf("select = [\"hih\"]\n"),
+              HasSubstr("lesson.toml:8:11: the scene has no body 'hih' (did you mean 'high'?)"));
+  EXPECT_THAT(errorOf("layers = [\"force\"]\n"), HasSubstr("(did you mean 'forces'?)"));
+  EXPECT_THAT(errorOf("[[expect]]\nat = \"end\"\nmeasure = \"hight of low\"\nbetween = [0, 1]\n"),
+              HasSubstr("lesson.toml:10:11: 'hight' cannot be measured"));
+  EXPECT_THAT(errorOf("[[expect]]\nat = \"end\"\n"), HasSubstr("exactly one of together"));
+  EXPECT_THAT(errorOf("[[expect]]\nhappens = \"first murge\"\n"),
+              HasSubstr("'murge' is no moment and no event (did you mean 'merge'?)"));
+  EXPECT_THAT(errorOf("[part.question]\nask = \"?\"\nreveal = \"end\"\n"),
+              HasSubstr("a question has exactly one of choices"));
+}
+
+TEST_F(LessonFolder, SectionsAndPartsMustMatch) {
+  write("text.md", "## One\n\n## Two\n");
+  EXPECT_THAT(errorOf(""),
+              HasSubstr("text.md:3:1: lesson.toml has no [[part]] with section = \"Two\""));
+  write("text.md", "## On\n");
+  EXPECT_THAT(errorOf(""),
+              HasSubstr("lesson.toml:6:11: text.md has no section '## One' (did you mean 'On'?)"));
+}
+
+TEST_F(LessonFolder, AMissingFileIsNamed) {
+  EXPECT_THROW(loadLesson(folder_), InputError);  // no lesson.toml
+}
+
+TEST_F(LessonFolder, ExpectationsThatHoldAreSilent) {
+  EXPECT_THAT(failuresOf("together = [\"low\", \"high\"]\nat = \"end\"\n"), IsEmpty());
+  EXPECT_THAT(failuresOf("apart = [\"low\", \"high\"]\nat = \"start\"\n"), IsEmpty());
+  EXPECT_THAT(failuresOf("free = [\"low\"]\nat = \"start\"\n"), IsEmpty());
+  EXPECT_THAT(failuresOf("happens = \"first union of low and high\"\nbetween = [0.01, 0.2]\n"),
+              IsEmpty());
+  EXPECT_THAT(failuresOf("never = \"unmerge\"\n"), IsEmpty());
+  EXPECT_THAT(failuresOf("measure = \"y of high\"\nat = \"0.5 s\"\nbetween = [0.74, 0.76]\n"),
+              IsEmpty());
+}
+
+TEST_F(LessonFolder, ExpectationsThatDoNotHoldSayWhatIs) {
+  EXPECT_THAT(failuresOf("apart = [\"low\", \"high\"]\nat = \"end\"\n"),
+              ElementsAre(HasSubstr("low and high are in one collection")));
+  EXPECT_THAT(failuresOf("happens = \"first unmerge\"\n"),
+              ElementsAre(HasSubstr("it does not happen")));
+  EXPECT_THAT(failuresOf("never = \"merge\"\n"), ElementsAre(HasSubstr("it does happen, at step")));
+  EXPECT_THAT(failuresOf("asleep = [\"low\"]\nat = \"end\"\n"),
+              ElementsAre(HasSubstr("low is awake")));
+  EXPECT_THAT(failuresOf("measure = \"collections\"\nat = \"end\"\nbetween = [5, 6]\n"),
+              ElementsAre(HasSubstr("it is 1, not between 5 and 6")));
+}
+
+TEST_F(LessonFolder, AQuestionIsAnsweredByTheSimulation) {
+  const Lesson lesson =
+      load("[part.question]\nask = \"How many?\"\ncollections = true\nreveal = \"end\"\n");
+  const auto json = nlohmann::json::parse(lessonJson(lesson, recordLesson(lesson)));
+  const auto& options = json["parts"][0]["question"]["options"];
+  EXPECT_FALSE(options[0]["right"]);
+  EXPECT_EQ(options[1]["text"], "1");
+  EXPECT_TRUE(options[1]["right"]);
+}
+
+TEST_F(LessonFolder, AMomentThatDoesNotHappenIsAnErrorWithItsPlace) {
+  write("lesson.toml",
+        std::string(kHead).replace(std::string(kHead).find("start"), 5, "last unmerge"));
+  const Lesson lesson = loadLesson(folder_);
+  try {
+    lessonJson(lesson, recordLesson(lesson));
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("lesson.toml:7:6: 'last unmerge' does not happen"));
+  }
+}
+
+TEST(Markdown, RawHtmlIsLeftOut) {
+  const std::string html =
+      markdownToHtml("Hi <script>alert(1)</script> [x](javascript:alert(1))\n");
+  EXPECT_THAT(html, Not(HasSubstr("<script>")));
+  EXPECT_THAT(html, Not(HasSubstr("javascript:")));
+}
+
+}  // namespace
+}  // namespace merge2d
