@@ -135,10 +135,10 @@ template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
          cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v, frame_gain,
-         frame_known, settled] = c;
+         frame_known, settled, refuted] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
      cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v, frame_gain,
-     frame_known, settled);
+     frame_known, settled, refuted);
 }
 
 /// What moves of a state; constants come from the scene, trees are built anew.

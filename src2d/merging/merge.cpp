@@ -10,7 +10,6 @@
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/metric.h"
-#include "src2d/merging/sweep.h"
 
 namespace merge2d {
 namespace {
@@ -55,9 +54,9 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
       ++seen.active;
       seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
       seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
-      const bool at_rest = std::abs(p.w_t) < residualVelocity(state);
+      const bool at_rest = std::abs(p.w_t) < state.settings.sleeping.velocity;
       seen.on_edge +=
-          !at_rest && !bilateral && std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
+          !bilateral && !at_rest && std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
     }
   }
   return seen;

@@ -21,6 +21,7 @@ const row = (...children: Node[]) => math('mrow', ...children);
 interface Line {
   symbols: MathMLElement;
   numbers: MathMLElement | null;
+  more?: MathMLElement;
   note: string;
 }
 
@@ -75,7 +76,8 @@ function line(state: State): Line | null {
       if (!c) return { symbols, numbers: null, note: 'Eqs. (4)–(7). Nothing touches now.' };
       return {
         symbols,
-        numbers: row(sub('w', 'n'), mo('='), mn(c.wN), text('\u2009m/s,\u2002'), sub('λ', 'n'), mo('='), mn(c.lambdaN), text('\u2009N\u2009s,\u2002'), mo('|'), mn(c.lambdaT), mo('|'), mo(Math.abs(c.lambdaT) <= c.mu * c.lambdaN * (1 + 1e-3) ? '≤' : '>'), mn(c.mu), mo('·'), mn(c.lambdaN), mo('='), mn(c.mu * c.lambdaN), text('\u2009N\u2009s')),
+        numbers: row(sub('w', 'n'), mo('='), mn(c.wN), text('\u2009m/s,\u2002'), sub('λ', 'n'), mo('='), mn(c.lambdaN), text('\u2009N\u2009s')),
+        more: row(mo('|'), mn(c.lambdaT), mo('|'), mo(Math.abs(c.lambdaT) <= c.mu * c.lambdaN * (1 + 1e-3) ? '≤' : '>'), mn(c.mu), mo('·'), mn(c.lambdaN), mo('='), mn(c.mu * c.lambdaN), text('\u2009N\u2009s')),
         note: `Eqs. (4)–(7), for ${between(state, c)}${c.internal ? ', inside a collection' : ''}.`,
       };
     }
@@ -136,7 +138,7 @@ export function equationCard(state: State): HTMLElement {
       body.replaceChildren(h('p', { class: 'hint' }, 'This stage only decides an order: breadth first from what is new.'));
       return;
     }
-    body.replaceChildren(block(found.symbols), ...(found.numbers ? [block(found.numbers)] : []), h('p', { class: 'hint' }, found.note));
+    body.replaceChildren(block(found.symbols), ...(found.numbers ? [block(found.numbers)] : []), ...(found.more ? [block(found.more)] : []), h('p', { class: 'hint' }, found.note));
   });
   return h('section', { class: 'card', 'aria-label': 'Equation of this stage' }, h('h2', {}, 'Equation'), body);
 }
