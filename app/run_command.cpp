@@ -1,3 +1,5 @@
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -10,6 +12,7 @@
 #include "app/summary.h"
 #include "app/usage_error.h"
 #include "src2d/core/error.h"
+#include "src2d/state_file.h"
 #include "src2d/trace/csv.h"
 #include "src2d/trace/trace_writer.h"
 
@@ -22,11 +25,14 @@ constexpr const char* kExamples = R"(Examples:
   merge2d run books --trace books.jsonl --decisions
   merge2d run pile --set merging.velocity=0.02 --csv pile.csv
   merge2d run spinner --trace - | head -n 2
+  merge2d run tower-platform --steps 300 --snapshot hit.state
+  merge2d run tower-platform --steps 600 --resume hit.state
 
-Trace and CSV files replace only files of their own kind, unless --force is given.)";
+Trace, CSV and snapshot files replace only files of their own kind, unless --force is given.)";
 
 struct RunOptions : SceneOptions {
-  std::string trace, csv;  ///< files, or empty
+  std::string trace, csv;        ///< files, or empty
+  std::string snapshot, resume;  ///< the same
   bool no_timings = false;
   bool decisions = false;
 };
@@ -39,6 +45,11 @@ void check(const RunOptions& options) {
   if (!options.trace.empty() && options.trace == options.csv) {
     throw UsageError("--trace and --csv need two different files");
   }
+  if (!options.snapshot.empty() &&
+      (options.snapshot == options.trace || options.snapshot == options.csv)) {
+    throw UsageError("--snapshot needs a file of its own");
+  }
+  if (options.snapshot == "-") throw UsageError("a snapshot is not written to the standard output");
   if (options.json && (options.trace == "-" || options.csv == "-")) {
     throw UsageError("--json and '-' would both write to the standard output");
   }
@@ -75,6 +86,9 @@ class Record {
   Record(const RunOptions& options, const World& world) {
     if (!options.trace.empty()) trace_.emplace(options, world);
     if (!options.csv.empty()) table_.emplace(options);
+    if (options.snapshot.empty()) return;
+    state_.emplace(options.snapshot, Replaces{.everything = options.force, .ours = kStateStart});
+    state_->check();
   }
 
   void add(const Snapshot& snapshot) {
@@ -89,13 +103,36 @@ class Record {
     if (table_) table_->file.finish();
   }
 
+  /// The state after the last step; only of a run that went well.
+  void finish(const World& world) {
+    finish();
+    if (!state_) return;
+    state_->stream() << world.save();
+    state_->finish();
+  }
+
   const Summary& summary() const { return summary_; }
 
  private:
   Summary summary_;
   std::optional<Trace> trace_;
   std::optional<Table> table_;
+  std::optional<OutputFile> state_;
 };
+
+/// Brings a fresh simulation to where a snapshot was taken.
+void resume(const RunOptions& options, Simulation& simulation) {
+  if (options.resume.empty()) return;
+  std::ifstream file(options.resume, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file) throw IoError(fmt::format("cannot read {}", options.resume));
+  simulation.resume(bytes, options.resume);
+  if (!simulation.done()) return;
+  throw UsageError(
+      fmt::format("{} was taken after step {}, and the run ends with step {}; steps "
+                  "count from the scene's start: ask for more with --steps",
+                  options.resume, simulation.world().steps(), simulation.steps()));
+}
 
 void simulate(Simulation& simulation, Record& record, const Console& console) {
   Progress progress(console, "step", simulation.steps());
@@ -128,18 +165,17 @@ void run(const RunOptions& options) {
   Simulation simulation(
       loadScene(options, console),
       {.mode = options.mode, .timings = !options.no_timings, .decisions = options.decisions});
+  resume(options, simulation);
   Record record(options, simulation.world());
-  const auto finish = [&] {
-    record.finish();
-    report(options, simulation, record.summary());
-  };
   try {
     simulate(simulation, record, console);
   } catch (const SimulationError&) {
-    finish();  // what there is up to here helps to find out why
+    record.finish();  // what there is up to here helps to find out why
+    report(options, simulation, record.summary());
     throw;
   }
-  finish();
+  record.finish(simulation.world());
+  report(options, simulation, record.summary());
 }
 
 }  // namespace
@@ -159,6 +195,16 @@ void addRunCommand(CLI::App& program, Action& action) {
       *command, "--csv", "FILE.csv",
       [options](const std::string& s) { options->csv = readPath("--csv", s); },
       "Write a table with a row per time step")
+      ->group(kGroup);
+  addOption(
+      *command, "--snapshot", "FILE",
+      [options](const std::string& s) { options->snapshot = readPath("--snapshot", s); },
+      "Save the state after the last step, to continue from")
+      ->group(kGroup);
+  addOption(
+      *command, "--resume", "FILE",
+      [options](const std::string& s) { options->resume = readPath("--resume", s); },
+      "Continue from a snapshot of the same scene and mode; steps count from the scene's start")
       ->group(kGroup);
   command
       ->add_flag("--decisions", options->decisions,

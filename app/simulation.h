@@ -2,6 +2,8 @@
 /// A scene that is simulated: what `run` and `render` have in common.
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/console.h"
@@ -29,6 +31,11 @@ class Simulation {
   const World& world() const { return world_; }
   std::int64_t steps() const { return steps_; }
   bool done() const { return world_.steps() >= steps_; }
+
+  /// Continues from a snapshot; `file` names it in messages. Throws InputError when it does not fit.
+  void resume(std::string_view snapshot, const std::string& file) {
+    world_.restore(snapshot, file);
+  }
 
   /// Takes one step. Throws SimulationError, or Interrupted.
   void step();

@@ -103,6 +103,7 @@ std::string table(const Scene& scene, const Inventory& found) {
                                 counted(found.emitted, "body", "bodies")));
   }
   count("springs", scene.springs.size());
+  count("joints", scene.joints.size());
   count("impulses", scene.impulses.size());
   count("forces", scene.forces.size());
   count("magnets", scene.magnets.size());
@@ -130,6 +131,7 @@ std::string json(const Scene& scene, const Inventory& found) {
   }
   out["shapes"] = found.discs + found.polygons;
   out["springs"] = scene.springs.size();
+  out["joints"] = scene.joints.size();
   out["impulses"] = scene.impulses.size();
   out["forces"] = scene.forces.size();
   out["magnets"] = scene.magnets.size();

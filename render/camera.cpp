@@ -54,6 +54,9 @@ Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, 
     shown.include(spring.from);
     shown.include(spring.to);
   }
+  for (const JointView& joint : snapshot.joints) {
+    if (!joint.broken && joint.to_world) shown.include(joint.to);
+  }
   const Vec2 extent = shown.extent();
   const double needed = (1.0 + 2.0 * kMargin) * extent.y();
   const double height = std::max({needed, (1.0 + 2.0 * kMargin) * extent.x() / aspect, kSmallest});

@@ -46,7 +46,10 @@ Hatch hatchOf(const FrameScene& scene, Pixel origin, const Rotation& turn, bool 
 
 void drawBodies(Painter& painter, const FrameScene& scene);
 
-/// Springs, and the overlays that lie in the world: graph, welds, boxes, contacts, forces,
+/// The signs of joints.
+void drawJoints(Painter& painter, const FrameScene& scene);
+
+/// Springs, joints, and the overlays that lie in the world: graph, welds, boxes, contacts, forces,
 /// velocities.
 void drawMarks(Painter& painter, const FrameScene& scene);
 

@@ -202,6 +202,7 @@ void drawBrokenMark(Painter& painter, const FrameScene& scene, Pixel at, float r
 
 void drawMarks(Painter& painter, const FrameScene& scene) {
   drawSprings(painter, scene);
+  drawJoints(painter, scene);
   if (scene.shows(Overlay::Graph)) drawGraph(painter, scene);
   if (scene.shows(Overlay::Welds)) drawWelds(painter, scene);
   if (scene.shows(Overlay::Boxes)) drawBoxes(painter, scene);

@@ -36,6 +36,9 @@ void wakeAround(const State& state, Scratch& scratch, BodyId body) {
   for (const Collection& c : state.collections) {
     for (const Weld& weld : c.welds) wakeOther(weld.a, weld.b);
   }
+  for (const Joint& joint : state.joints) {
+    if (!joint.to_world && holds(state, joint)) wakeOther(joint.a, joint.b);
+  }
 }
 
 void letGo(State& state, Actions& actions, Scratch& scratch) {

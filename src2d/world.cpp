@@ -12,6 +12,7 @@
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/unmerge.h"
+#include "src2d/state_file.h"
 #include "src2d/trace/capture.h"
 
 namespace merge2d {
@@ -66,7 +67,7 @@ void World::Impl::step() {
   run(Stage::SolveLCP, [&] { solveContacts(state, s); });
   run(Stage::AdvanceVelocities, [&] { advanceVelocities(state, s); });
   run(Stage::AccumulateRelativeMotion, [&] { accumulateRelativeMotion(state, s); });
-  run(Stage::AdvancePositions, [&] { advancePositions(state); });
+  run(Stage::AdvancePositions, [&] { advancePositions(state, s); });
   run(Stage::Merge, [&] { merge(state, s); });
 
   state.step += 1;
@@ -91,6 +92,14 @@ const std::vector<Event>& World::events() const { return impl_->scratch.events; 
 void World::takeNotes(bool on) { impl_->options.decisions = on; }
 const Notes& World::notes() const { return impl_->notes; }
 void World::observe(Observer* observer) { impl_->observer = observer; }
+
+std::string World::save() const { return saveState(impl_->scene, impl_->setup); }
+
+void World::restore(std::string_view bytes, const std::string& source) {
+  restoreState(bytes, source, impl_->scene, impl_->setup);
+  impl_->scratch.events.clear();
+  countBodies(impl_->setup.state, impl_->scratch);
+}
 
 std::size_t World::memoryBytes() const {
   return merge2d::memoryBytes(impl_->setup.state, impl_->scratch);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "src2d/scene/scene.h"
@@ -45,6 +47,13 @@ class World {
   Mode mode() const;
   /// All bodies of the run by id, also those that are not emitted yet; never changes.
   const std::vector<BodyInfo>& bodies() const;
+  /// All that influences the steps to come, as bytes: a world of the same scene and mode that takes
+  /// them over continues bit for bit as this one does.
+  std::string save() const;
+  /// Takes over what `save` gave. `source` names the bytes in messages. Throws InputError when they
+  /// are damaged, or of another version, scene or mode.
+  void restore(std::string_view bytes, const std::string& source);
+
   std::size_t memoryBytes() const;  ///< held by the simulation's tables
 
   /// Fills `out` with what can be seen now, reusing its memory.

@@ -38,13 +38,17 @@ std::uint32_t onlyShape(const State& state, RigidId id) {
 
 bool moves(const Rigid& r) { return !r.asleep && r.anchor != kWorldFrame; }
 
-/// Pairs of things that do not move by themselves are of no interest.
-bool canTouch(const Rigid& a, const Rigid& b) {
-  return (a.floating() || b.floating()) && (moves(a) || moves(b));
+/// Pairs of fixed bodies are of no interest, nor is what never moves against each other. Of a
+/// collection that is fixed to a frame the members can still be freed.
+bool canTouch(const State& state, RigidId ra, RigidId rb) {
+  const Rigid &a = state[ra], &b = state[rb];
+  if (!moves(a) && !moves(b)) return false;
+  if (a.floating() || b.floating()) return true;
+  return (state.isCollection(ra) || state.isCollection(rb)) && a.anchor != b.anchor;
 }
 
 bool bodiesCollide(const State& state, BodyId a, BodyId b) {
-  return a != b && state[a].rigid != state[b].rigid;
+  return a != b && state[a].rigid != state[b].rigid && !joined(state, a, b);
 }
 
 ContactKey keyOf(const State& state, std::uint32_t shape_a, std::uint32_t shape_b) {
@@ -91,11 +95,11 @@ void findNeighbours(State& state, Scratch& scratch) {
     const Rigid& r = state[id];
     state.broadphase.tree.queryLeaf(r.leaf, [&](std::uint32_t other) {
       const RigidId o{other};
-      if (o == id || (scratch.moved_flag[other] && o < id) || !canTouch(r, state[o])) return;
+      if (o == id || (scratch.moved_flag[other] && o < id) || !canTouch(state, id, o)) return;
       if (hasShapeTree(state, id) || hasShapeTree(state, o)) {
         NearPair pair{.a = std::min(id, o), .b = std::max(id, o)};
         scratch.near_candidates.push_back(pair);
-      } else {
+      } else if (!joined(state, BodyId{static_cast<std::uint32_t>(id)}, BodyId{other})) {
         scratch.candidates.push_back(keyOf(state, onlyShape(state, id), onlyShape(state, o)));
       }
     });
@@ -152,8 +156,7 @@ void refineNearPairs(State& state, Scratch& scratch) {
   scratch.near_refined.assign(near.size(), 0);
   for (std::size_t i = 0; i < near.size(); ++i) {
     NearPair& p = near[i];
-    const Rigid &a = state[p.a], &b = state[p.b];
-    if (!p.fresh && !canTouch(a, b)) continue;
+    if (!p.fresh && !canTouch(state, p.a, p.b)) continue;
     const bool a_hosts = hasShapeTree(state, p.a);
     const RigidId host = a_hosts ? p.a : p.b, guest = a_hosts ? p.b : p.a;
     const auto corners =
@@ -184,7 +187,7 @@ void dropParted(State& state, Scratch& scratch) {
     if (!hasShapeTree(state, ra) && !hasShapeTree(state, rb)) return false;
     const NearPair wanted{.a = std::min(ra, rb), .b = std::max(ra, rb)};
     const auto pair = std::lower_bound(near.begin(), near.end(), wanted);
-    if (pair == near.end() || !(*pair == wanted)) return canTouch(a, b);
+    if (pair == near.end() || !(*pair == wanted)) return canTouch(state, ra, rb);
     if (!scratch.near_refined[static_cast<std::size_t>(pair - near.begin())]) return false;
     return !std::binary_search(candidates.begin(), candidates.end(), contact.key);
   });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "src2d/core/error.h"
+#include "src2d/dynamics/stabilise.h"
 #include "src2d/merging/collection.h"
 
 namespace merge2d {
@@ -17,7 +18,7 @@ void advanceVelocities(State& state, const Scratch& scratch) {
   }
 }
 
-void advancePositions(State& state) {
+void advancePositions(State& state, Scratch& scratch) {
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
     Rigid& r = state.rigids[i];
     if (!r.present() || r.asleep || r.anchor == kWorldFrame) continue;
@@ -28,6 +29,7 @@ void advancePositions(State& state) {
     r.angle += state.h * r.omega;
     r.rotation = Rotation::of(r.angle);
   }
+  correctPositions(state, scratch);
   followAnchors(state);
 }
 

@@ -8,8 +8,9 @@ namespace merge2d {
 /// u₊ of the solve becomes the velocity.
 void advanceVelocities(State& state, const Scratch& scratch);
 
-/// x₊ = x₋ + h u₊; anchored collections follow their frames.
-void advancePositions(State& state);
+/// x₊ = x₋ + h u₊, and the correction of post-step stabilisation; anchored collections follow their
+/// frames.
+void advancePositions(State& state, Scratch& scratch);
 
 /// Throws SimulationError naming body, stage and step when a velocity or position is not finite.
 void checkFinite(const State& state, const std::vector<BodyInfo>& bodies, Stage stage);

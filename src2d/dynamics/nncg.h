@@ -20,16 +20,17 @@ struct SweepChange {
   double total = 0.0;
 };
 
-/// `block(i)` for i < `blocks` are the rows, `velocity(i)` for i < `bodies` what they act on, each
-/// once; `sweep()` solves every block once and changes both. With `accelerate` off: plain sweeps.
-template <class BlockAt, class VelocityAt, class Sweep>
+/// `impulses(i)` for i < `blocks` are those of a block of rows, `velocity(i)` for i < `bodies` what
+/// they act on, each once; `sweep()` solves every block once and changes both. With `accelerate`
+/// off: plain sweeps.
+template <class ImpulsesAt, class VelocityAt, class Sweep>
 class Nncg {
  public:
-  Nncg(std::size_t blocks, BlockAt block, std::size_t bodies, VelocityAt velocity, Sweep sweep,
-       NncgBuffers& buffers)
+  Nncg(std::size_t blocks, ImpulsesAt impulses, std::size_t bodies, VelocityAt velocity,
+       Sweep sweep, NncgBuffers& buffers)
       : blocks_(blocks),
         bodies_(bodies),
-        block_(block),
+        impulses_(impulses),
         velocity_(velocity),
         sweep_(sweep),
         m_(buffers) {
@@ -62,7 +63,7 @@ class Nncg {
 
  private:
   void remember() {
-    for (std::size_t i = 0; i < blocks_; ++i) m_.before[i] = block_(i).lambda;
+    for (std::size_t i = 0; i < blocks_; ++i) m_.before[i] = impulses_(i);
     for (std::size_t i = 0; i < bodies_; ++i) {
       const SolverVelocity& u = velocity_(i);
       m_.u_before[i] = {u.vx, u.vy, u.omega};
@@ -73,7 +74,7 @@ class Nncg {
   SweepChange changeSince() const {
     Impulses squared{}, total{};
     for (std::size_t i = 0; i < blocks_; ++i) {
-      const Impulses &now = block_(i).lambda, &before = m_.before[i];
+      const Impulses &now = impulses_(i), &before = m_.before[i];
       for (std::size_t r = 0; r < 4; ++r) {
         const double d = now[r] - before[r];
         squared[r] += d * d;
@@ -89,7 +90,7 @@ class Nncg {
     const double keep = rho > 1.0 ? 0.0 : 1.0;
     if (rho > 1.0) rho = 0.0;
     for (std::size_t i = 0; i < blocks_; ++i) {
-      Impulses &lambda = block_(i).lambda, &p = m_.direction[i], &before = m_.before[i];
+      Impulses &lambda = impulses_(i), &p = m_.direction[i], &before = m_.before[i];
       for (std::size_t r = 0; r < 4; ++r) {
         const double along = rho * p[r];
         p[r] = along + keep * (lambda[r] - before[r]);
@@ -109,7 +110,7 @@ class Nncg {
   }
 
   std::size_t blocks_, bodies_;
-  BlockAt block_;
+  ImpulsesAt impulses_;
   VelocityAt velocity_;
   Sweep sweep_;
   NncgBuffers& m_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src2d/core/memory.h"
+#include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/solver.h"
 
 namespace merge2d {
@@ -19,7 +20,8 @@ const Rigid& anchorOf(const State& state, std::size_t i) {
 
 /// u₋ + h M⁻¹ f for everything in B; what is fixed or asleep keeps its velocity.
 void startVelocities(const State& state, Scratch& scratch) {
-  scratch.u.resize(state.rigids.size());
+  scratch.u.resize(state.rigids.size() + 1);
+  scratch.u.back() = {};
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
     const bool anchored = i >= state.bodies.size() && !state.rigids[i].floating() &&
                           state.rigids[i].anchor != kWorldFrame && state.rigids[i].present();
@@ -100,6 +102,7 @@ void orderBlocks(const State& state, Scratch& scratch) {
       sets.unite(static_cast<std::uint32_t>(source.a), static_cast<std::uint32_t>(source.b));
     }
   }
+  uniteJoints(state, scratch);
   // Greedy colours, in the order of the pairs.
   scratch.colours.assign(state.rigids.size(), 0);
   reserveTightly(scratch.block_order, scratch.row_sources.size());
@@ -138,7 +141,7 @@ ContactBlock makeBlock(const State& state, const Scratch& scratch, const RowSour
   k.a = static_cast<std::uint32_t>(source.a);
   k.b = static_cast<std::uint32_t>(source.b);
   k.mu = contact.mu;
-  k.bilateral = state[contact.key.a].magnet_on || state[contact.key.b].magnet_on;
+  k.bilateral = isBilateral(state, contact.key.a, contact.key.b);
   bool rests = false;
   for (int i = 0; i < source.count; ++i) {
     ContactPoint& point = *source.points[static_cast<std::size_t>(i)];
@@ -147,7 +150,7 @@ ContactBlock makeBlock(const State& state, const Scratch& scratch, const RowSour
     k.bias[i] = restitutionBias(state, contact, point, g.normal.dot(before), rest);
     k.lambda_n(i) = point.lambda_n;
     k.lambda_t(i) = point.lambda_t;
-    rests |= point.gap <= 0.0 && k.bias[i] >= rest;
+    rests |= k.bilateral || (point.gap <= 0.0 && k.bias[i] >= rest);
   }
   // Only what rests breathes: compliance would take speed from a bounce.
   if (!rests) g.softness = 0.0;
@@ -167,7 +170,7 @@ void buildBlocks(const State& state, Scratch& scratch) {
     const BlockOrder& order = scratch.block_order[i];
     scratch.blocks.push_back(makeBlock(state, scratch, scratch.row_sources[order.source]));
     if (scratch.islands.empty() || scratch.islands.back().root != order.island) {
-      scratch.islands.push_back({order.island, i, i, 0, 0});
+      scratch.islands.push_back({.root = order.island, .first = i, .last = i});
     }
     scratch.islands.back().last = i + 1;
   }
@@ -204,10 +207,12 @@ void listIslandBodies(const State& state, Scratch& scratch) {
 
 double contactBias(const SolverSettings& settings, double h, double gap) {
   if (gap > 0.0) return gap / h;
+  if (settings.stabilisation == Stabilisation::Post) return 0.0;
   return std::max(settings.erp * gap / h, -settings.max_correction);
 }
 
 double contactSoftness(const SolverSettings& settings, double inv_mass_a, double inv_mass_b) {
+  if (settings.stabilisation == Stabilisation::Post) return 0.0;
   return settings.compliance * (inv_mass_a + inv_mass_b);
 }
 
@@ -218,6 +223,7 @@ void buildRows(State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) listSources(state, pair, scratch);
   orderBlocks(state, scratch);
   buildBlocks(state, scratch);
+  buildJointBlocks(state, scratch);
   listIslandBodies(state, scratch);
 }
 

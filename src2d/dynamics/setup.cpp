@@ -25,6 +25,7 @@ class Builder {
     for (const BodyDesc& desc : scene_.bodies) addBody(desc, desc.name, desc.at, true);
     for (const EmitterDesc& emitter : scene_.emitters) addEmitter(emitter);
     for (const SpringDesc& spring : scene_.springs) addSpring(spring);
+    for (const JointDesc& joint : scene_.joints) addJoint(joint);
     for (ForceDesc force : scene_.forces) {
       force.at -= centers_[force.body];
       setup_.actions.forces.push_back(force);
@@ -163,8 +164,40 @@ class Builder {
     setup_.actions.springs.push_back(t);
   }
 
+  /// Joints are given by where the bodies stand at the start.
+  void addJoint(const JointDesc& desc) {
+    State& s = setup_.state;
+    const auto local = [&](BodyIndex body, const Vec2& at) {
+      const Rigid& r = s.rigids[body];
+      return r.rotation.inverse() * (at - r.x);
+    };
+    Joint joint;
+    joint.kind = desc.kind;
+    joint.a = BodyId{static_cast<std::uint32_t>(desc.a)};
+    joint.to_world = !desc.b;
+    joint.anchor_a = local(desc.a, desc.at);
+    joint.anchor_b = desc.kind == JointKind::Distance ? desc.to : desc.at;
+    joint.reference = -s.rigids[desc.a].angle;
+    if (desc.b) {
+      joint.b = BodyId{static_cast<std::uint32_t>(*desc.b)};
+      joint.anchor_b = local(*desc.b, joint.anchor_b);
+      joint.reference += s.rigids[*desc.b].angle;
+    }
+    joint.axis = s.rigids[desc.a].rotation.inverse() * desc.axis.normalized();
+    joint.length = desc.length.value_or((desc.to - desc.at).norm());
+    joint.stiffness = desc.stiffness;
+    joint.damping = desc.damping;
+    joint.limits = desc.limits;
+    joint.motor = desc.motor;
+    joint.break_force = desc.break_force;
+    joint.break_torque = desc.break_torque;
+    joint.collide = desc.collide;
+    s.joints.push_back(joint);
+  }
+
   void enterWorld() {
     State& s = setup_.state;
+    listJoinedPairs(s);
     s.broadphase.shape_trees.resize(s.rigids.size());
     s.broadphase.shape_leaves.assign(s.shape_body.size(), -1);
     listSiblings(s);

@@ -1,5 +1,6 @@
 #include "src2d/dynamics/solver.h"
 
+#include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/nncg.h"
 
 namespace merge2d {
@@ -28,11 +29,29 @@ SweepChange solveIsland(const SolverSettings& settings, Scratch& scratch, const 
                          island.last_body - island.first_body);
   auto& u = scratch.u;
   warmStart(blocks, u);
+  const auto body = [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; };
+  const bool accelerate = settings.method == SolverMethod::Nncg;
+  if (island.first_joint == island.last_joint) {
+    Nncg iteration(
+        blocks.size(), [&](std::size_t i) -> Impulses& { return blocks[i].lambda; }, bodies.size(),
+        body, [&] { sweep(blocks, u, settings.method); }, scratch.nncg);
+    return iteration.run(settings.iterations, accelerate);
+  }
+  const std::span joints(scratch.joint_blocks.data() + island.first_joint,
+                         island.last_joint - island.first_joint);
+  warmStartJoints(joints, u);
   Nncg iteration(
-      blocks.size(), [&](std::size_t i) -> ContactBlock& { return blocks[i]; }, bodies.size(),
-      [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; },
-      [&] { sweep(blocks, u, settings.method); }, scratch.nncg);
-  return iteration.run(settings.iterations, settings.method == SolverMethod::Nncg);
+      blocks.size() + joints.size(),
+      [&](std::size_t i) -> Impulses& {
+        return i < blocks.size() ? blocks[i].lambda : joints[i - blocks.size()].lambda;
+      },
+      bodies.size(), body,
+      [&] {
+        sweepJoints(joints, u);
+        sweep(blocks, u, settings.method);
+      },
+      scratch.nncg);
+  return iteration.run(settings.iterations, accelerate);
 }
 
 /// Hands the impulses back to the contacts, with the velocities that they leave.
@@ -64,6 +83,7 @@ void solveContacts(State& state, Scratch& scratch) {
     all.total += change.total;
   }
   storeImpulses(scratch);
+  storeJointImpulses(state, scratch);
   scratch.stats.residual = all.total > 0.0 ? std::sqrt(all.squared / all.total) : 0.0;
 }
 

@@ -10,6 +10,7 @@
 #include "src2d/core/ids.h"
 #include "src2d/dynamics/contact_block.h"
 #include "src2d/dynamics/islands.h"
+#include "src2d/dynamics/joint.h"
 #include "src2d/geometry/box.h"
 #include "src2d/geometry/collide.h"
 #include "src2d/geometry/tree.h"
@@ -165,10 +166,11 @@ struct InternalContact {
   std::int64_t since = 0;  ///< step of the merge that brought it in
 };
 
-/// A pair of bodies held together: a run of Collection::contacts.
+/// A pair of bodies held together: by a run of Collection::contacts, joints, or both.
 struct Weld {
   BodyId a{}, b{};
   std::uint32_t first = 0, count = 0;
+  int joints = 0;      ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
   int loud_steps = 0;  ///< consecutive steps above the unmerging threshold
   bool cut = false;    ///< found broken, sliding or moving in this step
   EventReason reason = EventReason::None;
@@ -190,6 +192,7 @@ struct Collection {
   bool pivots_stale = true;
   std::uint32_t active_blocks = 0;  ///< the first ones; the others are swept in disturbed steps
   std::vector<Weld> welds;          ///< ascending by pair
+  std::vector<JointBlock> joints;   ///< those that act inside; λ is live here
   std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
   bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
   Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
@@ -228,6 +231,8 @@ struct State {
   std::vector<Collection> collections;  ///< slot i is rigid bodies.size() + i
   std::int32_t next_collection = 0;
   ContactTable contacts;
+  std::vector<Joint> joints;
+  std::vector<std::pair<BodyId, BodyId>> joined_pairs;  ///< do not collide; ascending
   Broadphase broadphase;
 
   const Collider& collider(std::uint32_t shape) const { return colliders[shape_collider[shape]]; }
@@ -256,6 +261,11 @@ struct State {
     return body.rigid == rigidOf(id) ? own : own + body.local_angle;
   }
 };
+
+/// Contacts of a magnet that is on pull too, and do not slide.
+inline bool isBilateral(const State& state, BodyId a, BodyId b) {
+  return state[a].magnet_on || state[b].magnet_on;
+}
 
 /// A force acting through this step: on a body, about its centre of mass.
 struct Load {
@@ -290,12 +300,19 @@ struct Island {
   std::uint32_t root = 0;
   std::uint32_t first = 0, last = 0;
   std::uint32_t first_body = 0, last_body = 0;
+  std::uint32_t first_joint = 0, last_joint = 0;  ///< of Scratch::joint_blocks
 };
 
 /// Where a block stands: `source` is its RowSource.
 struct BlockOrder {
   std::uint32_t island = 0, colour = 0, source = 0;
   auto operator<=>(const BlockOrder&) const = default;
+};
+
+/// Where a joint stands: `joint` is its index.
+struct JointOrder {
+  std::uint32_t island = 0, joint = 0;
+  auto operator<=>(const JointOrder&) const = default;
 };
 
 /// Normal and tangential impulses of a block's two points.
@@ -340,6 +357,7 @@ struct Scratch {
   std::vector<SolverVelocity> sweep_u;  ///< per body
   std::vector<Twist> sweep_before;      ///< per member
   std::vector<SweepContact> sweep_contacts;
+  std::vector<JointBlock> sweep_joints;       ///< outside collections
   std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
   std::vector<std::uint8_t> disturbed;        ///< per collection slot
 
@@ -348,7 +366,7 @@ struct Scratch {
   std::vector<std::uint32_t> cuts_before;  ///< welds of the collection at hand
 
   // SolveLCP
-  std::vector<SolverVelocity> u;       ///< per rigid
+  std::vector<SolverVelocity> u;       ///< per rigid, and the world's
   std::vector<ContactBlock> blocks;    ///< by island, then by colour
   std::vector<RowSource> row_sources;  ///< in the order of the pairs
   std::vector<Island> islands;
@@ -356,6 +374,8 @@ struct Scratch {
   std::vector<std::int32_t> island_of;  ///< per rigid; −1: touches nothing
   DisjointSets sets;
   std::vector<std::uint64_t> colours;  ///< per rigid: those of its blocks, as bits
+  std::vector<JointOrder> joint_order;
+  std::vector<JointBlock> joint_blocks;  ///< by island
   std::vector<BlockOrder> block_order;
   NncgBuffers nncg;
 };

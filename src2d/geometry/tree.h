@@ -3,7 +3,9 @@
 
 #include <box2d/b2_dynamic_tree.h>
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "src2d/geometry/box.h"
 
@@ -19,6 +21,21 @@ class AabbTree {
 
   int insert(const Aabb& box, std::uint32_t value) {
     return tree_.CreateProxy(toB2(box), toUserData(value));
+  }
+  /// A leaf with this very fat box, which another tree's `fatBox` gave: a tree that is built anew
+  /// answers as the old one did.
+  int insertFat(const Aabb& fat, std::uint32_t value) {
+    b2AABB box;
+    b2Vec2 ahead(0.0F, 0.0F);
+    shrink(static_cast<float>(fat.lower.x()), static_cast<float>(fat.upper.x()), box.lowerBound.x,
+           box.upperBound.x, ahead.x);
+    shrink(static_cast<float>(fat.lower.y()), static_cast<float>(fat.upper.y()), box.lowerBound.y,
+           box.upperBound.y, ahead.y);
+    // Moving a leaf from far away gives it just the box that `box` and `ahead` ask for.
+    const b2Vec2 far(1e8F, 1e8F);
+    const int leaf = tree_.CreateProxy({far, far}, toUserData(value));
+    tree_.MoveProxy(leaf, box, ahead);
+    return leaf;
   }
   void remove(int leaf) { tree_.DestroyProxy(leaf); }
 
@@ -48,6 +65,22 @@ class AabbTree {
   }
 
  private:
+  /// Bounds that Box2D grows to [lower, upper] exactly. Growing rounds, so that not every number
+  /// can be reached from one side; `ahead`, which only moves one bound outwards, gives the rest. As
+  /// fat boxes are wider than twice their margin, at most one side needs it.
+  static void shrink(float lower, float upper, float& from, float& to, float& ahead) {
+    constexpr float kUp = std::numeric_limits<float>::infinity();
+    from = lower + b2_aabbExtension;
+    while (from - b2_aabbExtension > lower) from = std::nextafter(from, -kUp);
+    while (from - b2_aabbExtension < lower) from = std::nextafter(from, kUp);
+    to = upper - b2_aabbExtension;
+    while (to + b2_aabbExtension < upper) to = std::nextafter(to, kUp);
+    while (to + b2_aabbExtension > upper) to = std::nextafter(to, -kUp);
+    const float below = lower - (from - b2_aabbExtension);  // at most 0
+    const float above = upper - (to + b2_aabbExtension);    // at least 0
+    ahead = (below < 0.0F ? below : above) / b2_aabbMultiplier;
+  }
+
   template <class Visit>
   struct Callback {
     const b2DynamicTree* tree;

@@ -200,7 +200,7 @@ void absorbContacts(State& state) {
     for (int i = 0; i < contact.count; ++i) {
       ContactPoint& p = inner.contact.points[static_cast<std::size_t>(i)];
       p.position = from_a * p.position;
-      inner.active[i] = p.lambda_n > 0.0;
+      inner.active[i] = p.lambda_n > 0.0 || isBilateral(state, contact.key.a, contact.key.b);
     }
     c.contacts.push_back(inner);
     return true;

@@ -4,6 +4,8 @@
 #include <bit>
 
 #include "src2d/merging/collection.h"
+#include "src2d/merging/joint_sweep.h"
+#include "src2d/merging/joint_welds.h"
 
 namespace merge2d {
 namespace {
@@ -57,22 +59,23 @@ void fitBox(State& state, RigidId id) {
   state[id].box = tightBox(points);
 }
 
-/// Contacts of one pair of bodies in a row form a weld.
-void layOutWelds(Collection& c) {
+/// Contacts of one pair of bodies in a row form a weld, and so do its joints.
+void layOutWelds(const State& state, Collection& c) {
   const std::vector<Weld> old = std::move(c.welds);
   c.welds.clear();
-  std::size_t o = 0;
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
     const ContactKey& key = c.contacts[i].contact.key;
     if (c.welds.empty() || c.welds.back().a != key.a || c.welds.back().b != key.b) {
-      Weld weld{.a = key.a, .b = key.b, .first = i};
-      while (o < old.size() && std::pair(old[o].a, old[o].b) < std::pair(key.a, key.b)) ++o;
-      if (o < old.size() && old[o].a == key.a && old[o].b == key.b) {
-        weld.loud_steps = old[o].loud_steps;
-      }
-      c.welds.push_back(weld);
+      c.welds.push_back({.a = key.a, .b = key.b, .first = i});
     }
     c.welds.back().count = i + 1 - c.welds.back().first;
+  }
+  addJointWelds(state, c);
+  std::size_t o = 0;
+  for (Weld& weld : c.welds) {
+    while (o < old.size() && std::pair(old[o].a, old[o].b) < std::pair(weld.a, weld.b)) ++o;
+    if (o == old.size()) break;
+    if (old[o].a == weld.a && old[o].b == weld.b) weld.loud_steps = old[o].loud_steps;
   }
 }
 
@@ -105,7 +108,7 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   k.a = static_cast<std::uint32_t>(contact.key.a);
   k.b = static_cast<std::uint32_t>(contact.key.b);
   k.mu = contact.mu;
-  k.bilateral = state[contact.key.a].magnet_on || state[contact.key.b].magnet_on;
+  k.bilateral = isBilateral(state, contact.key.a, contact.key.b);
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];
     k.lambda_n(i) = p.lambda_n;
@@ -184,6 +187,9 @@ void layOutPush(const State& state, Collection& c) {
       add(BodyId{k.b}, 1.0, impulse, k.arm_bn[i] * k.lambda_n(i) + k.arm_bt[i] * k.lambda_t(i));
     }
   }
+  addJointPush(c, [&](std::uint32_t b, double sign, const Vec2& impulse, double moment) {
+    if (b < state.bodies.size()) add(BodyId{b}, sign, impulse, moment);
+  });
 }
 
 void layOutCollections(State& state) {
@@ -196,7 +202,8 @@ void layOutCollections(State& state) {
     c.contacts.shrink_to_fit();
     if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
     fitBox(state, c.rigid);
-    layOutWelds(c);
+    layOutJoints(state, c);
+    layOutWelds(state, c);
     layOutBlocks(state, c);
     layOutPush(state, c);
     c.stale = false;

@@ -8,6 +8,7 @@
 #include "src2d/core/memory.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
+#include "src2d/merging/joint_welds.h"
 #include "src2d/merging/metric.h"
 
 namespace merge2d {
@@ -34,19 +35,6 @@ void noteCorners(Notes* notes, const BodyPair& pair, const OrientedBox& box, con
   notes->corners.push_back(seen);
 }
 
-/// Eq. (15); the box of what is fixed to the world or to a script is not looked at.
-double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
-  const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
-  double fastest = 0.0;
-  for (const Rigid* r : {&a, &b}) {
-    if (!r->floating()) continue;
-    const OrientedBox box = worldBox(*r);
-    fastest = std::max(fastest, fastestCorner(box, fieldOf(a), fieldOf(b)));
-    noteCorners(notes, pair, box, a, b);
-  }
-  return fastest;
-}
-
 /// What the contacts of one pair say.
 struct PairContacts {
   int active = 0;
@@ -57,16 +45,18 @@ struct PairContacts {
 
 PairContacts lookAt(const State& state, const BodyPair& pair) {
   PairContacts seen;
+  const bool bilateral = isBilateral(state, pair.a, pair.b);
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
     const Contact& contact = state.contacts[state.contacts.order[i]];
     for (int k = 0; k < contact.count; ++k) {
       const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
-      if (p.lambda_n <= 0.0) continue;
+      if (p.lambda_n <= 0.0 && !bilateral) continue;
       ++seen.active;
       seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
       seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
       const bool at_rest = std::abs(p.w_t) < state.settings.sleeping.velocity;
-      seen.on_edge += !at_rest && std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
+      seen.on_edge +=
+          !bilateral && !at_rest && std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
     }
   }
   return seen;
@@ -213,7 +203,8 @@ void countQuietRigids(State& state, Notes* notes) {
 struct ReadyPair {
   BodyPair pair;
   std::uint32_t node_a = 0, node_b = 0;
-  int contacts = 0;  ///< active ones
+  int contacts = 0;              ///< active ones, or what joints are worth
+  Vec2 joint_at = Vec2::Zero();  ///< where there are no contacts
 };
 
 int activePoints(const State& state, const BodyPair& pair) { return lookAt(state, pair).active; }
@@ -236,18 +227,22 @@ class MergeGraph {
   std::vector<Pin> pinsOf(const std::vector<ReadyPair>& ready) const {
     std::vector<Pin> pins;
     Vec2 origin = Vec2::Zero();
+    const auto add = [&](const ReadyPair& edge, const Vec2& at) {
+      if (pins.empty()) origin = at;
+      pins.push_back({.a = edge.node_a, .b = edge.node_b, .at = at - origin, .placed = true});
+    };
     for (const ReadyPair& edge : ready) {
       const Pose pose = state_.pose(edge.pair.a);
       for (std::uint32_t i = edge.pair.first; i < edge.pair.first + edge.pair.count; ++i) {
         const Contact& contact = state_.contacts[state_.contacts.order[i]];
         for (int k = 0; k < contact.count; ++k) {
           const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
-          if (p.lambda_n <= 0.0) continue;
-          const Vec2 at = pose * p.position;
-          if (pins.empty()) origin = at;
-          pins.push_back({.a = edge.node_a, .b = edge.node_b, .at = at - origin, .placed = true});
+          if (p.lambda_n <= 0.0 && !isBilateral(state_, edge.pair.a, edge.pair.b)) continue;
+          add(edge, pose * p.position);
         }
       }
+      if (edge.pair.count > 0) continue;
+      for (int k = 0; k < edge.contacts; ++k) add(edge, edge.joint_at + k * Vec2::UnitX());
     }
     return pins;
   }
@@ -265,7 +260,9 @@ void noteMerge(const State& state, Notes* notes, const BodyPair& pair, Decision 
   test.b = pair.b;
   test.stage = "Merge";
   test.needed = state.settings.merging.steps;
-  test.count = test.before = state.contacts[state.contacts.order[pair.first]].quiet_steps;
+  const bool touches = pair.count > 0;  // or is held by joints alone
+  test.count = touches ? state.contacts[state.contacts.order[pair.first]].quiet_steps : test.needed;
+  test.before = test.count;
   notes->decisions.push_back(test);
 }
 
@@ -286,7 +283,17 @@ std::vector<ReadyPair> readyPairs(const State& state, const Scratch& scratch,
                  .verdict = counted ? "merge" : "wait"});
     }
     if (!counted) continue;
-    ready.push_back({pair, graph.node(pair.a), graph.node(pair.b), activePoints(state, pair)});
+    ready.push_back({.pair = pair,
+                     .node_a = graph.node(pair.a),
+                     .node_b = graph.node(pair.b),
+                     .contacts = activePoints(state, pair)});
+  }
+  for (const JointEdge& joint : readyJoints(state)) {
+    ready.push_back({.pair = {joint.a, joint.b, 0, 0},
+                     .node_a = graph.node(joint.a),
+                     .node_b = graph.node(joint.b),
+                     .contacts = joint.contacts,
+                     .joint_at = joint.at});
   }
   return ready;
 }
@@ -346,8 +353,21 @@ void releaseRows(Scratch& scratch) {
 
 }  // namespace
 
+double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
+  const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
+  double fastest = 0.0;
+  for (const Rigid* r : {&a, &b}) {
+    if (!r->floating()) continue;
+    const OrientedBox box = worldBox(*r);
+    fastest = std::max(fastest, fastestCorner(box, fieldOf(a), fieldOf(b)));
+    noteCorners(notes, pair, box, a, b);
+  }
+  return fastest;
+}
+
 void accumulateRelativeMotion(State& state, Scratch& scratch) {
   if (merges(state.mode)) countQuietPairs(state, scratch);
+  if (merges(state.mode) && !state.joints.empty()) countQuietJoints(state, scratch);
   if (sleeps(state.mode)) countQuietRigids(state, scratch.notes);
 }
 

@@ -9,6 +9,9 @@
 
 namespace merge2d {
 
+/// Eq. (15); the box of what is fixed to the world or to a script is not looked at [m/s].
+double relativeMotion(const State& state, const BodyPair& pair, Notes* notes);
+
 /// Counts, for each pair in contact, the consecutive steps in which it could merge: relative
 /// motion, Eqs. (15)-(17); sliding, Eq. (18); breathing; and for sleep each rigid thing's own
 /// motion.

@@ -38,6 +38,11 @@ void markRestless(State& state, Scratch& scratch, std::vector<std::uint8_t>& res
     if (stirs(a)) mark(pair.b);
     if (stirs(b)) mark(pair.a);
   }
+  for (const Joint& joint : state.joints) {
+    if (joint.to_world || !holds(state, joint)) continue;
+    if (stirs(state.rigid(joint.a))) mark(joint.b);
+    if (stirs(state.rigid(joint.b))) mark(joint.a);
+  }
 }
 
 void fallAsleep(State& state, Scratch& scratch, std::size_t i) {
@@ -125,6 +130,13 @@ void sleepAndWake(State& state, Scratch& scratch) {
   sets.reset(state.rigids.size());
   for (const BodyPair& pair : scratch.pairs) {
     const auto a = index(state[pair.a].rigid), b = index(state[pair.b].rigid);
+    if (canSleep(state.rigids[a], state, a) && canSleep(state.rigids[b], state, b)) {
+      sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    }
+  }
+  for (const Joint& joint : state.joints) {
+    if (joint.to_world || !holds(state, joint)) continue;
+    const auto a = index(state[joint.a].rigid), b = index(state[joint.b].rigid);
     if (canSleep(state.rigids[a], state, a) && canSleep(state.rigids[b], state, b)) {
       sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
     }

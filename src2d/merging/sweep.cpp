@@ -5,6 +5,7 @@
 #include "src2d/dynamics/nncg.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/ordering.h"
 
 namespace merge2d {
@@ -120,7 +121,7 @@ void addOuterContact(const State& state, const Contact& contact, std::uint32_t s
   k.a = static_cast<std::uint32_t>(a);
   k.b = static_cast<std::uint32_t>(b);
   k.mu = contact.mu;
-  k.bilateral = state[a].magnet_on || state[b].magnet_on;
+  k.bilateral = isBilateral(state, a, b);
   prepareBlock(k, g, ua, ub);
   scratch.sweep_contacts.push_back(outer);
 }
@@ -172,6 +173,7 @@ void warmStartOuter(const State& state, Scratch& scratch) {
     near[index(a)] = near[index(b)] = 1;
     addOuterContact(state, contact, entry.slot, scratch);
   });
+  if (!state.joints.empty()) listSweepJoints(state, scratch);
   std::size_t row = 0;
   forEach([&](const ContactTable::Entry& entry, const Contact& contact) {
     const auto& rows = scratch.sweep_contacts;
@@ -183,6 +185,7 @@ void warmStartOuter(const State& state, Scratch& scratch) {
   for (const SweepContact& outer : scratch.sweep_contacts) {
     applyWarmStart(outer.block, scratch.sweep_u);
   }
+  if (!state.joints.empty()) warmStartSweepJoints(state, scratch);
 }
 
 void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocity>& u,
@@ -195,41 +198,59 @@ void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocit
   }
 }
 
-/// Contacts in the order of a disturbed step: outside ones and those inside disturbed collections.
+/// Contacts and joints in the order of a disturbed step: outside ones and those inside disturbed
+/// collections.
 struct SweepItem {
   ContactBlock* block;
+  JointBlock* joint;  ///< when there is no contact
   Rotation turn;
+
+  std::uint32_t a() const { return block ? block->a : joint->a; }
+  std::uint32_t b() const { return block ? block->b : joint->b; }
+  Impulses& impulses() const { return block ? block->lambda : joint->lambda; }
 };
+
+void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method) {
+  if (item.block) return sweepBlock(*item.block, item.turn, u, method);
+  solveJoint(*item.joint, item.turn, u[item.joint->a], u[item.joint->b]);
+}
 
 std::vector<SweepItem> disturbedOrder(State& state, Scratch& scratch) {
   std::vector<SweepItem> items;
   std::vector<GraphEdge> edges;
-  const auto add = [&](ContactBlock& k, const Rotation& turn) {
-    items.push_back({&k, turn});
-    edges.push_back({k.a, k.b});
+  const auto add = [&](const SweepItem& item) {
+    items.push_back(item);
+    edges.push_back({item.a(), item.b()});
   };
   // Of the contacts outside, those at disturbed collections and the fresh ones between free bodies.
   const auto concerned = [&](std::uint32_t b) {
+    if (b >= state.bodies.size()) return true;  // the world
     const RigidId id = state.bodies[b].rigid;
     return !state.isCollection(id) || scratch.disturbed[index(id) - state.bodies.size()];
   };
   for (SweepContact& outer : scratch.sweep_contacts) {
-    if (concerned(outer.block.a) && concerned(outer.block.b)) add(outer.block, {});
+    if (concerned(outer.block.a) && concerned(outer.block.b)) add({&outer.block, nullptr, {}});
+  }
+  for (JointBlock& k : scratch.sweep_joints) {
+    if (concerned(k.a) && concerned(k.b)) add({nullptr, &k, {}});
   }
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
-    for (ContactBlock& k : c.blocks) add(k, state[c.rigid].rotation);
+    const Rotation& turn = state[c.rigid].rotation;
+    for (ContactBlock& k : c.blocks) add({&k, nullptr, turn});
+    for (JointBlock& k : c.joints) add({nullptr, &k, turn});
   }
-  std::vector<std::uint8_t> passable(state.bodies.size());
+  std::vector<std::uint8_t> passable(scratch.sweep_u.size());
   for (std::size_t i = 0; i < passable.size(); ++i) {
     passable[i] = scratch.sweep_u[i].inv_mass > 0.0;
   }
   std::vector<std::uint32_t> depth;
-  const auto order = breadthFirst(static_cast<std::uint32_t>(state.bodies.size()), edges,
-                                  scratch.seeds, passable, scratch.notes ? &depth : nullptr);
+  const auto order = breadthFirst(static_cast<std::uint32_t>(passable.size()), edges, scratch.seeds,
+                                  passable, scratch.notes ? &depth : nullptr);
   if (scratch.notes) {
     for (const std::uint32_t i : order) {
+      if (std::max(edges[i].a, edges[i].b) >= state.bodies.size()) continue;  // to the world
       scratch.notes->order.push_back(
           {BodyId{edges[i].a}, BodyId{edges[i].b}, static_cast<int>(depth[i])});
     }
@@ -253,6 +274,7 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
   }
   const Rotation turn = state[c.rigid].rotation;
   for (int s = 0; s < sweeps; ++s) {
+    for (JointBlock& k : c.joints) solveJoint(k, turn, u[k.a], u[k.b]);
     for (std::uint32_t i = 0; i < c.active_blocks; ++i) {
       sweepBlock(c.blocks[i], turn, u, state.settings.solver.method);
     }
@@ -287,19 +309,17 @@ void sweepConverging(const State& state, Scratch& scratch, const std::vector<Swe
   const SolverMethod method = state.settings.solver.method;
   std::vector<std::uint32_t> bodies;
   for (const SweepItem& item : items) {
-    for (const std::uint32_t b : {item.block->a, item.block->b}) {
+    for (const std::uint32_t b : {item.a(), item.b()}) {
       if (scratch.sweep_u[b].inv_mass > 0.0) bodies.push_back(b);
     }
   }
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   Nncg iteration(
-      items.size(), [&](std::size_t i) -> ContactBlock& { return *items[i].block; }, bodies.size(),
+      items.size(), [&](std::size_t i) -> Impulses& { return items[i].impulses(); }, bodies.size(),
       [&](std::size_t i) -> SolverVelocity& { return scratch.sweep_u[bodies[i]]; },
       [&] {
-        for (const SweepItem& item : items) {
-          sweepBlock(*item.block, item.turn, scratch.sweep_u, method);
-        }
+        for (const SweepItem& item : items) sweepItem(item, scratch.sweep_u, method);
       },
       scratch.nncg);
   const bool paper = settings.rule == Rule::Paper;
@@ -427,29 +447,34 @@ void orderContacts(State& state, Scratch& scratch) {
 /// What a collection feels, those that touch it feel in the same step.
 void spreadDisturbance(const State& state, Scratch& scratch) {
   const auto slotOf = [&](std::uint32_t b) -> std::uint8_t* {
+    if (b >= state.bodies.size()) return nullptr;  // the world
     const RigidId id = state.bodies[b].rigid;
     return state.isCollection(id) ? &scratch.disturbed[index(id) - state.bodies.size()] : nullptr;
   };
   bool spread = true;
   while (spread) {
     spread = false;
-    for (const SweepContact& outer : scratch.sweep_contacts) {
-      std::uint8_t *a = slotOf(outer.block.a), *b = slotOf(outer.block.b);
-      if (!a || !b || *a == *b) continue;
+    const auto pass = [&](std::uint32_t body_a, std::uint32_t body_b) {
+      std::uint8_t *a = slotOf(body_a), *b = slotOf(body_b);
+      if (!a || !b || *a == *b) return;
       *a = *b = 1;
       spread = true;
-    }
+    };
+    for (const SweepContact& outer : scratch.sweep_contacts) pass(outer.block.a, outer.block.b);
+    for (const JointBlock& k : scratch.sweep_joints) pass(k.a, k.b);
   }
 }
 
 void warmStartSweep(State& state, Scratch& scratch) {
   scratch.sweep_contacts.clear();
+  scratch.sweep_joints.clear();
   const bool any = std::any_of(state.collections.begin(), state.collections.end(),
                                [&](const Collection& c) { return isSwept(state, c); });
   scratch.sweeping = any;
   if (!any) return;
   scratch.last_sweep = state.step;
-  scratch.sweep_u.resize(state.bodies.size());
+  scratch.sweep_u.resize(state.bodies.size() + 1);  // the world's stands last
+  scratch.sweep_u.back() = {};
   startOthers(state, scratch);
   for (const Collection& c : state.collections) {
     if (isSwept(state, c)) startMembers(state, c, scratch);
@@ -466,6 +491,9 @@ void sweepCollections(State& state, Scratch& scratch) {
     spreadDisturbance(state, scratch);
     sweepDisturbed(state, scratch);
   }
+  for (JointBlock& k : scratch.sweep_joints) {
+    solveJoint(k, {}, scratch.sweep_u[k.a], scratch.sweep_u[k.b]);
+  }
   for (SweepContact& outer : scratch.sweep_contacts) {
     sweepBlock(outer.block, {}, scratch.sweep_u, state.settings.solver.method);
   }
@@ -474,6 +502,7 @@ void sweepCollections(State& state, Scratch& scratch) {
     if (isSwept(state, c) && !scratch.disturbed[slot]) sweepUndisturbed(state, c, scratch);
   }
   keepFixedContacts(state, scratch);
+  if (!state.joints.empty()) keepJointForces(state, scratch);
 }
 
 void sweepAgain(State& state, Scratch& scratch, Collection& c) {
@@ -481,10 +510,13 @@ void sweepAgain(State& state, Scratch& scratch, Collection& c) {
   for (SweepContact& outer : scratch.sweep_contacts) {
     const ContactBlock& k = outer.block;
     const bool at = state.bodies[k.a].rigid == c.rigid || state.bodies[k.b].rigid == c.rigid;
-    if (at) items.push_back({&outer.block, {}});
+    if (at) items.push_back({&outer.block, nullptr, {}});
   }
-  for (ContactBlock& k : c.blocks) items.push_back({&k, state[c.rigid].rotation});
+  for (JointBlock& k : scratch.sweep_joints) items.push_back({nullptr, &k, {}});
+  for (ContactBlock& k : c.blocks) items.push_back({&k, nullptr, state[c.rigid].rotation});
+  for (JointBlock& k : c.joints) items.push_back({nullptr, &k, state[c.rigid].rotation});
   sweepConverging(state, scratch, items);
+  if (!state.joints.empty()) keepJointForces(state, scratch);
   layOutPush(state, c);
 }
 

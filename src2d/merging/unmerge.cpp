@@ -5,6 +5,7 @@
 #include "src2d/contact/detection.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
+#include "src2d/merging/joint_welds.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/sweep.h"
 
@@ -167,6 +168,7 @@ class WeldTest {
   }
 
   bool hadContact(const Weld& weld) const {
+    if (weld.joints > 0) return true;
     for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
       if (c_.contacts[i].active[0] || c_.contacts[i].active[1]) return true;
     }
@@ -292,15 +294,20 @@ bool hangsTogether(const State& state, const Collection& c, DisjointSets& sets) 
   return on_frame && joined + 1 == c.members.size();
 }
 
-/// The contacts of a weld that hold, in the collection's frame.
-void addPins(const Collection& c, const Weld& weld, std::uint32_t a, std::uint32_t b,
-             std::vector<Pin>& pins) {
+/// The contacts of a weld that hold, in the collection's frame, and what its joints are worth.
+void addPins(const State& state, const Collection& c, const Weld& weld, std::uint32_t a,
+             std::uint32_t b, std::vector<Pin>& pins) {
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const InternalContact& inner = c.contacts[i];
     for (std::size_t p = 0; p < static_cast<std::size_t>(inner.contact.count); ++p) {
       if (!inner.active[p] || inner.lost[p]) continue;
       pins.push_back({.a = a, .b = b, .at = inner.contact.points[p].position, .placed = true});
     }
+  }
+  if (weld.joints == 0) return;
+  const Vec2 at = jointPoint(state, c, weld);
+  for (int i = 0; i < weld.joints; ++i) {
+    pins.push_back({.a = a, .b = b, .at = at + i * Vec2::UnitX(), .placed = true});
   }
 }
 
@@ -310,7 +317,7 @@ Parts partsWithoutCuts(const State& state, const Collection& c) {
   };
   std::vector<Pin> pins;
   for (const Weld& weld : c.welds) {
-    if (!weld.cut) addPins(c, weld, node(weld.a), node(weld.b), pins);
+    if (!weld.cut) addPins(state, c, weld, node(weld.a), node(weld.b), pins);
   }
   const auto nodes = static_cast<std::uint32_t>(c.members.size() + 1);
   const CycleCriterion criterion = state.settings.unmerging.rule == Rule::Paper
@@ -385,6 +392,17 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
   scratch.split = true;
 }
 
+/// Breaks the joints that bear too much, also after more sweeps, and parts what they held.
+bool breakInside(State& state, Scratch& scratch, Collection& c) {
+  sweepAgain(state, scratch, c);
+  if (!anyJointBreaks(state, c)) return false;
+  breakJointsInside(state, c);
+  const Parts parts = partsWithoutCuts(state, c);
+  if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, c.rigid, parts);
+  scratch.split = true;  // to be laid out anew
+  return true;
+}
+
 /// Some weld is cut that was not in the last step.
 bool newCut(const Collection& c, const Scratch& scratch) {
   return std::any_of(c.cut_welds.begin(), c.cut_welds.end(), [&](std::uint32_t weld) {
@@ -399,12 +417,14 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   scratch.cuts_before.assign(c.cut_welds.begin(), c.cut_welds.end());
   for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
   c.cut_welds.clear();
+  if (anyJointBreaks(state, c) && breakInside(state, scratch, c)) return;
+  const bool loosened = loosenJoints(state, c, scratch.sweep_u);
   const std::size_t first = scratch.notes ? scratch.notes->decisions.size() : 0;
   WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
   test.testAll();
   // Broken welds that do not part the graph are found again in each step: look anew only when
   // there is one more.
-  if (!newCut(c, scratch) && !test.contactOpened()) return;
+  if (!newCut(c, scratch) && !test.contactOpened() && !loosened) return;
   if (hangsTogether(state, c, scratch.sets)) return;
   Parts parts = partsWithoutCuts(state, c);
   if (!fallsApart(state, c, parts)) return;
@@ -413,6 +433,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
     // One sweep may not have converged: before anything parts, look again after more.
     restate(state, scratch.notes, first, "recheck");
     sweepAgain(state, scratch, c);
+    confirmJoints(state, c, scratch.sweep_u);
     test.confirmAll();
     parts = partsWithoutCuts(state, c);
     c.refuted = !test.somethingGrows();
@@ -431,7 +452,7 @@ void finishSplits(State& state, Scratch& scratch) {
 }  // namespace
 
 int activeContacts(const Collection& c, const Weld& weld) {
-  int active = 0;
+  int active = weld.joints;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const InternalContact& inner = c.contacts[i];
     for (int p = 0; p < inner.contact.count; ++p) active += inner.active[p] && !inner.lost[p];

@@ -16,7 +16,8 @@ namespace merge2d {
 /// Tests all welds of swept collections and splits those that fall apart.
 void unmerge(State& state, Scratch& scratch);
 
-/// Contacts of a weld that have carried a force and have not opened since.
+/// Contacts of a weld that have carried a force and have not opened since, and what its joints are
+/// worth beside them.
 int activeContacts(const Collection& collection, const Weld& weld);
 
 /// Lists the welds with fewer than two such contacts: the only ones that can turn in 2D.

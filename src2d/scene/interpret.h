@@ -31,12 +31,16 @@ std::vector<ConvexShape> readShapes(TableReader& table);
 /// script = { … }
 std::optional<Script> readScript(TableReader& table);
 
-/// [[spring]], [[impulse]], [[force]] and [[magnet]]; [[emitter]].
+/// [[spring]], [[impulse]], [[force]] and [[magnet]]; [[joint]]; [[emitter]].
 void readActions(TableReader& root, Scene& scene, const BodyNames& names);
+void readJoints(TableReader& root, Scene& scene, const BodyNames& names);
 void readEmitters(TableReader& root, Scene& scene);
 
 /// A body without settings of its own.
 BodyDesc defaultBody(const Material& material);
+
+/// The body that the value names, or an error with a suggestion.
+BodyIndex bodyNamed(const Value& value, const Scene& scene, const BodyNames& names);
 
 /// A name that can be written in messages and files: not empty, no control characters.
 void checkName(const Value& value, const std::string& name);

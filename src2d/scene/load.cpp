@@ -51,6 +51,7 @@ Scene parseScene(std::string_view toml, const std::string& source, const Overrid
   readSettings(root, scene.settings);
   const BodyNames names = readBodies(root, scene);
   readActions(root, scene, names);
+  readJoints(root, scene, names);
   readEmitters(root, scene);
   root.done();
   warnOfEmptiness(scene, source);

@@ -63,16 +63,7 @@ class ActionReader {
 
  private:
   BodyIndex body(const std::optional<Value>& value) const {
-    if (!value) return 0;  // missing, which `done` reports
-    const std::string name = value->text();
-    const auto found = names_.find(name);
-    if (found != names_.end()) return found->second;
-    if (names_.contains(name + "[0,0]")) {
-      value->fail(fmt::format("'{0}' is repeated: say which copy, such as '{0}[0,0]'", name));
-    }
-    std::vector<std::string_view> all;
-    for (const BodyDesc& candidate : scene_.bodies) all.push_back(candidate.name);
-    value->fail(fmt::format("no body is called '{}'{}", name, didYouMean(name, all)));
+    return value ? bodyNamed(*value, scene_, names_) : 0;  // missing, which `done` reports
   }
 
   bool moves(BodyIndex index) const { return scene_.bodies[index].motion == Motion::Dynamic; }
@@ -116,6 +107,18 @@ class ActionReader {
 };
 
 }  // namespace
+
+BodyIndex bodyNamed(const Value& value, const Scene& scene, const BodyNames& names) {
+  const std::string name = value.text();
+  const auto found = names.find(name);
+  if (found != names.end()) return found->second;
+  if (names.contains(name + "[0,0]")) {
+    value.fail(fmt::format("'{0}' is repeated: say which copy, such as '{0}[0,0]'", name));
+  }
+  std::vector<std::string_view> all;
+  for (const BodyDesc& candidate : scene.bodies) all.push_back(candidate.name);
+  value.fail(fmt::format("no body is called '{}'{}", name, didYouMean(name, all)));
+}
 
 void readActions(TableReader& root, Scene& scene, const BodyNames& names) {
   ActionReader reader(scene, names);

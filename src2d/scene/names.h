@@ -31,10 +31,20 @@ template <>
 inline constexpr std::array<Named<SolverMethod>, 3> kNames<SolverMethod>{
     {{"nncg", SolverMethod::Nncg}, {"block", SolverMethod::Block}, {"pgs", SolverMethod::Pgs}}};
 template <>
+inline constexpr std::array<Named<Stabilisation>, 2> kNames<Stabilisation>{
+    {{"baumgarte", Stabilisation::Baumgarte}, {"post", Stabilisation::Post}}};
+template <>
 inline constexpr std::array<Named<CycleCriterion>, 3> kNames<CycleCriterion>{
     {{"off", CycleCriterion::Off},
      {"triangle", CycleCriterion::Triangle},
      {"rigid", CycleCriterion::Rigid}}};
+
+template <>
+inline constexpr std::array<Named<JointKind>, 4> kNames<JointKind>{
+    {{"revolute", JointKind::Revolute},
+     {"weld", JointKind::Weld},
+     {"distance", JointKind::Distance},
+     {"prismatic", JointKind::Prismatic}}};
 
 template <class E>
 concept HasNames = !kNames<E>.empty();

@@ -15,7 +15,7 @@
 
 namespace merge2d {
 
-/// The time of what never ends [s].
+/// The time of what never ends [s]; the strength of what never breaks.
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
 enum class Motion { Dynamic, Pinned, Scripted };
@@ -101,6 +101,40 @@ struct MagnetDesc {
   std::vector<Interval> on;  ///< in order, without overlap [s]
 };
 
+enum class JointKind {
+  Revolute,   ///< the bodies share a point, and turn about it
+  Weld,       ///< the bodies do not move against each other
+  Distance,   ///< two points keep their distance
+  Prismatic,  ///< the second body slides along an axis of the first and does not turn
+};
+
+/// Holds two bodies together, or a body to the world. Places, directions and angles are those that
+/// the bodies have at the start.
+struct JointDesc {
+  JointKind kind = JointKind::Revolute;
+  BodyIndex a = 0;
+  std::optional<BodyIndex> b;    ///< none: the world
+  Vec2 at = Vec2::Zero();        ///< world point [m]; of a distance joint: its end on `a`
+  Vec2 to = Vec2::Zero();        ///< distance: world point of the end on `b` [m]
+  Vec2 axis = Vec2::UnitX();     ///< prismatic: where `b` slides to, in the world's directions
+  std::optional<double> length;  ///< distance: default as at the start [m]
+  double stiffness = 0.0;        ///< distance: a spring, unless 0 [N/m]
+  double damping = 0.0;          ///< of that spring [N s/m]
+  /// Of the turn of `b` [rad], its way along the axis [m], or the length [m].
+  struct Limits {
+    double lower = 0.0, upper = 0.0;
+  };
+  std::optional<Limits> limits;
+  /// Drives `b` against `a` with a speed [rad/s or m/s], as strongly as it can [N m or N].
+  struct Motor {
+    double speed = 0.0, strength = 0.0;
+  };
+  std::optional<Motor> motor;
+  double break_force = kForever;   ///< a larger force breaks it [N]
+  double break_torque = kForever;  ///< weld and prismatic: so does a larger torque [N m]
+  bool collide = false;            ///< whether the two bodies touch each other
+};
+
 /// Adds copies of a body while the scene runs. All of them are numbered from the start, after the
 /// bodies of the scene, and named "name[k]".
 struct EmitterDesc {
@@ -120,6 +154,7 @@ struct Camera {
 /// Limits of what a scene may ask for; loading enforces them with an InputError.
 struct SceneLimits {
   static constexpr std::size_t kBodies = 100'000;
+  static constexpr std::size_t kJoints = 100'000;
   static constexpr std::size_t kShapesPerBody = 10'000;
   static constexpr std::size_t kFileBytes = 64u << 20;
   static constexpr std::size_t kDrawingPixels = 4u << 20;
@@ -144,6 +179,7 @@ struct Scene {
   std::vector<ImpulseDesc> impulses;
   std::vector<ForceDesc> forces;
   std::vector<MagnetDesc> magnets;
+  std::vector<JointDesc> joints;
   std::vector<EmitterDesc> emitters;
   std::vector<std::string> warnings;  ///< whole sentences for the user, in order
 };

@@ -23,10 +23,16 @@ enum class SolverMethod {
   Pgs,    ///< "pgs": the paper's plain projected Gauss-Seidel, one row at a time
 };
 
+enum class Stabilisation {
+  Baumgarte,  ///< "baumgarte": a share of each overlap becomes a velocity
+  Post,       ///< "post": positions are corrected after the step, velocities know nothing of it
+};
+
 /// [solver]
 struct SolverSettings {
   SolverMethod method = SolverMethod::Nncg;
   int iterations = 10;          ///< sweeps of the full solve, Section 8.1
+  Stabilisation stabilisation = Stabilisation::Baumgarte;
   double erp = 0.05;            ///< Baumgarte: part of the overlap that is removed per step [1]
   double compliance = 0.01;     ///< softness C = compliance · (1/mA + 1/mB), so it is [1]
   double max_correction = 0.5;  ///< fastest velocity with which overlap is removed [m/s]

@@ -14,6 +14,7 @@ void forEachSetting(S& settings, F&& f) {
   auto& solver = settings.solver;
   f("solver", "method", solver.method, kAnyNumber);
   f("solver", "iterations", solver.iterations, kAtLeastOne);
+  f("solver", "stabilisation", solver.stabilisation, kAnyNumber);
   f("solver", "erp", solver.erp, kFraction);
   f("solver", "compliance", solver.compliance, kNotNegative);
   f("solver", "max_correction", solver.max_correction, kNotNegative);

@@ -238,6 +238,39 @@ void writeMagnets(TomlText& out, const Scene& scene) {
   }
 }
 
+/// The pair `[lower, upper]` in the units of the file.
+std::string written(const JointDesc::Limits& limits, bool angles) {
+  if (angles) return written(Vec2(degrees(limits.lower), degrees(limits.upper)));
+  return written(Vec2(limits.lower, limits.upper));
+}
+
+std::string written(const JointDesc::Motor& motor, bool angles) {
+  return fmt::format("{{ speed = {}, {} = {} }}", angles ? degrees(motor.speed) : motor.speed,
+                     angles ? "torque" : "force", motor.strength);
+}
+
+void writeJoints(TomlText& out, const Scene& scene) {
+  for (const JointDesc& joint : scene.joints) {
+    const bool angles = joint.kind == JointKind::Revolute;
+    out.heading("[[joint]]");
+    out.put("kind", joint.kind);
+    std::string bodies = written(scene.bodies[joint.a].name);
+    if (joint.b) bodies += ", " + written(scene.bodies[*joint.b].name);
+    out.raw("bodies", fmt::format("[{}]", bodies));
+    out.put("at", joint.at);
+    if (joint.kind == JointKind::Distance) out.put("to", joint.to);
+    if (joint.kind == JointKind::Prismatic) out.put("axis", joint.axis);
+    if (joint.length) out.put("length", *joint.length);
+    out.put("stiffness", joint.stiffness, 0.0);
+    out.put("damping", joint.damping, 0.0);
+    if (joint.limits) out.raw("limits", written(*joint.limits, angles));
+    if (joint.motor) out.raw("motor", written(*joint.motor, angles));
+    out.put("break_force", joint.break_force, kForever);
+    out.put("break_torque", joint.break_torque, kForever);
+    out.put("collide", joint.collide, false);
+  }
+}
+
 void writeEmitters(TomlText& out, const Scene& scene) {
   for (const EmitterDesc& emitter : scene.emitters) {
     out.heading("[[emitter]]");
@@ -260,6 +293,7 @@ std::string toToml(const Scene& scene) {
   writeSprings(out, scene);
   writeImpulsesAndForces(out, scene);
   writeMagnets(out, scene);
+  writeJoints(out, scene);
   writeEmitters(out, scene);
   return out.take();
 }

@@ -8,7 +8,8 @@
 namespace merge2d {
 namespace {
 
-ContactState stateOf(double lambda_n, double lambda_t, double mu) {
+ContactState stateOf(double lambda_n, double lambda_t, double mu, bool bilateral) {
+  if (bilateral) return ContactState::Sticking;
   if (lambda_n <= 0.0) return ContactState::Broken;
   return std::abs(lambda_t) >= (1.0 - 1e-9) * mu * lambda_n ? ContactState::Sliding
                                                             : ContactState::Sticking;
@@ -39,7 +40,8 @@ void captureBodies(const State& state, Snapshot& out) {
   }
 }
 
-ContactView view(const Contact& contact, const ContactPoint& p, const Pose& frame) {
+ContactView view(const State& state, const Contact& contact, const ContactPoint& p,
+                 const Pose& frame) {
   ContactView seen;
   seen.a = contact.key.a;
   seen.b = contact.key.b;
@@ -52,7 +54,8 @@ ContactView view(const Contact& contact, const ContactPoint& p, const Pose& fram
   seen.w_n = p.w_n;
   seen.w_t = p.w_t;
   seen.mu = contact.mu;
-  seen.state = stateOf(p.lambda_n, p.lambda_t, contact.mu);
+  seen.state =
+      stateOf(p.lambda_n, p.lambda_t, contact.mu, isBilateral(state, contact.key.a, contact.key.b));
   seen.fresh = p.fresh;
   return seen;
 }
@@ -81,8 +84,8 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
   for (const ContactTable::Entry& entry : state.contacts.order) {
     const Contact& contact = state.contacts[entry];
     for (int i = 0; i < contact.count; ++i) {
-      out.contacts.push_back(
-          view(contact, contact.points[static_cast<std::size_t>(i)], state.pose(contact.key.a)));
+      out.contacts.push_back(view(state, contact, contact.points[static_cast<std::size_t>(i)],
+                                  state.pose(contact.key.a)));
     }
   }
   for (const Collection& c : state.collections) {
@@ -97,7 +100,7 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
         p.lambda_t = k.lambda_t(i);
         p.fresh = false;
         showInternalVelocity(state, scratch, c, b, i, p);
-        out.contacts.push_back(view(contact, p, frame));
+        out.contacts.push_back(view(state, contact, p, frame));
         out.contacts.back().internal = true;
       }
     }
@@ -156,6 +159,27 @@ void captureCollections(const State& state, Snapshot& out) {
   });
 }
 
+void captureJoints(const State& state, Snapshot& out) {
+  out.joints.clear();
+  for (const Joint& joint : state.joints) {
+    const Pose a = state.pose(joint.a);
+    JointView seen;
+    seen.kind = joint.kind;
+    seen.a = joint.a;
+    seen.b = joint.b;
+    seen.to_world = joint.to_world;
+    seen.from = a * joint.anchor_a;
+    seen.to = joint.to_world ? joint.anchor_b : state.pose(joint.b) * joint.anchor_b;
+    seen.axis = a.rotation * joint.axis;
+    const JointForce load = jointForce(state, joint);
+    seen.force = load.force;
+    seen.torque = load.torque;
+    seen.broken = joint.broken;
+    seen.internal = holds(state, joint) && isInside(state, joint);
+    out.joints.push_back(seen);
+  }
+}
+
 /// Momentum and energy of the bodies that respond to forces.
 void measure(const State& state, const Actions& actions, const Snapshot& seen, Stats& stats) {
   stats.kinetic_energy = stats.potential_energy = stats.angular_momentum = 0.0;
@@ -192,6 +216,7 @@ void captureState(const State& state, const Actions& actions, const Scratch& scr
   captureContacts(state, scratch, out);
   captureCollections(state, out);
   out.springs = scratch.springs;
+  captureJoints(state, out);
   out.events = scratch.events;
   out.stats = scratch.stats;
   measure(state, actions, out, out.stats);
@@ -226,8 +251,8 @@ std::size_t memoryBytes(const State& state, const Scratch& scratch) {
   std::size_t total = bytes(state.colliders) + bytes(state.shape_body) +
                       bytes(state.collider_bounds) + bytes(state.shape_collider) +
                       bytes(state.bodies) + bytes(state.rigids) + bytes(state.contacts.slots) +
-                      bytes(state.contacts.order) + bytes(state.broadphase.near) +
-                      bytes(state.broadphase.shape_leaves);
+                      bytes(state.contacts.order) + bytes(state.joints) +
+                      bytes(state.broadphase.near) + bytes(state.broadphase.shape_leaves);
   for (const Collection& c : state.collections) {
     total += sizeof(Collection) + bytes(c.members) + bytes(c.contacts) + bytes(c.blocks) +
              bytes(c.block_contact) + bytes(c.welds) + bytes(c.push);

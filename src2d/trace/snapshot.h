@@ -79,6 +79,18 @@ struct SpringView {
   double force = 0.0;        ///< pulling positive [N]
 };
 
+struct JointView {
+  JointKind kind = JointKind::Revolute;
+  BodyId a{}, b{};
+  bool to_world = false;                        ///< there is no `b`
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< the ends on a and b, in the world [m]
+  Vec2 axis = Vec2::UnitX();                    ///< of a prismatic joint, in the world
+  Vec2 force = Vec2::Zero();                    ///< on b, in this step [N]
+  double torque = 0.0;                          ///< on b, about `to` [N m]
+  bool broken = false;
+  bool internal = false;  ///< inside a collection
+};
+
 /// A weld: a pair of bodies inside one collection (or a member and its anchor).
 struct WeldView {
   BodyId a{}, b{};
@@ -155,6 +167,7 @@ struct Snapshot {
   std::vector<CollectionView> collections;  ///< ascending ids
   std::vector<WeldView> welds;
   std::vector<SpringView> springs;
+  std::vector<JointView> joints;    ///< of the scene, in its order; also broken ones
   std::vector<Event> events;        ///< of this step, in the order they happened
   std::vector<Decision> decisions;  ///< of this step, when they were asked for
   Stats stats;

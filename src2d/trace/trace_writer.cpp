@@ -1,5 +1,6 @@
 #include "src2d/trace/trace_writer.h"
 
+#include "src2d/scene/names.h"
 #include "src2d/trace/parameters.h"
 
 namespace merge2d {
@@ -25,12 +26,24 @@ void writeBodyInfo(JsonText& out, std::size_t id, const BodyInfo& body) {
   out.close('}');
 }
 
-void writeColumns(JsonText& out) {
+/// What never changes about the joints; absent in scenes without them.
+void writeJointInfo(JsonText& out, const JointDesc& joint) {
+  out.open('{').field("kind", nameOf(joint.kind)).field("a", joint.a);
+  if (joint.b) {
+    out.field("b", *joint.b);
+  } else {
+    out.field("b", nullptr);
+  }
+  out.close('}');
+}
+
+void writeColumns(JsonText& out, bool joints) {
   out.key("columns").open('{');
   out.key("bodies").row("id", "x", "y", "angle", "vx", "vy", "omega", "collection", "asleep");
   out.key("contacts")
       .row("a", "b", "feature", "x", "y", "nx", "ny", "gap", "lambda_n", "lambda_t", "w_n", "w_t",
            "state", "internal", "new");
+  if (joints) out.key("joints").row("joint", "x", "y", "fx", "fy", "torque", "broken", "internal");
   out.close('}');
 }
 
@@ -40,9 +53,12 @@ void writeHeader(JsonText& out, const Scene& scene, Mode mode,
   out.field("version", TraceWriter::kVersion).field("scene", scene.name).field("mode", name(mode));
   out.field("h", scene.step).key("parameters");
   writeParameters(out, scene);
-  writeColumns(out);
+  writeColumns(out, !scene.joints.empty());
   std::size_t id = 0;
   out.array("bodies", bodies, [&](const BodyInfo& body) { writeBodyInfo(out, id++, body); });
+  if (!scene.joints.empty()) {
+    out.array("joints", scene.joints, [&](const JointDesc& joint) { writeJointInfo(out, joint); });
+  }
   out.close('}');
 }
 
@@ -55,6 +71,10 @@ void writeBody(JsonText& out, const BodyState& b) {
 void writeContact(JsonText& out, const ContactView& c) {
   out.row(c.a, c.b, c.feature, c.x.x(), c.x.y(), c.normal.x(), c.normal.y(), c.gap, c.lambda_n,
           c.lambda_t, c.w_n, c.w_t, name(c.state), c.internal, c.fresh);
+}
+
+void writeJoint(JsonText& out, std::size_t id, const JointView& j) {
+  out.row(id, j.to.x(), j.to.y(), j.force.x(), j.force.y(), j.torque, j.broken, j.internal);
 }
 
 void writeCollection(JsonText& out, const CollectionView& c) {
@@ -103,6 +123,10 @@ void writeStep(JsonText& out, const Snapshot& s, const TraceOptions& options) {
   out.array("contacts", s.contacts, [&](const ContactView& c) { writeContact(out, c); });
   out.array("collections", s.collections,
             [&](const CollectionView& c) { writeCollection(out, c); });
+  if (!s.joints.empty()) {
+    std::size_t id = 0;
+    out.array("joints", s.joints, [&](const JointView& j) { writeJoint(out, id++, j); });
+  }
   out.array("events", s.events, [&](const Event& e) { writeEvent(out, e); });
   if (options.decisions) {
     out.array("decisions", s.decisions, [&](const Decision& d) { writeDecision(out, d); });

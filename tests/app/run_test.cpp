@@ -219,5 +219,45 @@ TEST_F(Run, WarnsOnStderrUnlessQuiet) {
   EXPECT_THAT(run({"run", "empty.toml", "--quiet"}).err, IsEmpty());
 }
 
+TEST_F(Run, ContinuesFromASnapshotWithTheSameBytes) {
+  run({"run", "pile", "--steps", "120", "--trace", "whole.jsonl", "--no-timings"});
+  EXPECT_EQ(run({"run", "pile", "--steps", "70", "--snapshot", "70.state"}).code, 0);
+  EXPECT_EQ(run({"run", "pile", "--steps", "120", "--resume", "70.state", "--trace", "rest.jsonl",
+                 "--no-timings"})
+                .code,
+            0);
+  Words whole = linesOf(read("whole.jsonl"));
+  const Words rest = linesOf(read("rest.jsonl"));
+  whole.erase(whole.begin() + 1, whole.begin() + 71);  // after the header
+  EXPECT_TRUE(rest == whole);
+}
+
+TEST_F(Run, RefusesASnapshotThatDoesNotFit) {
+  ASSERT_EQ(run({"run", "stack.toml", "--steps", "20", "--snapshot", "a.state"}).code, 0);
+  Outcome outcome = run({"run", "books", "--resume", "a.state"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("a.state: the snapshot is of another scene than 'books'"));
+  outcome = run({"run", "stack.toml", "--mode", "reference", "--resume", "a.state"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("made with --mode merge+sleep, not reference"));
+  write("short.state", read("a.state").substr(0, 500));
+  outcome = run({"run", "stack.toml", "--resume", "short.state"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("short.state: the snapshot is incomplete"));
+  EXPECT_EQ(run({"run", "stack.toml", "--resume", "none.state"}).code, 4);
+  outcome = run({"run", "stack.toml", "--steps", "20", "--resume", "a.state"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("taken after step 20"));
+}
+
+TEST_F(Run, ASnapshotReplacesOnlySnapshots) {
+  write("notes.txt", "mine");
+  EXPECT_EQ(run({"run", "stack.toml", "--snapshot", "notes.txt"}).code, 2);
+  EXPECT_EQ(read("notes.txt"), "mine");
+  EXPECT_EQ(run({"run", "stack.toml", "--snapshot", "a.state"}).code, 0);
+  EXPECT_EQ(run({"run", "stack.toml", "--snapshot", "a.state"}).code, 0);
+  EXPECT_EQ(run({"run", "stack.toml", "--snapshot", "-"}).code, 2);
+}
+
 }  // namespace
 }  // namespace merge2d

@@ -28,6 +28,9 @@ class Fingerprint {
     });
     list(s.welds, [&](const WeldView& w) { add(w.a, w.b, w.contacts); });
     list(s.springs, [&](const SpringView& p) { add(p.from, p.to, p.force); });
+    list(s.joints, [&](const JointView& j) {
+      add(j.from, j.to, j.axis, j.force, j.torque, j.broken, j.internal);
+    });
     list(s.events, [&](const Event& e) { add(e.type, e.a, e.b, e.collection, e.reason); });
     const Stats& t = s.stats;
     add(t.bodies, t.active_bodies, t.collections, t.asleep, t.contacts, t.internal_contacts,

@@ -1,0 +1,293 @@
+#include "src2d/dynamics/joint.h"
+
+#include <Eigen/LU>
+
+#include "src2d/dynamics/stabilise.h"
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+namespace {
+
+bool postStabilised(const State& state) {
+  return state.settings.solver.stabilisation == Stabilisation::Post;
+}
+
+/// Fills the rows of a block and what is derived from them.
+class JointBuilder {
+ public:
+  JointBuilder(const State& state, const Joint& joint, const JointPlace& place, JointRows kind,
+               const SolverVelocity& a, const SolverVelocity& b)
+      : state_(state),
+        joint_(joint),
+        place_(place),
+        rigid_(kind == JointRows::Rigid || (kind == JointRows::Soft && postStabilised(state))),
+        a_(a),
+        b_(b) {
+    const double other = joint.to_world ? 0.0 : responds(joint.b);
+    const double self = responds(joint.a);
+    const double c = kind == JointRows::Soft ? state.settings.solver.compliance : 0.0;
+    share_ = kind == JointRows::Correction ? kCorrectedShare : state.settings.solver.erp;
+    softness_ = c * (self / mass(joint.a) + (other > 0.0 ? other / mass(joint.b) : 0.0));
+    turning_softness_ =
+        c * (self / inertia(joint.a) + (other > 0.0 ? other / inertia(joint.b) : 0.0));
+  }
+
+  JointBlock build() {
+    block_.lambda = joint_.lambda;
+    switch (joint_.kind) {
+      case JointKind::Revolute:
+        hold(along(Vec2::UnitX()), offset().x());
+        hold(along(Vec2::UnitY()), offset().y());
+        drive(turning(), place_.turn);
+        break;
+      case JointKind::Weld:
+        hold(along(Vec2::UnitX()), offset().x());
+        hold(along(Vec2::UnitY()), offset().y());
+        hold(turning(), place_.turn);
+        break;
+      case JointKind::Prismatic:
+        hold(along(perpendicular(joint_.axis)), perpendicular(joint_.axis).dot(offset()));
+        hold(turning(), place_.turn);
+        drive(along(joint_.axis), joint_.axis.dot(offset()));
+        break;
+      case JointKind::Distance:
+        distance();
+        break;
+    }
+    invert();
+    return block_;
+  }
+
+ private:
+  /// 1 for a body that forces move, also inside a collection.
+  double responds(BodyId b) const {
+    return state_[rigidOf(b)].floating() || state_.isCollection(state_[b].rigid) ? 1.0 : 0.0;
+  }
+  double mass(BodyId b) const { return state_[b].mass; }
+  double inertia(BodyId b) const { return state_[b].inertia; }
+
+  /// From a's end to b's, in a's frame.
+  Vec2 offset() const { return place_.rotation_a.inverse() * (place_.p_b - place_.p_a); }
+
+  JointRow along(const Vec2& direction_in_a) const {
+    return rowAlong(place_.rotation_a * direction_in_a);
+  }
+  JointRow rowAlong(const Vec2& d) const {
+    JointRow row;
+    row.dx = d.x();
+    row.dy = d.y();
+    row.arm_a = cross(place_.p_b - place_.x_a, d);
+    row.arm_b = cross(place_.p_b - place_.x_b, d);
+    row.softness = rigid_ ? 0.0 : softness_;
+    return row;
+  }
+  JointRow turning() const {
+    JointRow row;
+    row.arm_a = row.arm_b = 1.0;
+    row.softness = rigid_ ? 0.0 : turning_softness_;
+    return row;
+  }
+
+  /// A row that keeps `error` at 0.
+  void hold(JointRow row, double error) {
+    row.bias = rigid_ ? 0.0 : share_ * error / state_.h;
+    block_.rows[static_cast<std::size_t>(block_.coupled++)] = row;
+  }
+
+  /// Motor and limit of what is free.
+  void drive(JointRow row, double value) {
+    if (joint_.motor) {
+      JointRow& motor = block_.rows[kMotorRow] = row;
+      motor.softness = 0.0;
+      motor.bias = -joint_.motor->speed;
+      motor.upper = joint_.motor->strength * state_.h;
+      motor.lower = -motor.upper;
+      block_.motor = true;
+    }
+    limit(row, value);
+  }
+
+  /// The nearer limit: met as a contact is, never overrun in a step.
+  void limit(JointRow row, double value) {
+    if (!joint_.limits) return;
+    const auto [lower, upper] = *joint_.limits;
+    const bool at_lower = value - lower < upper - value;
+    const double gap = at_lower ? value - lower : upper - value;
+    const double sign = at_lower ? 1.0 : -1.0;
+    const double way = gap > 0.0 ? gap / state_.h : share_ * gap / state_.h;
+    const bool pressed = joint_.lambda[kLimitRow] != 0.0;
+    row.bias = rigid_ && (pressed || gap <= 0.0) ? 0.0 : sign * way;
+    if (gap > 0.0) row.softness = 0.0;
+    if (lower != upper) (at_lower ? row.lower : row.upper) = 0.0;
+    block_.rows[kLimitRow] = row;
+    block_.limit = true;
+    block_.lambda[kLimitRow] = std::clamp(block_.lambda[kLimitRow], row.lower, row.upper);
+  }
+
+  void distance() {
+    const Vec2 way = place_.p_b - place_.p_a;
+    const double length = way.norm();
+    constexpr double kShort = 1e-9;
+    JointRow row = length > kShort ? rowAlong(way / length) : along(Vec2::UnitX());
+    if (joint_.limits) return limit(row, length);
+    if (joint_.stiffness > 0.0) return spring(row, length - joint_.length);
+    hold(row, length - joint_.length);
+  }
+
+  /// An implicit spring as a soft row: λ = −h (k (s + h w) + c w), stable however stiff.
+  void spring(JointRow row, double stretch) {
+    const double k = joint_.stiffness, h = state_.h;
+    row.softness = 1.0 / (h * (joint_.damping + h * k));
+    row.bias = stretch * h * k * row.softness;
+    block_.rows[static_cast<std::size_t>(block_.coupled++)] = row;
+  }
+
+  double coupling(const JointRow& r, const JointRow& s) const {
+    return (a_.inv_mass + b_.inv_mass) * (r.dx * s.dx + r.dy * s.dy) +
+           a_.inv_inertia * r.arm_a * s.arm_a + b_.inv_inertia * r.arm_b * s.arm_b;
+  }
+
+  void invert() {
+    Eigen::Matrix3d k = Eigen::Matrix3d::Identity();
+    for (int i = 0; i < block_.coupled; ++i) {
+      const JointRow& row = block_.rows[static_cast<std::size_t>(i)];
+      for (int j = 0; j < block_.coupled; ++j) {
+        k(i, j) = coupling(row, block_.rows[static_cast<std::size_t>(j)]);
+      }
+      k(i, i) += row.softness;
+    }
+    block_.inverse = k.inverse();
+    for (const std::size_t i : {kMotorRow, kLimitRow}) {
+      if (!(i == kMotorRow ? block_.motor : block_.limit)) continue;
+      JointRow& row = block_.rows[i];
+      row.inv_k = 1.0 / (coupling(row, row) + row.softness);
+    }
+  }
+
+  const State& state_;
+  const Joint& joint_;
+  const JointPlace& place_;
+  bool rigid_;
+  const SolverVelocity &a_, &b_;
+  double softness_ = 0.0, turning_softness_ = 0.0, share_ = 0.0;
+  JointBlock block_;
+};
+
+/// The rows that carry a force; motors and limits of a revolute joint carry a torque.
+JointForce forceInA(const Joint& joint, const Vec2& direction) {
+  const auto& l = joint.lambda;
+  switch (joint.kind) {
+    case JointKind::Revolute:
+      return {Vec2(l[0], l[1]), l[2] + l[3]};
+    case JointKind::Weld:
+      return {Vec2(l[0], l[1]), l[2]};
+    case JointKind::Prismatic:
+      return {l[0] * perpendicular(joint.axis) + (l[2] + l[3]) * joint.axis, l[1]};
+    case JointKind::Distance:
+      return {(l[0] + l[3]) * direction, 0.0};
+  }
+  return {};
+}
+
+}  // namespace
+
+bool holds(const State& state, const Joint& joint) {
+  return !joint.broken && state[joint.a].alive && (joint.to_world || state[joint.b].alive);
+}
+
+bool isInside(const State& state, const Joint& joint) {
+  const RigidId ra = state[joint.a].rigid;
+  const Rigid& a = state[ra];
+  const bool a_in = state.isCollection(ra);
+  if (joint.to_world) return a_in && a.anchor == kWorldFrame;
+  const RigidId rb = state[joint.b].rigid;
+  if (ra == rb) return true;
+  return a_in != state.isCollection(rb) && !a.floating() && a.anchor == state[rb].anchor;
+}
+
+std::uint32_t rigidIndexA(const State& state, const Joint& joint) {
+  return static_cast<std::uint32_t>(state[joint.a].rigid);
+}
+std::uint32_t rigidIndexB(const State& state, const Joint& joint) {
+  return static_cast<std::uint32_t>(joint.to_world ? state.rigids.size()
+                                                   : index(state[joint.b].rigid));
+}
+std::uint32_t bodyIndexA(const Joint& joint) { return static_cast<std::uint32_t>(joint.a); }
+std::uint32_t bodyIndexB(const State& state, const Joint& joint) {
+  return static_cast<std::uint32_t>(joint.to_world ? state.bodies.size() : index(joint.b));
+}
+
+JointPlace placeOf(const State& state, const Joint& joint, const Pose& frame, const Vec2& x_a,
+                   const Vec2& x_b) {
+  const Pose back = frame.inverse();
+  const Pose a = state.pose(joint.a);
+  JointPlace place;
+  place.x_a = back * x_a;
+  place.x_b = back * x_b;
+  place.p_a = back * (a * joint.anchor_a);
+  place.p_b = back * (joint.to_world ? joint.anchor_b : state.pose(joint.b) * joint.anchor_b);
+  place.rotation_a = back.rotation * a.rotation;
+  const double angle_b = joint.to_world ? 0.0 : state.angle(joint.b);
+  place.turn = angle_b - state.angle(joint.a) - joint.reference;
+  return place;
+}
+
+JointBlock makeJointBlock(const State& state, const Joint& joint, const JointPlace& place,
+                          JointRows rows, const SolverVelocity& a, const SolverVelocity& b) {
+  return JointBuilder(state, joint, place, rows, a, b).build();
+}
+
+JointForce jointForce(const State& state, const Joint& joint) {
+  const Pose a = state.pose(joint.a);
+  const Vec2 p_b = joint.to_world ? joint.anchor_b : state.pose(joint.b) * joint.anchor_b;
+  const Vec2 way = a.rotation.inverse() * (p_b - a * joint.anchor_a);
+  const double length = way.norm();
+  const JointForce in_a = forceInA(joint, length > 0.0 ? Vec2(way / length) : Vec2::UnitX());
+  return {a.rotation * in_a.force / state.h, in_a.torque / state.h};
+}
+
+bool breaks(const State& state, const Joint& joint) {
+  if (joint.break_force == kForever && joint.break_torque == kForever) return false;
+  const JointForce load = jointForce(state, joint);
+  const bool turns = joint.kind == JointKind::Weld || joint.kind == JointKind::Prismatic;
+  return load.force.norm() > joint.break_force ||
+         (turns && std::abs(load.torque) > joint.break_torque);
+}
+
+void breakJoint(State& state, Joint& joint) {
+  joint.broken = true;
+  joint.lambda = {};
+  state.rigid(joint.a).resized = true;  // the broadphase is to look again
+  if (!joint.to_world) state.rigid(joint.b).resized = true;
+  listJoinedPairs(state);
+}
+
+int freedomsTaken(const State& state, const Joint& joint) {
+  if (joint.kind == JointKind::Weld) return 3;
+  if (joint.kind == JointKind::Distance) {
+    return joint.stiffness == 0.0 && (!joint.limits || joint.lambda[kLimitRow] != 0.0) ? 1 : 0;
+  }
+  // A brake that is strong enough, or a limit that presses, takes the last freedom.
+  const double load = std::abs(joint.lambda[kMotorRow]);
+  const bool brake =
+      joint.motor && joint.motor->speed == 0.0 && load < joint.motor->strength * state.h;
+  return brake || joint.lambda[kLimitRow] != 0.0 ? 3 : 2;
+}
+
+bool joined(const State& state, BodyId a, BodyId b) {
+  const auto& pairs = state.joined_pairs;
+  return !pairs.empty() &&
+         std::binary_search(pairs.begin(), pairs.end(), std::pair(std::min(a, b), std::max(a, b)));
+}
+
+void listJoinedPairs(State& state) {
+  auto& pairs = state.joined_pairs;
+  pairs.clear();
+  for (const Joint& joint : state.joints) {
+    if (joint.broken || joint.to_world || joint.collide) continue;
+    pairs.emplace_back(std::min(joint.a, joint.b), std::max(joint.a, joint.b));
+  }
+  std::sort(pairs.begin(), pairs.end());
+}
+
+}  // namespace merge2d

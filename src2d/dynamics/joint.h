@@ -1,0 +1,103 @@
+#pragma once
+/// Joints: what holds two bodies together without touching (Section 8.2, "Joint Constraints").
+///
+/// A joint acts at one point, that of its second body: its force is equal and opposite there, so
+/// that joints keep momentum and angular momentum. Directions belong to the first body and turn
+/// with it; so do the impulses that are remembered.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "src2d/core/ids.h"
+#include "src2d/dynamics/joint_block.h"
+#include "src2d/scene/scene.h"
+
+namespace merge2d {
+
+struct State;
+struct Scratch;
+
+struct Joint {
+  // constant
+  JointKind kind = JointKind::Revolute;
+  BodyId a{}, b{};
+  bool to_world = false;         ///< there is no `b`
+  Vec2 anchor_a = Vec2::Zero();  ///< from a's centre of mass, in its frame [m]
+  Vec2 anchor_b = Vec2::Zero();  ///< the same of b; a world point when there is none
+  Vec2 axis = Vec2::UnitX();     ///< in a's frame
+  double reference = 0.0;        ///< angle of b against a at the start [rad]
+  double length = 0.0;           ///< [m]
+  double stiffness = 0.0, damping = 0.0;
+  std::optional<JointDesc::Limits> limits;
+  std::optional<JointDesc::Motor> motor;
+  double break_force = kForever, break_torque = kForever;
+  bool collide = false;
+
+  // what moves
+  bool broken = false;
+  std::array<double, 4> lambda{};  ///< impulses of the last step, as in JointBlock
+  std::array<float, 3> error{};    ///< of the coupled rows [m, rad]
+  float breath = std::numeric_limits<float>::infinity();  ///< largest change of it in a step
+  int quiet_steps = 0;             ///< consecutive steps in which the bodies could have merged
+  std::array<float, 2> yielded{};  ///< way of motor and limit, in consecutive steps at a bound,
+                                   ///< inside a collection [m/s, rad/s]
+};
+
+/// Where the two ends are, in any one frame.
+struct JointPlace {
+  Vec2 x_a = Vec2::Zero(), x_b = Vec2::Zero();  ///< centres of mass of what responds [m]
+  Vec2 p_a = Vec2::Zero(), p_b = Vec2::Zero();  ///< ends of the joint [m]
+  Rotation rotation_a;
+  double turn = 0.0;  ///< of b against a since the start [rad]
+};
+
+/// Whether rows are to remove what error there is, as softly as contacts; only to keep it; or to
+/// correct positions.
+enum class JointRows { Soft, Rigid, Correction };
+
+/// Bodies that are there, and not broken apart.
+bool holds(const State& state, const Joint& joint);
+
+/// A joint between members of one collection, or of one and its frame: it belongs to the sweep.
+bool isInside(const State& state, const Joint& joint);
+
+/// Its index among the rigid things; the world stands behind the last of them.
+std::uint32_t rigidIndexA(const State& state, const Joint& joint);
+std::uint32_t rigidIndexB(const State& state, const Joint& joint);
+/// The same among the bodies.
+std::uint32_t bodyIndexA(const Joint& joint);
+std::uint32_t bodyIndexB(const State& state, const Joint& joint);
+
+/// Place of the ends in `frame`; arms are measured from the world points `x_a` and `x_b`.
+JointPlace placeOf(const State& state, const Joint& joint, const Pose& frame, const Vec2& x_a,
+                   const Vec2& x_b);
+
+/// The rows of a joint with the impulses of the last step as a start.
+JointBlock makeJointBlock(const State& state, const Joint& joint, const JointPlace& place,
+                          JointRows rows, const SolverVelocity& a, const SolverVelocity& b);
+
+/// Force [N] in the world's directions, and torque [N m], with which a joint acts on b.
+struct JointForce {
+  Vec2 force = Vec2::Zero();
+  double torque = 0.0;
+};
+JointForce jointForce(const State& state, const Joint& joint);
+
+/// True when the force is more than it bears.
+bool breaks(const State& state, const Joint& joint);
+
+/// Parts the bodies for good; they touch each other from now on.
+void breakJoint(State& state, Joint& joint);
+
+/// Relative freedoms that a joint takes away just now: two of a pivot, three of a weld.
+int freedomsTaken(const State& state, const Joint& joint);
+
+/// True for bodies that do not touch since they are joined.
+bool joined(const State& state, BodyId a, BodyId b);
+
+/// Pairs of bodies for `joined`, anew.
+void listJoinedPairs(State& state);
+
+}  // namespace merge2d

@@ -1,0 +1,100 @@
+#pragma once
+/// The kernel of every sweep: one joint's rows.
+///
+/// A row wants w + bias + Cλ = 0, where w = d·(v_b − v_a) + r_b ω_b − r_a ω_a. The first rows,
+/// which hold in both directions, are solved together; motor and limit follow one by one, each with
+/// bounds on its λ.
+///
+/// Letters (docs/symbols.md): λ impulse [N s, N m s], w relative velocity [m/s, rad/s],
+/// C softness [1/kg, 1/(kg m²)], d direction, r its moment arm [m, 1].
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "src2d/dynamics/contact_block.h"
+
+namespace merge2d {
+
+inline constexpr std::size_t kMotorRow = 2, kLimitRow = 3;
+
+struct JointRow {
+  double dx = 0.0, dy = 0.0;        ///< direction in the block's frame; 0 for a turning row
+  double arm_a = 0.0, arm_b = 0.0;  ///< (p − x) × d, or 1
+  double bias = 0.0, softness = 0.0;
+  double inv_k = 0.0;  ///< 1 / (K + C), of motor and limit
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();  ///< of λ, of motor and limit
+};
+
+/// Row 2 is the third of a weld, or else the motor; row 3 is the limit.
+struct JointBlock {
+  std::uint32_t a = 0, b = 0;  ///< indices into the velocities
+  std::uint32_t joint = 0;     ///< of State::joints
+  int coupled = 0;             ///< the first rows, solved together
+  bool motor = false, limit = false;
+  std::array<JointRow, 4> rows;
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  ///< (K + C)⁻¹ of the coupled rows
+  std::array<double, 4> lambda{};
+
+  /// The rows that there are, one after the other.
+  template <class F>
+  void forEachRow(F&& f) const {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(coupled); ++i) f(i);
+    if (motor) f(kMotorRow);
+    if (limit) f(kLimitRow);
+  }
+};
+
+/// Relative velocity along a row; `turn` brings the block's frame into that of the velocities.
+inline double jointVelocity(const JointRow& r, const Rotation& turn, const SolverVelocity& a,
+                            const SolverVelocity& b) {
+  const double dx = turn.c * r.dx - turn.s * r.dy, dy = turn.s * r.dx + turn.c * r.dy;
+  return dx * (b.vx - a.vx) + dy * (b.vy - a.vy) + r.arm_b * b.omega - r.arm_a * a.omega;
+}
+
+inline void applyJointImpulse(const JointRow& r, const Rotation& turn, double p, SolverVelocity& a,
+                              SolverVelocity& b) {
+  const double px = (turn.c * r.dx - turn.s * r.dy) * p, py = (turn.s * r.dx + turn.c * r.dy) * p;
+  a.vx -= a.inv_mass * px;
+  a.vy -= a.inv_mass * py;
+  a.omega -= a.inv_inertia * r.arm_a * p;
+  b.vx += b.inv_mass * px;
+  b.vy += b.inv_mass * py;
+  b.omega += b.inv_inertia * r.arm_b * p;
+}
+
+/// All impulses of a block at once: its warm start.
+inline void applyJointImpulses(const JointBlock& k, const Rotation& turn, SolverVelocity& a,
+                               SolverVelocity& b) {
+  k.forEachRow([&](std::size_t i) { applyJointImpulse(k.rows[i], turn, k.lambda[i], a, b); });
+}
+
+/// Solves one block: motor and limit first, so that what holds the bodies together has the last
+/// word.
+inline void solveJoint(JointBlock& k, const Rotation& turn, SolverVelocity& a, SolverVelocity& b) {
+  const auto rest = [&](std::size_t i) {
+    const JointRow& r = k.rows[i];
+    return jointVelocity(r, turn, a, b) + r.bias + r.softness * k.lambda[i];
+  };
+  for (const std::size_t i : {kMotorRow, kLimitRow}) {
+    if (!(i == kMotorRow ? k.motor : k.limit)) continue;
+    const JointRow& r = k.rows[i];
+    const double x = std::clamp(k.lambda[i] - r.inv_k * rest(i), r.lower, r.upper);
+    applyJointImpulse(r, turn, x - k.lambda[i], a, b);
+    k.lambda[i] = x;
+  }
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();
+  const auto coupled = static_cast<std::size_t>(k.coupled);
+  for (std::size_t i = 0; i < coupled; ++i) w[static_cast<Eigen::Index>(i)] = rest(i);
+  const Eigen::Vector3d change = -(k.inverse * w);
+  for (std::size_t i = 0; i < coupled; ++i) {
+    const double p = change[static_cast<Eigen::Index>(i)];
+    applyJointImpulse(k.rows[i], turn, p, a, b);
+    k.lambda[i] += p;
+  }
+}
+
+}  // namespace merge2d

@@ -1,0 +1,112 @@
+#include "src2d/merging/joint_sweep.h"
+
+#include <algorithm>
+
+namespace merge2d {
+namespace {
+
+bool isSweptMember(const State& state, BodyId b) {
+  return state.isCollection(state[b].rigid) && !state.rigid(b).asleep;
+}
+
+/// A member's centre of mass; what holds it does not respond, so that any place will do.
+Vec2 centerOf(const State& state, const Joint& joint, bool of_b) {
+  if (of_b && joint.to_world) return Vec2::Zero();
+  return state.pose(of_b ? joint.b : joint.a).position;
+}
+
+/// The rows of a joint in `frame`; bodies keep their own masses.
+JointBlock makeBlock(const State& state, std::uint32_t i, const Pose& frame, JointRows rows,
+                     const SolverVelocity& a, const SolverVelocity& b) {
+  const Joint& joint = state.joints[i];
+  const JointPlace place =
+      placeOf(state, joint, frame, centerOf(state, joint, false), centerOf(state, joint, true));
+  JointBlock k = makeJointBlock(state, joint, place, rows, a, b);
+  k.a = bodyIndexA(joint);
+  k.b = bodyIndexB(state, joint);
+  k.joint = i;
+  return k;
+}
+
+SolverVelocity memberMasses(const State& state, const Collection& c, std::uint32_t body) {
+  SolverVelocity u;
+  if (body >= state.bodies.size() || state.bodies[body].rigid != c.rigid) return u;
+  u.inv_mass = 1.0 / state.bodies[body].mass;
+  u.inv_inertia = 1.0 / state.bodies[body].inertia;
+  return u;
+}
+
+/// The collection that a joint acts in belongs to one of its ends.
+bool isInside(const State& state, const Joint& joint, const Collection& c) {
+  const bool at =
+      state[joint.a].rigid == c.rigid || (!joint.to_world && state[joint.b].rigid == c.rigid);
+  return at && holds(state, joint) && isInside(state, joint);
+}
+
+bool floats(const State& state, std::uint32_t body) {
+  return body < state.bodies.size() && state.rigid(BodyId{body}).floating();
+}
+
+}  // namespace
+
+void layOutJoints(const State& state, Collection& c) {
+  c.joints.clear();
+  for (std::uint32_t i = 0; i < state.joints.size(); ++i) {
+    const Joint& joint = state.joints[i];
+    if (!isInside(state, joint, c)) continue;
+    c.joints.push_back(makeBlock(state, i, state[c.rigid].frame(), JointRows::Rigid,
+                                 memberMasses(state, c, bodyIndexA(joint)),
+                                 memberMasses(state, c, bodyIndexB(state, joint))));
+  }
+}
+
+void listSweepJoints(const State& state, Scratch& scratch) {
+  scratch.sweep_joints.clear();
+  const auto& u = scratch.sweep_u;
+  for (std::uint32_t i = 0; i < state.joints.size(); ++i) {
+    const Joint& joint = state.joints[i];
+    if (!holds(state, joint) || isInside(state, joint)) continue;
+    const bool swept =
+        isSweptMember(state, joint.a) || (!joint.to_world && isSweptMember(state, joint.b));
+    const std::uint32_t a = bodyIndexA(joint), b = bodyIndexB(state, joint);
+    if (!swept || (u[a].inv_mass == 0.0 && u[b].inv_mass == 0.0)) continue;
+    scratch.sweep_joints.push_back(makeBlock(state, i, {}, JointRows::Soft, u[a], u[b]));
+    for (const std::uint32_t body : {a, b}) {
+      if (body < state.bodies.size()) scratch.near_collection[body] = 1;
+    }
+  }
+}
+
+void warmStartSweepJoints(const State& state, Scratch& scratch) {
+  auto& u = scratch.sweep_u;
+  std::size_t row = 0;
+  for (std::uint32_t i = 0; i < state.joints.size(); ++i) {
+    const Joint& joint = state.joints[i];
+    const auto& rows = scratch.sweep_joints;
+    const std::uint32_t a = bodyIndexA(joint), b = bodyIndexB(state, joint);
+    if (row < rows.size() && rows[row].joint == i) {
+      applyJointImpulses(rows[row++], {}, u[a], u[b]);
+      continue;
+    }
+    const auto near = [&](std::uint32_t body) {
+      return body < state.bodies.size() && scratch.near_collection[body] != 0;
+    };
+    if (!holds(state, joint) || isInside(state, joint) || (!near(a) && !near(b))) continue;
+    applyJointImpulses(makeBlock(state, i, {}, JointRows::Soft, u[a], u[b]), {}, u[a], u[b]);
+  }
+}
+
+void keepJointForces(State& state, const Scratch& scratch) {
+  for (const JointBlock& k : scratch.sweep_joints) {
+    if (floats(state, k.a) || floats(state, k.b)) continue;
+    Joint& joint = state.joints[k.joint];
+    joint.lambda = k.lambda;
+    if (breaks(state, joint)) breakJoint(state, joint);
+  }
+  for (const Collection& c : state.collections) {
+    if (c.id == kNoCollection || state[c.rigid].asleep) continue;
+    for (const JointBlock& k : c.joints) state.joints[k.joint].lambda = k.lambda;
+  }
+}
+
+}  // namespace merge2d

@@ -1,0 +1,205 @@
+#include "src2d/merging/joint_welds.h"
+
+#include <algorithm>
+
+#include "src2d/merging/collection.h"
+#include "src2d/merging/merge.h"
+#include "src2d/merging/sweep.h"
+
+namespace merge2d {
+namespace {
+
+using Pair = std::pair<BodyId, BodyId>;
+
+Pair pairOf(const Joint& joint) { return std::minmax(joint.a, joint.b); }
+Pair pairOf(const Weld& weld) { return {weld.a, weld.b}; }
+
+Vec2 endOf(const State& state, const Joint& joint) {
+  return joint.to_world ? joint.anchor_b : state.pose(joint.b) * joint.anchor_b;
+}
+
+/// The relative freedoms that the joints of one pair take away.
+struct Hold {
+  int freedoms = 0;
+  bool pivot = false;      ///< some point is shared
+  Vec2 at = Vec2::Zero();  ///< in the world, a shared one if there is any [m]
+  void add(const State& state, const Joint& joint, int taken) {
+    if (freedoms == 0 || (joint.kind == JointKind::Revolute && !pivot)) at = endOf(state, joint);
+    freedoms += taken;
+    pivot |= joint.kind == JointKind::Revolute;
+  }
+  /// In contacts: a pivot takes two freedoms, three are all.
+  int contacts() const {
+    if (freedoms >= 3) return 2;
+    return freedoms == 2 && pivot ? 1 : 0;
+  }
+};
+
+/// Inside a collection motor and limit hold until they have yielded.
+int freedomsInside(const State& state, const JointBlock& k) {
+  const Joint& joint = state.joints[k.joint];
+  if (joint.kind == JointKind::Weld) return 3;
+  const auto yields = [&](std::size_t row) {
+    return std::abs(joint.yielded[row - kMotorRow]) > state.settings.unmerging.sliding;
+  };
+  const bool brake = k.motor && joint.motor->speed == 0.0 && !yields(kMotorRow);
+  const bool limit = k.limit && k.rows[kLimitRow].bias == 0.0 && !yields(kLimitRow);
+  if (joint.kind == JointKind::Distance) return (joint.limits ? limit : joint.stiffness == 0.0);
+  return brake || limit ? 3 : 2;
+}
+
+Hold holdOf(const State& state, const Collection& c, const Weld& weld) {
+  Hold hold;
+  for (const JointBlock& k : c.joints) {
+    const Joint& joint = state.joints[k.joint];
+    if (joint.to_world || pairOf(joint) != pairOf(weld)) continue;
+    hold.add(state, joint, freedomsInside(state, k));
+  }
+  return hold;
+}
+
+/// True when some weld holds less than before.
+bool updateWelds(const State& state, Collection& c) {
+  bool less = false;
+  for (Weld& weld : c.welds) {
+    const int contacts = holdOf(state, c, weld).contacts();
+    c.pivots_stale |= contacts != weld.joints;
+    less |= contacts < weld.joints;
+    weld.joints = contacts;
+  }
+  return less;
+}
+
+/// Calls `f(yielded, w)` for motors and limits, with the velocity at them, 0 inside their bounds.
+template <class F>
+void forEachBound(State& state, const Collection& c, const std::vector<SolverVelocity>& u, F&& f) {
+  const Rotation& turn = state[c.rigid].rotation;
+  for (const JointBlock& k : c.joints) {
+    for (const std::size_t row : {kMotorRow, kLimitRow}) {
+      if (!(row == kMotorRow ? k.motor : k.limit)) continue;
+      const JointRow& r = k.rows[row];
+      const bool inside = k.lambda[row] > r.lower && k.lambda[row] < r.upper;
+      const double w = inside ? 0.0 : jointVelocity(r, turn, u[k.a], u[k.b]);
+      f(state.joints[k.joint].yielded[row - kMotorRow], w, inside);
+    }
+  }
+}
+
+/// Records one decision if somebody asks; `now` is the count after it.
+void record(const Scratch& scratch, const Joint& joint, std::string_view criterion,
+            std::string_view equation, double value, double threshold, int now, int needed) {
+  if (!scratch.notes) return;
+  const auto [a, b] = pairOf(joint);
+  scratch.notes->decisions.push_back({.a = a,
+                                      .b = b,
+                                      .stage = "AccumulateRelativeMotion",
+                                      .criterion = criterion,
+                                      .equation = equation,
+                                      .value = value,
+                                      .threshold = threshold,
+                                      .count = now,
+                                      .needed = needed,
+                                      .verdict = value < threshold ? "below" : "apart",
+                                      .before = joint.quiet_steps});
+}
+
+}  // namespace
+
+Vec2 jointPoint(const State& state, const Collection& c, const Weld& weld) {
+  return state[c.rigid].frame().inverse() * holdOf(state, c, weld).at;
+}
+
+void addJointWelds(const State& state, Collection& c) {
+  for (const JointBlock& k : c.joints) {
+    const Joint& joint = state.joints[k.joint];
+    if (joint.to_world) continue;  // whoever is fixed to the world, is so by other means
+    const Pair pair = pairOf(joint);
+    const auto at = std::lower_bound(c.welds.begin(), c.welds.end(), pair,
+                                     [](const Weld& w, const Pair& p) { return pairOf(w) < p; });
+    if (at != c.welds.end() && pairOf(*at) == pair) continue;
+    c.welds.insert(at, Weld{.a = pair.first, .b = pair.second});
+  }
+  if (!c.joints.empty()) updateWelds(state, c);
+}
+
+bool loosenJoints(State& state, Collection& c, const std::vector<SolverVelocity>& u) {
+  if (c.joints.empty()) return false;
+  forEachBound(state, c, u, [](float& yielded, double w, bool inside) {
+    yielded = inside ? 0.0F : yielded + static_cast<float>(w);
+  });
+  return updateWelds(state, c);
+}
+
+void confirmJoints(State& state, Collection& c, const std::vector<SolverVelocity>& u) {
+  if (c.joints.empty()) return;
+  forEachBound(state, c, u, [&](float& yielded, double w, bool inside) {
+    if (inside || std::abs(w) < residualVelocity(state)) yielded = 0.0F;
+  });
+  updateWelds(state, c);
+}
+
+bool anyJointBreaks(const State& state, const Collection& c) {
+  return std::any_of(c.joints.begin(), c.joints.end(),
+                     [&](const JointBlock& k) { return breaks(state, state.joints[k.joint]); });
+}
+
+void breakJointsInside(State& state, Collection& c) {
+  saveForces(c);
+  c.stale = true;
+  for (const JointBlock& k : c.joints) {
+    Joint& joint = state.joints[k.joint];
+    if (breaks(state, joint)) breakJoint(state, joint);
+  }
+  std::erase_if(c.joints, [&](const JointBlock& k) { return state.joints[k.joint].broken; });
+  for (Weld& weld : c.welds) {
+    const bool held = weld.joints > 0;
+    weld.joints = holdOf(state, c, weld).contacts();
+    if (!held || weld.joints > 0 || weld.count > 0) continue;
+    weld.cut = true;
+    weld.reason = EventReason::Broken;
+  }
+}
+
+void countQuietJoints(State& state, Scratch& scratch) {
+  const MergingSettings& m = state.settings.merging;
+  for (Joint& joint : state.joints) {
+    if (joint.to_world || !holds(state, joint) || isInside(state, joint)) continue;
+    const Rigid &a = state.rigid(joint.a), &b = state.rigid(joint.b);
+    if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) continue;
+    const auto [first, second] = pairOf(joint);
+    const double motion = relativeMotion(state, {first, second, 0, 0}, scratch.notes);
+    const bool quiet = joint.breath < m.breathing && motion < m.velocity;
+    const int now = quiet ? joint.quiet_steps + 1 : 0;
+    record(scratch, joint, "breathing", "Section 5.3", joint.breath, m.breathing, now, m.steps);
+    record(scratch, joint, "relative-motion", "(17)", motion, m.velocity, now, m.steps);
+    joint.yielded = {};
+    joint.quiet_steps = now;
+  }
+}
+
+std::vector<JointEdge> readyJoints(const State& state) {
+  std::vector<std::pair<Pair, Hold>> ready;
+  for (const Joint& joint : state.joints) {
+    const bool quiet = joint.quiet_steps >= state.settings.merging.steps && !joint.to_world;
+    if (!quiet || !holds(state, joint) || isInside(state, joint)) continue;
+    ready.push_back({pairOf(joint), {}});
+    ready.back().second.add(state, joint, freedomsTaken(state, joint));
+  }
+  std::stable_sort(ready.begin(), ready.end(),
+                   [](const auto& x, const auto& y) { return x.first < y.first; });
+  std::vector<JointEdge> edges;
+  for (std::size_t i = 0; i < ready.size();) {
+    const auto& [pair, first] = ready[i];
+    Hold hold = first;
+    for (++i; i < ready.size() && ready[i].first == pair; ++i) {
+      hold.freedoms += ready[i].second.freedoms;
+      hold.pivot |= ready[i].second.pivot;
+    }
+    if (hold.contacts() > 0) {
+      edges.push_back({pair.first, pair.second, hold.contacts(), hold.at});
+    }
+  }
+  return edges;
+}
+
+}  // namespace merge2d

@@ -1,0 +1,46 @@
+#pragma once
+/// What joints hold in a collection. In the contacts' coin: a revolute joint is a pivot, as a
+/// single contact is, and holds only in a rigid group or beside another contact or joint; a weld
+/// holds alone; so do a strong enough brake and a limit that presses.
+
+#include "src2d/dynamics/state.h"
+#include "src2d/merging/cycles.h"
+
+namespace merge2d {
+
+/// Adds a weld for each pair of bodies that has joints inside the collection, and says what they
+/// hold just now. Welds stay ascending.
+void addJointWelds(const State& state, Collection& collection);
+
+/// Where the joints of a weld hold, in the collection's frame.
+Vec2 jointPoint(const State& state, const Collection& collection, const Weld& weld);
+
+/// After a sweep with the velocities `u`: says anew what the joints of each weld hold. A limit lets
+/// go, and a brake yields, once the velocities that the sweep finds there sum up to
+/// `unmerging.sliding`. True when some weld holds less.
+bool loosenJoints(State& state, Collection& collection, const std::vector<SolverVelocity>& u);
+
+/// The same after more sweeps in the same step: what they do not confirm is forgotten.
+void confirmJoints(State& state, Collection& collection, const std::vector<SolverVelocity>& u);
+
+/// True when a joint inside bears more than it can.
+bool anyJointBreaks(const State& state, const Collection& collection);
+
+/// Breaks these joints; the collection is to be laid out anew.
+void breakJointsInside(State& state, Collection& collection);
+
+/// Counts the steps in which the bodies of each joint could have merged: Eqs. (15)-(17), and the
+/// joint must have come to rest.
+void countQuietJoints(State& state, Scratch& scratch);
+
+/// A pair of bodies that joints alone hold together, as so many contacts would.
+struct JointEdge {
+  BodyId a{}, b{};
+  int contacts = 0;
+  Vec2 at = Vec2::Zero();  ///< in the world [m]
+};
+
+/// The pairs whose joints were quiet for `merging.steps` steps, ascending.
+std::vector<JointEdge> readyJoints(const State& state);
+
+}  // namespace merge2d

@@ -1,0 +1,171 @@
+#pragma once
+/// What a saved state holds: every member of everything that lives across time steps. Each list
+/// names all members of its struct, so that a new one is a compile error here, not a run that
+/// continues differently.
+
+#include <concepts>
+#include <type_traits>
+
+#include "src2d/dynamics/forces.h"
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// T or const T: an archive writes the one and reads the other.
+template <class T, class U>
+concept Some = std::same_as<std::remove_const_t<T>, U>;
+
+template <class Ar>
+void fields(Ar& ar, Some<Rotation> auto& r) {
+  auto& [c, s] = r;
+  ar(c, s);
+}
+template <class Ar>
+void fields(Ar& ar, Some<Pose> auto& p) {
+  auto& [position, rotation] = p;
+  ar(position, rotation);
+}
+template <class Ar>
+void fields(Ar& ar, Some<Aabb> auto& box) {
+  auto& [lower, upper] = box;
+  ar(lower, upper);
+}
+template <class Ar>
+void fields(Ar& ar, Some<OrientedBox> auto& box) {
+  auto& [frame, half] = box;
+  ar(frame, half);
+}
+template <class Ar>
+void fields(Ar& ar, Some<Twist> auto& t) {
+  auto& [vx, vy, omega] = t;
+  ar(vx, vy, omega);
+}
+template <class Ar>
+void fields(Ar& ar, Some<Drift> auto& d) {
+  auto& [sum, steps] = d;
+  ar(sum, steps);
+}
+
+/// Of the leaf only whether there is one: the tree is built anew.
+template <class Ar>
+void fields(Ar& ar, Some<Rigid> auto& r) {
+  auto& [x, angle, rotation, previous_rotation, center, v, omega, mass, inertia, inv_mass,
+         inv_inertia, anchor, bounds, box, leaf, quiet_steps, asleep, resized] = r;
+  bool present = r.present();
+  ar(x, angle, rotation, previous_rotation, center, v, omega, mass, inertia, inv_mass, inv_inertia,
+     anchor, bounds, box, present, quiet_steps, asleep, resized);
+  if constexpr (!std::is_const_v<std::remove_reference_t<decltype(r)>>) leaf = present ? 0 : -1;
+}
+template <class Ar>
+void fields(Ar& ar, Some<Body> auto& b) {
+  auto& [first_shape, shape_count, mass, inertia, friction, restitution, pinned_until, motion,
+         alive, magnet_on, load, load_asleep, rigid, local, local_angle, local_rotation] = b;
+  ar(first_shape, shape_count, mass, inertia, friction, restitution, pinned_until, motion, alive,
+     magnet_on, load, load_asleep, rigid, local, local_angle, local_rotation);
+}
+
+template <class Ar>
+void fields(Ar& ar, Some<ContactKey> auto& k) {
+  auto& [a, b, shape_a, shape_b] = k;
+  ar(a, b, shape_a, shape_b);
+}
+template <class Ar>
+void fields(Ar& ar, Some<ContactPoint> auto& p) {
+  auto& [position, gap, breath, feature, fresh, approach, lambda_n, lambda_t, w_n, w_t] = p;
+  ar(position, gap, breath, feature, fresh, approach, lambda_n, lambda_t, w_n, w_t);
+}
+template <class Ar>
+void fields(Ar& ar, Some<Contact> auto& c) {
+  auto& [key, normal, count, points, mu, restitution, quiet_steps] = c;
+  ar(key, normal, count, points, mu, restitution, quiet_steps);
+}
+template <class Ar>
+void fields(Ar& ar, Some<ContactTable::Entry> auto& e) {
+  auto& [key, slot] = e;
+  ar(key, slot);
+}
+template <class Ar>
+void fields(Ar& ar, Some<ContactTable> auto& t) {
+  auto& [slots, free_slots, order] = t;
+  ar(slots, free_slots, order);
+}
+template <class Ar>
+void fields(Ar& ar, Some<NearPair> auto& p) {
+  auto& [a, b, corners, fresh] = p;
+  ar(a, b, corners, fresh);
+}
+
+template <class Ar>
+void fields(Ar& ar, Some<ContactBlock> auto& k) {
+  auto& [a, b, count, bilateral, nx, ny, arm_an, arm_bn, arm_at, arm_bt, k11, k12, k22, inv_det,
+         inv_kt, softness, bias, mu, lambda] = k;
+  ar(a, b, count, bilateral, nx, ny, arm_an, arm_bn, arm_at, arm_bt, k11, k12, k22, inv_det, inv_kt,
+     softness, bias, mu, lambda);
+}
+template <class Ar>
+void fields(Ar& ar, Some<JointRow> auto& r) {
+  auto& [dx, dy, arm_a, arm_b, bias, softness, inv_k, lower, upper] = r;
+  ar(dx, dy, arm_a, arm_b, bias, softness, inv_k, lower, upper);
+}
+template <class Ar>
+void fields(Ar& ar, Some<JointBlock> auto& k) {
+  auto& [a, b, joint, coupled, motor, limit, rows, inverse, lambda] = k;
+  ar(a, b, joint, coupled, motor, limit, rows, inverse, lambda);
+}
+/// The constants come from the scene.
+template <class Ar>
+void fields(Ar& ar, Some<Joint> auto& j) {
+  auto& [kind, a, b, to_world, anchor_a, anchor_b, axis, reference, length, stiffness, damping,
+         limits, motor, break_force, break_torque, collide, broken, lambda, error, breath,
+         quiet_steps, yielded] = j;
+  ar(broken, lambda, error, breath, quiet_steps, yielded);
+}
+
+template <class Ar>
+void fields(Ar& ar, Some<InternalContact> auto& c) {
+  auto& [contact, active, lost, slip, opening, since] = c;
+  ar(contact, active, lost, slip, opening, since);
+}
+template <class Ar>
+void fields(Ar& ar, Some<Weld> auto& w) {
+  auto& [a, b, first, count, joints, loud_steps, cut, reason] = w;
+  ar(a, b, first, count, joints, loud_steps, cut, reason);
+}
+template <class Ar>
+void fields(Ar& ar, Some<Collection> auto& c) {
+  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
+         cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v, frame_gain,
+         frame_known, settled, refuted] = c;
+  ar(id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
+     cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v, frame_gain,
+     frame_known, settled, refuted);
+}
+
+/// What moves of a state; constants come from the scene, trees are built anew.
+template <class Ar>
+void fields(Ar& ar, Some<State> auto& state) {
+  auto& [settings, mode, h, gravity, colliders, collider_bounds, shape_collider, shape_body,
+         first_sibling, siblings, step, time, bodies, rigids, collections, next_collection,
+         contacts, joints, joined_pairs, broadphase] = state;
+  ar(step, time, bodies, rigids, collections, next_collection, contacts, joints, joined_pairs,
+     broadphase.near);
+}
+
+template <class Ar>
+void fields(Ar& ar, Some<Kick> auto& k) {
+  auto& [body, at, impulse] = k;
+  ar(body, at, impulse);
+}
+template <class Ar>
+void fields(Ar& ar, Some<Actions::Launch> auto& l) {
+  auto& [body, v, omega, done] = l;
+  ar(body, v, omega, done);
+}
+template <class Ar>
+void fields(Ar& ar, Some<Actions> auto& actions) {
+  auto& [springs, forces, impulses, magnets, emissions, next_impulse, next_emission, scripts,
+         user_kicks, launches] = actions;
+  ar(next_impulse, next_emission, user_kicks, launches);
+}
+
+}  // namespace merge2d

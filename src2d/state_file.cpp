@@ -1,0 +1,240 @@
+#include "src2d/state_file.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "src2d/contact/broadphase.h"
+#include "src2d/core/error.h"
+#include "src2d/scene/load.h"
+#include "src2d/state_fields.h"
+
+namespace merge2d {
+namespace {
+
+constexpr std::uint32_t kVersion = 1;
+
+/// FNV-1a, 64 bits: finds damage, not malice.
+std::uint64_t hashOf(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+/// Changes when a table of the program does.
+std::uint64_t layoutHash() {
+  return hashOf(fmt::format("{} {} {} {} {} {} {} {}", sizeof(Rigid), sizeof(Body), sizeof(Contact),
+                            sizeof(Collection), sizeof(ContactBlock), sizeof(JointBlock),
+                            sizeof(Joint), sizeof(State)));
+}
+
+/// All of a scene that the simulation sees.
+std::uint64_t sceneHash(Scene scene) {
+  scene.title.clear();
+  scene.duration = 0.0;
+  scene.camera.reset();
+  return hashOf(toToml(scene));
+}
+
+template <class T>
+concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+class Writer {
+ public:
+  template <class... T>
+  void operator()(const T&... values) {
+    (put(values), ...);
+  }
+  std::string bytes;
+
+ private:
+  template <class T>
+  void put(const T& value) {
+    if constexpr (Plain<T>) {
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    } else {
+      fields(*this, value);
+    }
+  }
+  void put(const Vec2& v) { (*this)(v.x(), v.y()); }
+  void put(const Eigen::Matrix3d& m) {
+    for (Eigen::Index i = 0; i < m.size(); ++i) put(m(i));
+  }
+  template <class A, class B>
+  void put(const std::pair<A, B>& pair) {
+    (*this)(pair.first, pair.second);
+  }
+  template <class T, std::size_t n>
+  void put(const std::array<T, n>& array) {
+    for (const T& item : array) put(item);
+  }
+  template <class T, std::size_t n>
+  void put(const T (&array)[n]) {
+    for (const T& item : array) put(item);
+  }
+  template <class T>
+  void put(const std::vector<T>& list) {
+    put(static_cast<std::uint64_t>(list.size()));
+    for (const T& item : list) put(item);
+  }
+};
+
+/// The counterpart of Writer; throws InputError at the end of the bytes.
+class Reader {
+ public:
+  Reader(std::string_view bytes, const std::string& source) : rest_(bytes), source_(source) {}
+
+  template <class... T>
+  void operator()(T&... values) {
+    (get(values), ...);
+  }
+  std::size_t rest() const { return rest_.size(); }
+  [[noreturn]] void fail(std::string_view sentence) const {
+    throw InputError(fmt::format("{}: {}", source_, sentence));
+  }
+
+ private:
+  template <class T>
+  void get(T& value) {
+    if constexpr (Plain<T>) {
+      if (rest_.size() < sizeof value) fail("the snapshot is incomplete");
+      std::memcpy(&value, rest_.data(), sizeof value);
+      rest_.remove_prefix(sizeof value);
+    } else {
+      fields(*this, value);
+    }
+  }
+  void get(Vec2& v) { (*this)(v.x(), v.y()); }
+  void get(Eigen::Matrix3d& m) {
+    for (Eigen::Index i = 0; i < m.size(); ++i) get(m(i));
+  }
+  template <class A, class B>
+  void get(std::pair<A, B>& pair) {
+    (*this)(pair.first, pair.second);
+  }
+  template <class T, std::size_t n>
+  void get(std::array<T, n>& array) {
+    for (T& item : array) get(item);
+  }
+  template <class T, std::size_t n>
+  void get(T (&array)[n]) {
+    for (T& item : array) get(item);
+  }
+  template <class T>
+  void get(std::vector<T>& list) {
+    std::uint64_t size = 0;
+    get(size);
+    if (size > rest_.size()) fail("the snapshot is damaged");  // an item has at least one byte
+    list.resize(size);
+    for (T& item : list) get(item);
+  }
+
+  std::string_view rest_;
+  const std::string& source_;
+};
+
+struct Header {
+  std::uint32_t version = kVersion;
+  std::uint64_t layout = layoutHash();
+  std::uint64_t scene = 0;
+  Mode mode = Mode::Reference;
+};
+
+template <class Ar>
+void fields(Ar& ar, Some<Header> auto& header) {
+  auto& [version, layout, scene, mode] = header;
+  ar(version, layout, scene, mode);
+}
+
+/// The boxes that the broadphase keeps around everything, per rigid thing that is present.
+std::vector<Aabb> fatBoxes(const State& state) {
+  std::vector<Aabb> boxes;
+  for (const Rigid& r : state.rigids) {
+    if (r.present()) boxes.push_back(state.broadphase.tree.fatBox(r.leaf));
+  }
+  return boxes;
+}
+
+/// The header, after checking that the bytes are whole and fit.
+void readHeader(Reader& read, const Scene& scene, Mode mode) {
+  Header header;
+  read(header);
+  if (header.version != kVersion || header.layout != layoutHash()) {
+    read.fail("the snapshot was written by another version of merge2d; run the scene again");
+  }
+  if (header.scene != sceneHash(scene)) {
+    read.fail(fmt::format("the snapshot is of another scene than '{}', or of other parameters",
+                          scene.name));
+  }
+  if (header.mode != mode) {
+    read.fail(
+        fmt::format("the snapshot was made with --mode {}, not {}", name(header.mode), name(mode)));
+  }
+}
+
+std::string_view checkedPayload(std::string_view bytes, const std::string& source) {
+  const auto fail = [&](const char* sentence) {
+    throw InputError(fmt::format("{}: {}", source, sentence));
+  };
+  std::uint64_t checksum = 0;
+  if (!bytes.starts_with(kStateStart)) fail("this is no snapshot of merge2d");
+  if (bytes.size() < kStateStart.size() + sizeof checksum) fail("the snapshot is incomplete");
+  const std::string_view payload = bytes.substr(0, bytes.size() - sizeof checksum);
+  std::memcpy(&checksum, bytes.data() + payload.size(), sizeof checksum);
+  if (hashOf(payload) != checksum)
+    fail("the snapshot is incomplete or damaged: its checksum differs");
+  return payload.substr(kStateStart.size());
+}
+
+/// Everything leaves the broadphase of the fresh setup.
+void clearBroadphase(State& state) {
+  for (std::uint32_t i = 0; i < state.rigids.size(); ++i) {
+    if (state.rigids[i].present()) removeRigid(state, RigidId{i});
+  }
+}
+
+/// Trees with the boxes that they had: those of shapes follow from where these are.
+void buildTrees(State& state, const std::vector<Aabb>& boxes) {
+  auto& broadphase = state.broadphase;
+  broadphase.shape_trees.resize(state.rigids.size());
+  std::size_t box = 0;
+  for (std::uint32_t i = 0; i < state.rigids.size(); ++i) {
+    Rigid& r = state.rigids[i];
+    if (r.present()) r.leaf = broadphase.tree.insertFat(boxes.at(box++), i);
+  }
+  for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
+    const Body& body = state.bodies[i];
+    const bool compound = body.alive && body.shape_count > 1;
+    if (compound && !broadphase.shape_trees[i]) addShapes(state, RigidId{i}, {BodyId{i}});
+  }
+  for (const Collection& c : state.collections) {
+    if (c.id != kNoCollection) addShapes(state, c.rigid, c.members);
+  }
+}
+
+}  // namespace
+
+std::string saveState(const Scene& scene, const Setup& setup) {
+  Writer write;
+  write.bytes = kStateStart;
+  Header header;
+  header.scene = sceneHash(scene);
+  header.mode = setup.state.mode;
+  write(header, setup.state, setup.actions, fatBoxes(setup.state));
+  const std::uint64_t checksum = hashOf(write.bytes);
+  write(checksum);
+  return std::move(write.bytes);
+}
+
+void restoreState(std::string_view bytes, const std::string& source, const Scene& scene,
+                  Setup& setup) {
+  Reader read(checkedPayload(bytes, source), source);
+  readHeader(read, scene, setup.state.mode);
+  clearBroadphase(setup.state);
+  std::vector<Aabb> boxes;
+  read(setup.state, setup.actions, boxes);
+  if (read.rest() > 0) read.fail("the snapshot is damaged: it goes on after its end");
+  buildTrees(setup.state, boxes);
+}
+
+}  // namespace merge2d

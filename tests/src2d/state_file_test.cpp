@@ -1,0 +1,184 @@
+/// A run that continues from saved bytes is the run that never stopped, bit for bit.
+
+#include "src2d/state_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "src2d/core/error.h"
+#include "tests/support/fingerprint.h"
+#include "tests/support/scenes.h"
+
+namespace merge2d {
+namespace {
+
+using testing::HasSubstr;
+
+/// Something of everything: compounds, joints, magnets, emitters, springs, scripts and launches.
+const std::string kMixed = R"(
+format = 1
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [40, 1]
+[[body]]
+name = "brick"
+at = [0.3, 0.5]
+box = [1, 1]
+repeat = { count = [3, 4], spacing = [1.01, 1.0], stagger = 0.5 }
+[[body]]
+name = "ball"
+at = [-9, 2]
+circle = 0.4
+velocity = [9, 1]
+pinned_until = 0.7
+[[body]]
+name = "tee"
+at = [-4, 0.7]
+shapes = [{ box = [0.2, 1] }, { box = [1, 0.2], at = [0, 0.6] }]
+[[body]]
+name = "arm"
+at = [-6, 2.7]
+box = [0.2, 1]
+[[body]]
+name = "lift"
+motion = "scripted"
+at = [8, 2]
+box = [2, 0.2]
+script = { axis = [0, 1], amplitude = 0.5, period = 2 }
+[[body]]
+name = "load"
+at = [8, 1.4]
+box = [0.8, 1]
+[[spring]]
+body = "tee"
+anchor = [0, 0.6]
+to = [-4, 3]
+stiffness = 20
+damping = 1
+[[joint]]
+kind = "revolute"
+bodies = ["arm"]
+at = [-6, 3.2]
+motor = { speed = 90, torque = 5 }
+[[joint]]
+kind = "weld"
+bodies = ["brick[0,3]", "brick[1,3]"]
+at = [2.4, 3.5]
+break_force = 300
+[[magnet]]
+body = "lift"
+on = [[0, 1.2]]
+[[impulse]]
+body = "brick[1,3]"
+at = [2, 3.5]
+impulse = [5, 0]
+time = 1.0
+[[emitter]]
+name = "rain"
+at = [4, 5]
+spread = [1, 0]
+shapes = [{ circle = 0.2 }, { box = [0.6, 0.1] }]
+every = 0.3
+count = 6
+)";
+
+World start(const Scene& scene, Mode mode) {
+  return World(scene, {.mode = mode, .timings = false});
+}
+
+/// The fingerprints of `steps` steps.
+std::vector<Fingerprint> follow(World& world, int steps) {
+  std::vector<Fingerprint> seen;
+  for (int i = 0; i < steps; ++i) {
+    world.step();
+    seen.emplace_back(world.capture());
+  }
+  return seen;
+}
+
+/// Stops after `at` steps, continues in a new world, and compares every bit for `more` steps.
+void expectTheSame(const Scene& scene, Mode mode, int at, int more) {
+  World whole = start(scene, mode);
+  follow(whole, at);
+  const std::string bytes = whole.save();
+  World resumed = start(scene, mode);
+  resumed.restore(bytes, "test");
+  EXPECT_EQ(resumed.steps(), at);
+  EXPECT_EQ(resumed.save(), bytes);
+  EXPECT_TRUE(follow(whole, more) == follow(resumed, more))
+      << scene.name << ", " << name(mode) << " from step " << at;
+  EXPECT_EQ(resumed.save(), whole.save());
+}
+
+TEST(StateFile, AResumedRunIsTheRunThatNeverStopped) {
+  const Scene scene = parseScene(kMixed, "mixed.toml");
+  for (const Mode mode : {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {
+    for (const int at : {0, 1, 40, 99, 100, 150}) expectTheSame(scene, mode, at, 100);
+  }
+}
+
+TEST(StateFile, SoItIsWithTheBuiltinScenes) {
+  for (const char* name : {"dominoes", "spinner", "books"}) {
+    expectTheSame(loadScene(name), Mode::MergeSleep, 120, 60);
+  }
+}
+
+/// The message of the error that restoring gives.
+std::string refusal(const std::string& bytes, const Scene& scene, Mode mode = Mode::MergeSleep) {
+  World world = start(scene, mode);
+  try {
+    world.restore(bytes, "saved.state");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+class StateFileErrors : public testing::Test {
+ protected:
+  Scene scene_ = parseScene(kMixed, "mixed.toml");
+  std::string bytes_ = [this] {
+    World world = start(scene_, Mode::MergeSleep);
+    follow(world, 20);
+    return world.save();
+  }();
+};
+
+TEST_F(StateFileErrors, WhatIsNoSnapshotIsRefused) {
+  EXPECT_EQ(refusal("format = 1", scene_), "saved.state: this is no snapshot of merge2d");
+  EXPECT_EQ(refusal("", scene_), "saved.state: this is no snapshot of merge2d");
+}
+
+TEST_F(StateFileErrors, WhatIsCutOffIsRefused) {
+  for (const std::size_t size : {std::size_t{13}, bytes_.size() / 2, bytes_.size() - 1}) {
+    EXPECT_THAT(refusal(bytes_.substr(0, size), scene_), HasSubstr("the snapshot is incomplete"));
+  }
+}
+
+TEST_F(StateFileErrors, AnyFlippedBitIsFound) {
+  for (std::size_t at = 13; at < bytes_.size(); at += bytes_.size() / 50) {
+    std::string damaged = bytes_;
+    damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    EXPECT_THAT(refusal(damaged, scene_), HasSubstr("damaged")) << at;
+  }
+}
+
+TEST_F(StateFileErrors, AnotherSceneIsRefused) {
+  Scene other = scene_;
+  other.settings.solver.iterations = 20;
+  EXPECT_EQ(refusal(bytes_, other),
+            "saved.state: the snapshot is of another scene than 'mixed', or of other parameters");
+  other = scene_;
+  other.duration = 100.0;
+  EXPECT_EQ(refusal(bytes_, other), "no error") << "how long it goes on does not matter";
+}
+
+TEST_F(StateFileErrors, AnotherModeIsRefused) {
+  EXPECT_EQ(refusal(bytes_, scene_, Mode::Reference),
+            "saved.state: the snapshot was made with --mode merge+sleep, not reference");
+}
+
+}  // namespace
+}  // namespace merge2d
