@@ -128,6 +128,29 @@ TEST(Spinner, MergesAtOrdinarySpeedAndNotAtHighSpeed) {
   EXPECT_EQ(merged({{"body.tray.script.spin", "120"}, {"step", "0.001"}}), 4);
 }
 
+TEST(Wagon, HitsTheBookcaseAndAllMergesWithTheMovingTruck) {
+  SceneRun run("wagon");
+  run.until(2.5);
+  for (int column = 0; column < 8; ++column) {
+    EXPECT_TRUE(run.together("wagon", cell("block", column, 4))) << "toys ride: " << column;
+  }
+  EXPECT_FALSE(run.merged("rear-wheel")) << "it rolls";
+  EXPECT_TRUE(run.anchored("bookcase"));
+  EXPECT_TRUE(run.anchored("book[2,4]"));
+  EXPECT_EQ(run.count(EventType::Unmerge), 0);
+  EXPECT_EQ(run.now().stats.active_bodies, 4);
+  run.until(3.3);
+  EXPECT_NEAR(static_cast<double>(run.first(EventType::Unmerge, "bookcase")), 300, 20);
+  EXPECT_GT(run.count(EventType::Unmerge), 20) << "the blow frees what it moves";
+  run.until(10.0);
+  EXPECT_EQ(run.now().stats.active_bodies, 1);
+  EXPECT_EQ(run.now().stats.asleep, 0) << "the truck drives on";
+  for (const char* name : {"wagon", "rear-wheel", "bookcase", "book[0,0]", "block[0,0]"}) {
+    EXPECT_TRUE(run.anchored(name)) << name;
+    EXPECT_NEAR(run.body(name).v.x(), 1.0, 1e-6) << name;
+  }
+}
+
 TEST(ShipCrane, EachGrabFreesTheContainerThatIsLifted) {
   SceneRun run("ship-crane");
   run.until(4.0);
