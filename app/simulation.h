@@ -32,7 +32,8 @@ class Simulation {
   std::int64_t steps() const { return steps_; }
   bool done() const { return world_.steps() >= steps_; }
 
-  /// Continues from a snapshot; `file` names it in messages. Throws InputError when it does not fit.
+  /// Continues from a snapshot; `file` names it in messages. Throws InputError when it does not
+  /// fit.
   void resume(std::string_view snapshot, const std::string& file) {
     world_.restore(snapshot, file);
   }

@@ -31,7 +31,7 @@ enum class Stabilisation {
 /// [solver]
 struct SolverSettings {
   SolverMethod method = SolverMethod::Nncg;
-  int iterations = 10;          ///< sweeps of the full solve, Section 8.1
+  int iterations = 10;  ///< sweeps of the full solve, Section 8.1
   Stabilisation stabilisation = Stabilisation::Baumgarte;
   double erp = 0.05;            ///< Baumgarte: part of the overlap that is removed per step [1]
   double compliance = 0.01;     ///< softness C = compliance · (1/mA + 1/mB), so it is [1]
