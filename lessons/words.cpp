@@ -89,7 +89,8 @@ std::string edge(const Decision& d) {
                      contacts(d.threshold), d.value > 1.0 ? "are" : "is", equationName(d.equation));
 }
 
-std::string cycle(const Decision& d) {
+/// `group` is the name of the group's first body.
+std::string cycle(const Decision& d, const std::string& group) {
   if (d.stage == "Unmerge") {
     return fmt::format(
         "{} of its own held, but the group that it needs to be rigid came apart "
@@ -99,9 +100,10 @@ std::string cycle(const Decision& d) {
   if (d.verdict == "merge") {
     return d.value >= d.threshold
                ? fmt::format("{} hold the pair rigidly (Section 8.2)", contacts(d.value))
-               : "its single contact is part of a rigid group (Section 8.2)";
+               : fmt::format("its single contact is part of the rigid group of {} (Section 8.2)",
+                             group);
   }
-  return "a single contact is a pivot, and no ring of three closes around it (Section 8.2)";
+  return "a single contact is a pivot, and no rigid group holds it (Section 8.2)";
 }
 
 std::string sleeping(const Decision& d) {
@@ -176,7 +178,9 @@ std::string Words::test(const Decision& d) const {
   }
   if (c == "cone") return cone(d);
   if (c == "edge") return edge(d);
-  if (c == "cycle") return cycle(d);
+  if (c == "cycle") {
+    return cycle(d, d.group < 0 ? "its own" : name(BodyId{static_cast<std::uint32_t>(d.group)}));
+  }
   if (c == "pressed") return "no contact between them carries a force (Section 5.3)";
   if (c == "broken") {
     return d.value > 0 ? fmt::format("{} left of the weld holds (Section 6.3)", contacts(d.value))

@@ -141,14 +141,25 @@ void fields(Ar& ar, Some<Collection> auto& c) {
      frame_known, settled, refuted);
 }
 
+template <class Ar>
+void fields(Ar& ar, Some<BodyPair> auto& p) {
+  auto& [a, b, first, count] = p;
+  ar(a, b, first, count);
+}
+template <class Ar>
+void fields(Ar& ar, Some<ReadyPair> auto& r) {
+  auto& [pair, node_a, node_b, contacts, joint_at] = r;
+  ar(pair, node_a, node_b, contacts, joint_at);
+}
+
 /// What moves of a state; constants come from the scene, trees are built anew.
 template <class Ar>
 void fields(Ar& ar, Some<State> auto& state) {
   auto& [settings, mode, h, gravity, colliders, collider_bounds, shape_collider, shape_body,
          first_sibling, siblings, step, time, bodies, rigids, collections, next_collection,
-         contacts, joints, joined_pairs, broadphase] = state;
+         contacts, joints, joined_pairs, broadphase, ready_before] = state;
   ar(step, time, bodies, rigids, collections, next_collection, contacts, joints, joined_pairs,
-     broadphase.near);
+     broadphase.near, ready_before);
 }
 
 template <class Ar>

@@ -209,6 +209,14 @@ struct TimedSpring {
   double stiffness = 0.0, damping = 0.0, rest_length = 0.0;
 };
 
+/// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.
+struct ReadyPair {
+  BodyPair pair;
+  std::uint32_t node_a = 0, node_b = 0;
+  int contacts = 0;              ///< active ones, or what joints are worth
+  Vec2 joint_at = Vec2::Zero();  ///< where there are no contacts
+};
+
 /// The state of a world between two steps.
 struct State {
   // constant
@@ -234,6 +242,7 @@ struct State {
   std::vector<Joint> joints;
   std::vector<std::pair<BodyId, BodyId>> joined_pairs;  ///< do not collide; ascending
   Broadphase broadphase;
+  std::vector<ReadyPair> ready_before;  ///< in the last step; those still there were not welded
 
   const Collider& collider(std::uint32_t shape) const { return colliders[shape_collider[shape]]; }
   const Aabb& bounds(std::uint32_t shape) const { return collider_bounds[shape_collider[shape]]; }
@@ -364,6 +373,9 @@ struct Scratch {
   // Unmerge
   bool split = false;                      ///< some collection was taken apart
   std::vector<std::uint32_t> cuts_before;  ///< welds of the collection at hand
+
+  // Merge
+  std::vector<ReadyPair> ready;  ///< ascending by bodies
 
   // SolveLCP
   std::vector<SolverVelocity> u;       ///< per rigid, and the world's

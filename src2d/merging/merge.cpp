@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <tuple>
 
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
@@ -199,14 +200,6 @@ void countQuietRigids(State& state, Notes* notes) {
   }
 }
 
-/// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.
-struct ReadyPair {
-  BodyPair pair;
-  std::uint32_t node_a = 0, node_b = 0;
-  int contacts = 0;              ///< active ones, or what joints are worth
-  Vec2 joint_at = Vec2::Zero();  ///< where there are no contacts
-};
-
 int activePoints(const State& state, const BodyPair& pair) { return lookAt(state, pair).active; }
 
 /// Rigid things as nodes; everything fixed to one frame is one node.
@@ -219,6 +212,7 @@ class MergeGraph {
     return r.floating() ? static_cast<std::uint32_t>(state_[b].rigid)
                         : rigids() + static_cast<std::uint32_t>(r.anchor);
   }
+  bool isFrame(std::uint32_t node) const { return node >= rigids(); }
   std::uint32_t nodes() const {
     return rigids() + static_cast<std::uint32_t>(state_.bodies.size() + 1);
   }
@@ -266,11 +260,13 @@ void noteMerge(const State& state, Notes* notes, const BodyPair& pair, Decision 
   notes->decisions.push_back(test);
 }
 
-/// The pairs that were ready for long enough.
-std::vector<ReadyPair> readyPairs(const State& state, const Scratch& scratch,
-                                  const MergeGraph& graph) {
+/// The contacts of a pair come before its joints.
+auto keyOf(const ReadyPair& r) { return std::tuple(r.pair.a, r.pair.b, r.pair.count == 0); }
+
+/// Collects the pairs that were ready for long enough.
+void listReadyPairs(const State& state, Scratch& scratch, const MergeGraph& graph) {
   const int needed = state.settings.merging.steps;
-  std::vector<ReadyPair> ready;
+  scratch.ready.clear();
   for (const BodyPair& pair : scratch.pairs) {
     const Contact& first = state.contacts[state.contacts.order[pair.first]];
     const bool counted = first.quiet_steps >= needed;
@@ -283,42 +279,111 @@ std::vector<ReadyPair> readyPairs(const State& state, const Scratch& scratch,
                  .verdict = counted ? "merge" : "wait"});
     }
     if (!counted) continue;
-    ready.push_back({.pair = pair,
-                     .node_a = graph.node(pair.a),
-                     .node_b = graph.node(pair.b),
-                     .contacts = activePoints(state, pair)});
+    scratch.ready.push_back({.pair = pair,
+                             .node_a = graph.node(pair.a),
+                             .node_b = graph.node(pair.b),
+                             .contacts = activePoints(state, pair)});
   }
   for (const JointEdge& joint : readyJoints(state)) {
-    ready.push_back({.pair = {joint.a, joint.b, 0, 0},
-                     .node_a = graph.node(joint.a),
-                     .node_b = graph.node(joint.b),
-                     .contacts = joint.contacts,
-                     .joint_at = joint.at});
+    scratch.ready.push_back({.pair = {joint.a, joint.b, 0, 0},
+                             .node_a = graph.node(joint.a),
+                             .node_b = graph.node(joint.b),
+                             .contacts = joint.contacts,
+                             .joint_at = joint.at});
   }
-  return ready;
+  std::stable_sort(scratch.ready.begin(), scratch.ready.end(),
+                   [](const ReadyPair& x, const ReadyPair& y) { return keyOf(x) < keyOf(y); });
 }
 
-/// The pairs to weld: ready, and held in the group that they would form.
-std::vector<BodyPair> pairsToWeld(const State& state, const Scratch& scratch) {
-  const MergingSettings& m = state.settings.merging;
-  const CycleCriterion criterion = m.rule == Rule::Paper ? CycleCriterion::Off : m.cycles;
-  const MergeGraph graph(state);
-  const std::vector<ReadyPair> ready = readyPairs(state, scratch, graph);
-  std::vector<BodyPair> welds;
-  if (ready.empty()) return welds;
-  const Groups group = heldGroups(graph.nodes(), graph.pinsOf(ready), criterion);
-  for (const ReadyPair& edge : ready) {
-    const bool held = group[edge.node_a] == group[edge.node_b];
-    if (held) welds.push_back(edge.pair);
-    if (criterion == CycleCriterion::Off) continue;
+/// True for a pair that was refused in the last step, being then what it is now.
+class Refused {
+ public:
+  explicit Refused(const std::vector<ReadyPair>& before) : before_(before) {}
+
+  /// To be asked in ascending order.
+  bool operator()(const ReadyPair& now) {
+    while (next_ < before_.size() && keyOf(before_[next_]) < keyOf(now)) ++next_;
+    if (next_ == before_.size() || keyOf(before_[next_]) != keyOf(now)) return false;
+    const ReadyPair& then = before_[next_++];
+    return then.node_a == now.node_a && then.node_b == now.node_b && now.contacts <= then.contacts;
+  }
+
+ private:
+  const std::vector<ReadyPair>& before_;
+  std::size_t next_ = 0;
+};
+
+/// The ready pairs about which there is something new. One contact more can only make a group more
+/// rigid, one less only less: pairs that were refused are looked at again when they hang together
+/// with one that is new, other than through a frame.
+std::vector<ReadyPair> pairsToJudge(const State& state, const Scratch& scratch,
+                                    const MergeGraph& graph) {
+  std::vector<std::uint8_t> fresh;
+  Refused refused(state.ready_before);
+  for (const ReadyPair& edge : scratch.ready) fresh.push_back(!refused(edge));
+  std::vector<ReadyPair> pairs;
+  if (std::find(fresh.begin(), fresh.end(), 1) == fresh.end()) return pairs;
+
+  DisjointSets parts;
+  parts.reset(graph.nodes());
+  for (const ReadyPair& edge : scratch.ready) {
+    if (!graph.isFrame(edge.node_a) && !graph.isFrame(edge.node_b)) {
+      parts.unite(edge.node_a, edge.node_b);
+    }
+  }
+  const auto part = [&](const ReadyPair& edge) {
+    return parts.find(graph.isFrame(edge.node_a) ? edge.node_b : edge.node_a);
+  };
+  std::vector<std::uint8_t> renewed(graph.nodes(), 0);
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    if (fresh[i] != 0) renewed[part(scratch.ready[i])] = 1;
+  }
+  for (const ReadyPair& edge : scratch.ready) {
+    if (renewed[part(edge)] != 0) pairs.push_back(edge);
+  }
+  return pairs;
+}
+
+/// Writes down for each ready pair which group holds it, if any does. `group` is empty when nothing
+/// was judged.
+void noteGroups(const State& state, Scratch& scratch, const Groups& group) {
+  if (!scratch.notes) return;
+  const auto held = [&](const ReadyPair& edge) {
+    return !group.empty() && group[edge.node_a] == group[edge.node_b];
+  };
+  std::vector<std::int32_t> first_body(group.size(), -1);
+  for (const ReadyPair& edge : scratch.ready) {  // ascending
+    if (!held(edge)) continue;
+    std::int32_t& first = first_body[group[edge.node_a]];
+    if (first < 0) first = static_cast<std::int32_t>(edge.pair.a);
+  }
+  for (const ReadyPair& edge : scratch.ready) {
     noteMerge(state, scratch.notes, edge.pair,
               {.criterion = "cycle",
                .equation = "Section 8.2",
                .value = static_cast<double>(edge.contacts),
                .threshold = 2.0,
-               .verdict = held ? "merge" : "wait"});
+               .verdict = held(edge) ? "merge" : "wait",
+               .group = held(edge) ? first_body[group[edge.node_a]] : -1});
   }
-  return welds;
+}
+
+/// The pairs to weld: ready, and held in the group that they would form.
+std::vector<BodyPair> pairsToWeld(State& state, Scratch& scratch) {
+  const MergingSettings& m = state.settings.merging;
+  const CycleCriterion criterion = m.rule == Rule::Paper ? CycleCriterion::Off : m.cycles;
+  const MergeGraph graph(state);
+  listReadyPairs(state, scratch, graph);
+  const std::vector<ReadyPair> pairs = pairsToJudge(state, scratch, graph);
+  Groups group;
+  std::vector<BodyPair> held;
+  if (!pairs.empty()) group = heldGroups(graph.nodes(), graph.pinsOf(pairs), criterion);
+  for (const ReadyPair& edge : pairs) {
+    if (group[edge.node_a] == group[edge.node_b]) held.push_back(edge.pair);
+  }
+  if (criterion != CycleCriterion::Off) noteGroups(state, scratch, group);
+  std::swap(state.ready_before, scratch.ready);
+  return held;
 }
 
 /// Welds one pair, unless what they are fixed to moves differently.

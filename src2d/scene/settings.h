@@ -50,7 +50,7 @@ struct MergingSettings {
   double breathing = 1e-5;  ///< largest change of the overlap between two steps [m]
   double sliding = 1e-2;    ///< slip threshold, Eq. (18) [m/s]
   int steps = 3;            ///< consecutive steps for which the criteria must hold
-  CycleCriterion cycles = CycleCriterion::Triangle;
+  CycleCriterion cycles = CycleCriterion::Rigid;
 };
 
 /// [unmerging], Table 1

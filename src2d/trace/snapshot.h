@@ -125,6 +125,8 @@ struct Decision {
   std::string_view verdict{};  ///< "merge", "wait", "apart", "keep", "unmerge", …
   int before = 0;              ///< the count up to the last step
   Vec2 at = Vec2::Zero();      ///< of tests of one contact: where it is, in the world [m]
+  std::int32_t group =
+      -1;  ///< of "cycle": the first body of the pairs that hold together; −1: none
 };
 
 /// The eleven stages of Algorithm 1, in order.

@@ -96,7 +96,9 @@ void writeDecision(JsonText& out, const Decision& d) {
   out.field("criterion", d.criterion).field("equation", d.equation);
   out.field("value", d.value).field("threshold", d.threshold);
   out.field("margin", d.threshold - d.value).field("count", d.count).field("needed", d.needed);
-  out.field("verdict", d.verdict).close('}');
+  out.field("verdict", d.verdict);
+  if (d.group >= 0) out.field("group", d.group);
+  out.close('}');
 }
 
 void writeSeconds(JsonText& out, const Stats& stats) {

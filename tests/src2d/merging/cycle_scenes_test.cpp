@@ -111,5 +111,23 @@ TEST(TrussArch, ThreeBodiesHoldAndFourDoNotUnlessTheCriterionIsOff) {
   }
 }
 
+TEST(TrussArch, TheDecisionsNameTheGroup) {
+  const Scene scene = loadScene("truss-arch");
+  World world(scene, {.mode = Mode::Merge, .timings = false, .decisions = true});
+  std::set<std::string> group;
+  for (int k = 0; k < kSteps && group.empty(); ++k) {
+    world.step();
+    const Snapshot s = world.capture();
+    for (const Decision& d : s.decisions) {
+      if (d.stage != "Merge" || d.criterion != "cycle") continue;
+      EXPECT_EQ(d.group >= 0, d.verdict == "merge");
+      if (d.group != 0) continue;  // body 0 is the ground
+      group.insert(world.bodies()[index(d.a)].name + " - " + world.bodies()[index(d.b)].name);
+    }
+  }
+  EXPECT_THAT(group, testing::ElementsAre("ground - left-leg", "ground - right-leg",
+                                          "left-leg - right-leg"));
+}
+
 }  // namespace
 }  // namespace merge2d

@@ -60,7 +60,7 @@ TEST(TraceWriter, BeginsWithAHeaderThatTellsEverything) {
   EXPECT_EQ(header["mode"], "merge");
   EXPECT_EQ(header["h"], 0.02);
   EXPECT_EQ(header["parameters"]["merging"]["velocity"], 0.03);
-  EXPECT_EQ(header["parameters"]["merging"]["cycles"], "triangle");
+  EXPECT_EQ(header["parameters"]["merging"]["cycles"], "rigid");
   EXPECT_EQ(header["parameters"]["unmerging"]["ordering"], true);
   EXPECT_EQ(header["columns"].dump(),
             R"({"bodies":["id","x","y","angle","vx","vy","omega","collection","asleep"],)"
