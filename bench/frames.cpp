@@ -102,7 +102,7 @@ void measureFrames(Result& result, bool arrows, int frames) {
       result.shapes += layer.shapes.size();
       result.arrows += layer.arrows.size();
     }
-    Image image;
+    Picture image;
     draw.push_back(milliseconds([&] { image = canvas.draw(drawing); }));
     png.push_back(milliseconds([&] { encodePng(image); }));
     cairo_draw.push_back(milliseconds([&] { cairo.draw(drawing); }));
