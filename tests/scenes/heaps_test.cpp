@@ -6,7 +6,7 @@ namespace {
 TEST(Pile, MergesAndFallsAsleep) {
   SceneRun run("pile");
   run.until(5.0);
-  EXPECT_GT(run.count(EventType::Merge), 10);
+  EXPECT_GT(run.count(EventType::Merge), 20);
   run.until(20.0);
   EXPECT_EQ(run.now().stats.bodies, 180);
   EXPECT_EQ(run.now().stats.asleep, 180);

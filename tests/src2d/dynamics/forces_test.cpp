@@ -287,7 +287,7 @@ TEST(Emitter, ABodyStartsWithTheVelocityOfItsTemplateWithinTheSpread) {
   runSteps(world, 200);
   for (int i = 0; i < 4; ++i) {
     const BodyState drop = see(world, BodyId{static_cast<std::uint32_t>(1 + i)});
-    EXPECT_NEAR(drop.x.x(), 10 + 1.0 * (2.0 - 0.1 - 0.25 * i), 1e-11);
+    EXPECT_NEAR(drop.x.x(), 10 + 1.0 * (2.0 - 0.1 - 0.25 * i), 1e-12);
     EXPECT_LE(std::abs(drop.x.y()), 0.5);
   }
 }

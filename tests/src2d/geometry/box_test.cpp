@@ -12,14 +12,14 @@ double area(const OrientedBox& box) { return 4.0 * box.half.x() * box.half.y(); 
 TEST(Box, BoundsOfATurnedSquareReachItsCorners) {
   const Aabb box = bounds(makeBox(1.0, 1.0), Pose::at({2.0, 0.0}, std::numbers::pi / 4.0));
   const double r = std::numbers::sqrt2 / 2.0;
-  EXPECT_NEAR((box.lower - Vec2(2.0 - r, -r)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((box.upper - Vec2(2.0 + r, r)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((box.lower - Vec2(2.0 - r, -r)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((box.upper - Vec2(2.0 + r, r)).norm(), 0.0, 1e-15);
 }
 
 TEST(Box, BoundsOfADiscDoNotTurn) {
   const Aabb box = bounds(Circle{{1.0, 0.0}, 0.5}, Pose::at({0.0, 0.0}, std::numbers::pi / 2.0));
-  EXPECT_NEAR((box.lower - Vec2(-0.5, 0.5)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((box.upper - Vec2(0.5, 1.5)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((box.lower - Vec2(-0.5, 0.5)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((box.upper - Vec2(0.5, 1.5)).norm(), 0.0, 1e-15);
 }
 
 TEST(Box, TightBoxOfATurnedBoxIsThatBox) {

@@ -29,8 +29,8 @@ TEST(Collide, GapsAreExactToTheLastBitsOfADouble) {
     const Manifold m = collide(box(20.0, 1.0), box(1.0, 1.0), at(7.3, 1.0 + gap), kMargin);
     ASSERT_EQ(m.count, 2);
     for (const ManifoldPoint& p : m.points) {
-      EXPECT_NEAR(p.gap, gap, 1e-12);
-      EXPECT_NEAR(p.position.y(), 0.5 + 0.5 * gap, 1e-12);
+      EXPECT_NEAR(p.gap, gap, 1e-15);
+      EXPECT_NEAR(p.position.y(), 0.5 + 0.5 * gap, 1e-15);
     }
   }
 }
@@ -45,7 +45,7 @@ TEST(Collide, LeavesOutPointsBeyondTheMargin) {
   const Manifold m =
       collide(box(4.0, 1.0), box(1.0, 1.0), at(0.0, 0.5 + half_height, 0.1), kMargin);
   ASSERT_EQ(m.count, 1);
-  EXPECT_NEAR(m.points[0].gap, 0.0, 1e-12);
+  EXPECT_NEAR(m.points[0].gap, 0.0, 1e-15);
 }
 
 TEST(Collide, CutsContactAtTheEndOfTheSupport) {
@@ -108,22 +108,22 @@ TEST(Collide, SeesACornerThatPointsAtAFace) {
                              at(1.0, 0.5 + half_diagonal + 1e-3, std::numbers::pi / 4.0), kMargin);
   ASSERT_EQ(m.count, 1);
   EXPECT_EQ(m.normal, Vec2(0.0, 1.0));
-  EXPECT_NEAR(m.points[0].gap, 1e-3, 1e-12);
-  EXPECT_NEAR((m.points[0].position - Vec2(1.0, 0.5005)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(m.points[0].gap, 1e-3, 1e-15);
+  EXPECT_NEAR((m.points[0].position - Vec2(1.0, 0.5005)).norm(), 0.0, 1e-15);
 }
 
 TEST(Collide, SmallShapesSurvive) {
   const Manifold m = collide(box(0.004, 0.004), box(0.002, 0.002), at(0.0, 0.003), 1e-5);
   ASSERT_EQ(m.count, 2);
-  EXPECT_NEAR(m.points[0].gap, 0.0, 1e-12);
-  EXPECT_NEAR(m.points[0].position.x(), 0.001, 1e-12);
+  EXPECT_NEAR(m.points[0].gap, 0.0, 1e-15);
+  EXPECT_NEAR(m.points[0].position.x(), 0.001, 1e-15);
 }
 
 TEST(Collide, AShapeFarFromItsBodysOriginIsAsExactAsANearOne) {
   const Collider far_away(makeBox(2.0, 1.0, at(1e4, 0.0)));
   const Manifold m = collide(far_away, box(1.0, 1.0), at(1e4 + 0.25, 1.0 + 1e-6), kMargin);
   ASSERT_EQ(m.count, 2);
-  EXPECT_NEAR(m.points[0].gap, 1e-6, 1e-12);
+  EXPECT_NEAR(m.points[0].gap, 1e-6, 1e-14);
   EXPECT_NEAR(m.points[0].position.x(), 1e4 + 0.75, 1e-11);
 }
 
@@ -131,9 +131,9 @@ TEST(Collide, SeesTwoDiscsAtOnePoint) {
   const Manifold m = collide(Collider(Circle{{0.0, 0.0}, 1.0}), Collider(Circle{{0.0, 0.0}, 0.5}),
                              at(1.501 * 0.6, 1.501 * 0.8), kMargin);
   ASSERT_EQ(m.count, 1);
-  EXPECT_NEAR((m.normal - Vec2(0.6, 0.8)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR(m.points[0].gap, 1e-3, 1e-12);
-  EXPECT_NEAR((m.points[0].position - 1.0005 * Vec2(0.6, 0.8)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((m.normal - Vec2(0.6, 0.8)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR(m.points[0].gap, 1e-3, 1e-15);
+  EXPECT_NEAR((m.points[0].position - 1.0005 * Vec2(0.6, 0.8)).norm(), 0.0, 1e-15);
   EXPECT_EQ(m.points[0].feature, 0U);
 }
 
@@ -152,13 +152,13 @@ TEST(Collide, SeesADiscOnAFaceFromBothSides) {
   const Manifold m = collide(floor, disc, pose, kMargin);
   ASSERT_EQ(m.count, 1);
   EXPECT_EQ(m.normal, Vec2(0.0, 1.0));
-  EXPECT_NEAR(m.points[0].gap, 1e-3, 1e-12);
-  EXPECT_NEAR((m.points[0].position - Vec2(1.0, 0.5005)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(m.points[0].gap, 1e-3, 1e-15);
+  EXPECT_NEAR((m.points[0].position - Vec2(1.0, 0.5005)).norm(), 0.0, 1e-15);
 
   const Manifold back = collide(disc, floor, pose.inverse(), kMargin);
   ASSERT_EQ(back.count, 1);
-  EXPECT_NEAR((pose.rotation * back.normal - Vec2(0.0, -1.0)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((pose * back.points[0].position - m.points[0].position).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((pose.rotation * back.normal - Vec2(0.0, -1.0)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((pose * back.points[0].position - m.points[0].position).norm(), 0.0, 1e-15);
 }
 
 TEST(Collide, SeesADiscAtACorner) {
@@ -166,7 +166,7 @@ TEST(Collide, SeesADiscAtACorner) {
                              at(1.0 + 0.502 * 0.6, 1.0 + 0.502 * 0.8), kMargin);
   ASSERT_EQ(m.count, 1);
   EXPECT_NEAR((m.normal - Vec2(0.6, 0.8)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR(m.points[0].gap, 0.002, 1e-12);
+  EXPECT_NEAR(m.points[0].gap, 0.002, 1e-15);
 }
 
 TEST(Collide, PushesADiscWhoseCenterIsInsideOutOfTheNearestFace) {
@@ -174,7 +174,7 @@ TEST(Collide, PushesADiscWhoseCenterIsInsideOutOfTheNearestFace) {
       collide(box(2.0, 2.0), Collider(Circle{{0.0, 0.0}, 0.5}), at(0.7, 0.1), kMargin);
   ASSERT_EQ(m.count, 1);
   EXPECT_EQ(m.normal, Vec2(1.0, 0.0));
-  EXPECT_NEAR(m.points[0].gap, -0.8, 1e-12);
+  EXPECT_NEAR(m.points[0].gap, -0.8, 1e-15);
 }
 
 TEST(Collide, ADiscCenteredOnACornerIsPushedOutward) {

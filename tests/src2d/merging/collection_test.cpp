@@ -36,8 +36,8 @@ RC_GTEST_PROP(AddMotion, ConservesMomentum, ()) {  // Eqs. (10), (11)
   const double angular = angularMomentum(c) + angularMomentum(b);
   const double scale = std::abs(angularMomentum(c)) + std::abs(angularMomentum(b)) + 1000.0;
   addMotion(c, b);
-  RC_ASSERT((momentum(c) - linear).norm() <= 1e-12 * (linear.norm() + 100.0));
-  RC_ASSERT(std::abs(angularMomentum(c) - angular) <= 1e-12 * scale);
+  RC_ASSERT((momentum(c) - linear).norm() <= 1e-13 * (linear.norm() + 100.0));
+  RC_ASSERT(std::abs(angularMomentum(c) - angular) <= 1e-14 * scale);
 }
 
 RC_GTEST_PROP(AddMotion, LeavesACommonRigidMotionAsItIs, ()) {
@@ -46,8 +46,8 @@ RC_GTEST_PROP(AddMotion, LeavesACommonRigidMotionAsItIs, ()) {
   b.omega = c.omega;
   const Rigid before = c;
   addMotion(c, b);
-  RC_ASSERT(std::abs(c.omega - before.omega) < 1e-10);
-  RC_ASSERT((c.v - before.velocityAt(c.x)).norm() < 1e-10);
+  RC_ASSERT(std::abs(c.omega - before.omega) < 1e-12);
+  RC_ASSERT((c.v - before.velocityAt(c.x)).norm() < 1e-12);
 }
 
 RC_GTEST_PROP(AddMotion, LeavesTheFrameInItsPlace, ()) {
@@ -63,7 +63,7 @@ RC_GTEST_PROP(AddMotion, InertiaFollowsTheParallelAxisTheorem, ()) {  // Eqs. (1
   addMotion(c, b);
   const double reduced = a.mass * b.mass / (a.mass + b.mass);
   const double inertia = a.inertia + b.inertia + reduced * (a.x - b.x).squaredNorm();
-  RC_ASSERT(std::abs(c.inertia - inertia) <= 1e-12 * inertia);
+  RC_ASSERT(std::abs(c.inertia - inertia) <= 1e-13 * inertia);
   RC_ASSERT((c.mass * c.x - a.mass * a.x - b.mass * b.x).norm() < 1e-11);
 }
 
@@ -92,14 +92,14 @@ TEST(Collection, AnLOfBoxesHasItsCentreAndInertia) {
   const RigidId id = mergeRigids(state, first, RigidId{2});
   EXPECT_EQ(id, first);
   const Rigid& r = state[id];
-  EXPECT_NEAR(r.mass, 3.0, 1e-12);
-  EXPECT_NEAR((r.x - Vec2(1.0, 1.0) / 3.0).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(r.mass, 3.0, 1e-15);
+  EXPECT_NEAR((r.x - Vec2(1.0, 1.0) / 3.0).norm(), 0.0, 1e-15);
   // 3 · 1/6 for the boxes; 2/9 + 5/9 + 5/9 for their distances from (1/3, 1/3).
-  EXPECT_NEAR(r.inertia, 0.5 + 12.0 / 9.0, 1e-12);
+  EXPECT_NEAR(r.inertia, 0.5 + 12.0 / 9.0, 1e-14);
   layOutCollections(state);
   gatherMass(state, id);
-  EXPECT_NEAR(r.inertia, 0.5 + 12.0 / 9.0, 1e-12);
-  EXPECT_NEAR((r.x - Vec2(1.0, 1.0) / 3.0).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(r.inertia, 0.5 + 12.0 / 9.0, 1e-14);
+  EXPECT_NEAR((r.x - Vec2(1.0, 1.0) / 3.0).norm(), 0.0, 1e-15);
   EXPECT_NEAR(r.box.half.prod(), 1.0, 1e-12) << "the tight box is 2 by 2";
 }
 

@@ -22,7 +22,7 @@ TEST(Metric, EndsOfASeeSawMoveWithOmegaTimesHalfItsLength) {
   const double length = 6.0, omega = 0.25;
   const OrientedBox beam{Pose::at({3.0, 4.0}, 0.1), {0.5 * length, 0.0}};
   const VelocityField turning{beam.frame.position, Vec2::Zero(), omega};
-  EXPECT_NEAR(fastestCorner(beam, turning, kStill), omega * length / 2.0, 1e-12);
+  EXPECT_NEAR(fastestCorner(beam, turning, kStill), omega * length / 2.0, 1e-15);
 }
 
 TEST(Metric, SeesASlowSeeSawThatIsStillAtItsPivot) {  // Figure 2
@@ -36,7 +36,7 @@ TEST(Metric, SeesASlowSeeSawThatIsStillAtItsPivot) {  // Figure 2
 TEST(Metric, OfATranslationIsItsSpeed) {
   const OrientedBox box{Pose::at({1.0, 2.0}, 0.7), {2.0, 1.0}};
   const VelocityField moving{{5.0, 5.0}, {3.0, -4.0}, 0.0};
-  EXPECT_NEAR(fastestCorner(box, moving, kStill), 5.0, 1e-12);
+  EXPECT_NEAR(fastestCorner(box, moving, kStill), 5.0, 1e-15);
 }
 
 RC_GTEST_PROP(Metric, DoesNotDependOnWhereInTheWorldThePairIs, ()) {
