@@ -49,10 +49,10 @@ void fields(Ar& ar, Some<Drift> auto& d) {
 /// Of the leaf only whether there is one: the tree is built anew.
 template <class Ar>
 void fields(Ar& ar, Some<Rigid> auto& r) {
-  auto& [x, angle, rotation, previous_rotation, center, v, omega, mass, inertia, inv_mass,
+  auto& [x, rest, angle, rotation, previous_rotation, center, v, omega, mass, inertia, inv_mass,
          inv_inertia, anchor, bounds, box, leaf, quiet_steps, asleep, resized] = r;
   bool present = r.present();
-  ar(x, angle, rotation, previous_rotation, center, v, omega, mass, inertia, inv_mass, inv_inertia,
+  ar(x, rest, angle, rotation, previous_rotation, center, v, omega, mass, inertia, inv_mass, inv_inertia,
      anchor, bounds, box, present, quiet_steps, asleep, resized);
   if constexpr (!std::is_const_v<std::remove_reference_t<decltype(r)>>) leaf = present ? 0 : -1;
 }

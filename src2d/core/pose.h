@@ -27,6 +27,8 @@ struct Pose {
   static Pose at(const Vec2& position, double angle) { return {position, Rotation::of(angle)}; }
 
   Vec2 operator*(const Vec2& local) const { return position + onGrid(rotation * local); }
+  /// The same off the grid: within the frame of a body a place is as exact as a double can be.
+  Vec2 exactly(const Vec2& local) const { return position + rotation * local; }
   Pose operator*(const Pose& o) const { return {*this * o.position, rotation * o.rotation}; }
 
   Pose inverse() const {

@@ -24,7 +24,7 @@ void advancePositions(State& state, Scratch& scratch) {
     if (!r.present() || r.asleep || r.anchor == kWorldFrame) continue;
     r.previous_rotation = r.rotation;
     if (!r.floating() && i >= state.bodies.size()) continue;  // anchored: follows its frame
-    r.x += onGrid(state.h * r.v);
+    r.moveBy(state.h * r.v);
     if (r.omega == 0.0) continue;
     r.angle += state.h * r.omega;
     r.rotation = Rotation::of(r.angle);

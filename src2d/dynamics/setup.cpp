@@ -61,7 +61,8 @@ class Builder {
     addShapes(desc, area.centroid, body, r);
     r.angle = desc.angle;
     r.rotation = r.previous_rotation = Rotation::of(desc.angle);
-    r.x = Pose{placedOnGrid(at), r.rotation} * area.centroid;
+    r.x = placedOnGrid(at);
+    r.moveBy(r.rotation * area.centroid);
     r.mass = body.mass;
     r.inertia = body.inertia;
     r.anchor = anchorOf(desc, id);

@@ -77,7 +77,7 @@ void correctPositions(State& state, Scratch& scratch) {
   for (const std::uint32_t i : scratch.island_bodies) {
     const SolverVelocity& u = scratch.u[i];
     Rigid& r = state.rigids[i];
-    r.x += onGrid(state.h * Vec2(u.vx, u.vy));
+    r.moveBy(state.h * Vec2(u.vx, u.vy));
     if (u.omega == 0.0) continue;
     r.angle += state.h * u.omega;
     r.rotation = Rotation::of(r.angle);

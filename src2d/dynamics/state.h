@@ -35,6 +35,7 @@ inline constexpr FrameId kWorldFrame = 0;
 /// it as members come and go.
 struct Rigid {
   Vec2 x = Vec2::Zero();       ///< centre of mass (the frame's origin when not floating) [m]
+  Vec2 rest = Vec2::Zero();    ///< of it, what is finer than the grid of positions [m]
   double angle = 0.0;          ///< [rad]
   Rotation rotation;           ///< of `angle`
   Rotation previous_rotation;  ///< before the last position update
@@ -53,8 +54,16 @@ struct Rigid {
 
   bool present() const { return leaf >= 0; }
   bool floating() const { return anchor == kFloating; }
-  Pose frame() const { return {x - onGrid(rotation * center), rotation}; }
-  Vec2 velocityAt(const Vec2& p) const { return v + cross(omega, p - x); }
+  Vec2 exactCenter() const { return x + rest; }
+  /// Moves the centre of mass. The part below the grid is kept for the next time, so that rounding
+  /// never adds up.
+  void moveBy(const Vec2& d) {
+    const Vec2 way = rest + d, rounded = onGrid(way);
+    x += rounded;
+    rest = way - rounded;
+  }
+  Pose frame() const { return {x + onGrid(rest - rotation * center), rotation}; }
+  Vec2 velocityAt(const Vec2& p) const { return v + cross(omega, p - x - rest); }
 };
 
 /// A body's own constants, and where it is found now.

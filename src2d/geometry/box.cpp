@@ -10,10 +10,10 @@ namespace merge2d {
 Aabb bounds(const ConvexShape& shape, const Pose& pose) {
   Aabb box;
   if (const auto* circle = std::get_if<Circle>(&shape)) {
-    box.include(pose * circle->center);
+    box.include(pose.exactly(circle->center));
     return box.grown(circle->radius);
   }
-  for (const Vec2& v : std::get<Polygon>(shape).vertices) box.include(pose * v);
+  for (const Vec2& v : std::get<Polygon>(shape).vertices) box.include(pose.exactly(v));
   return box;
 }
 

@@ -39,7 +39,7 @@ struct Aabb {
 /// The box around `box` as it is seen through `pose`.
 inline Aabb placed(const Pose& pose, const Aabb& box) {
   const Vec2 half = 0.5 * box.extent();
-  const Vec2 center = pose * box.center();
+  const Vec2 center = pose.exactly(box.center());
   const double c = std::abs(pose.rotation.c), s = std::abs(pose.rotation.s);
   const Vec2 extent(c * half.x() + s * half.y(), s * half.x() + c * half.y());
   return {center - extent, center + extent};
@@ -54,8 +54,8 @@ struct OrientedBox {
   Vec2 half = Vec2::Zero();  ///< [m]
 
   std::array<Vec2, 4> corners() const {
-    return {frame * Vec2(-half.x(), -half.y()), frame * Vec2(half.x(), -half.y()),
-            frame * Vec2(half.x(), half.y()), frame * Vec2(-half.x(), half.y())};
+    return {frame.exactly({-half.x(), -half.y()}), frame.exactly({half.x(), -half.y()}),
+            frame.exactly({half.x(), half.y()}), frame.exactly({-half.x(), half.y()})};
   }
 };
 

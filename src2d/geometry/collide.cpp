@@ -6,14 +6,15 @@ namespace merge2d {
 
 Manifold collide(const Collider& a, const Collider& b, const Pose& b_in_a, double margin) {
   if (!a.isCircle() && !b.isCircle()) return collidePolygons(a, b, b_in_a, margin);
-  if (!a.isCircle()) return collidePolygonAndDisc(a, b_in_a * b.origin(), b.radius(), margin);
+  if (!a.isCircle())
+    return collidePolygonAndDisc(a, b_in_a.exactly(b.origin()), b.radius(), margin);
   if (b.isCircle()) {
-    return collideDiscs(a.origin(), a.radius(), b_in_a * b.origin(), b.radius(), margin);
+    return collideDiscs(a.origin(), a.radius(), b_in_a.exactly(b.origin()), b.radius(), margin);
   }
   // The disc is A: look from B, then turn around.
   Manifold m = collidePolygonAndDisc(b, b_in_a.toLocal(a.origin()), a.radius(), margin);
   m.normal = -(b_in_a.rotation * m.normal);
-  for (ManifoldPoint& p : m.points) p.position = b_in_a * p.position;
+  for (ManifoldPoint& p : m.points) p.position = b_in_a.exactly(p.position);
   return m;
 }
 

@@ -63,7 +63,7 @@ int faceAgainst(const Collider& collider, const Vec2& direction) {
 void findFaces(b2Manifold& found, const Collider& a, const Collider& b, const Pose& b_in_a,
                double margin) {
   b2Transform xf;
-  xf.p = toFloat(b_in_a * b.origin() - a.origin());
+  xf.p = toFloat(b_in_a.exactly(b.origin()) - a.origin());
   xf.q.s = static_cast<float>(b_in_a.rotation.s);
   xf.q.c = static_cast<float>(b_in_a.rotation.c);
   if (static_cast<float>(margin) == Collider::kUsualMargin) {
@@ -91,7 +91,7 @@ FacePair facePair(const b2Manifold& found, const Collider& a, const Collider& b,
     face_b = faceAgainst(b, b_in_a.rotation.inverse() * pair.normal);
   }
   pair.reference = {a.vertex(face_a), a.vertex(a.next(face_a))};
-  pair.incident = {b_in_a * b.vertex(face_b), b_in_a * b.vertex(b.next(face_b))};
+  pair.incident = {b_in_a.exactly(b.vertex(face_b)), b_in_a.exactly(b.vertex(b.next(face_b)))};
   if (pair.swapped) std::swap(pair.reference, pair.incident);
   pair.faces = static_cast<std::uint32_t>(face_a | face_b << 8);
   return pair;

@@ -6,26 +6,19 @@
 #include <numbers>
 
 namespace merge2d {
-namespace {
-
-/// In a body's frame a place is as exact as a double can be; the grid is for the world.
-Vec2 placed(const Pose& pose, const Vec2& p) { return pose.position + pose.rotation * p; }
-
-}  // namespace
-
 Polygon makeBox(double width, double height, const Pose& pose) {
   const double x = 0.5 * width;
   const double y = 0.5 * height;
   return {
-      {placed(pose, {-x, -y}), placed(pose, {x, -y}), placed(pose, {x, y}), placed(pose, {-x, y})}};
+      {pose.exactly({-x, -y}), pose.exactly({x, -y}), pose.exactly({x, y}), pose.exactly({-x, y})}};
 }
 
 ConvexShape transformed(const ConvexShape& shape, const Pose& pose) {
   if (const auto* circle = std::get_if<Circle>(&shape)) {
-    return Circle{placed(pose, circle->center), circle->radius};
+    return Circle{pose.exactly(circle->center), circle->radius};
   }
   Polygon moved = std::get<Polygon>(shape);
-  for (Vec2& v : moved.vertices) v = placed(pose, v);
+  for (Vec2& v : moved.vertices) v = pose.exactly(v);
   return moved;
 }
 

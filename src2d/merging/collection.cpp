@@ -72,6 +72,7 @@ void fix(State& state, RigidId id, FrameId frame, const Rigid& anchor) {
   r.inv_mass = r.inv_inertia = 0.0;
   r.center = Vec2::Zero();
   r.x = frame == kWorldFrame ? Vec2::Zero() : anchor.x;
+  r.rest = frame == kWorldFrame ? Vec2::Zero() : anchor.rest;
   r.angle = frame == kWorldFrame ? 0.0 : anchor.angle;
   r.rotation = frame == kWorldFrame ? Rotation{} : anchor.rotation;
   r.previous_rotation = frame == kWorldFrame ? Rotation{} : anchor.previous_rotation;
@@ -122,18 +123,19 @@ void freeCollection(State& state, RigidId id) {
 
 void addMotion(Rigid& c, const Rigid& b) {
   const double mass = c.mass + b.mass;
-  const Vec2 x = c.x + onGrid(b.mass / mass * (b.x - c.x));
-  const Vec2 r_c = c.x - x, r_b = b.x - x;
+  const Vec2 between = (b.x - c.x) + (b.rest - c.rest);
+  const Vec2 step = b.mass / mass * between;  // of the centre of mass: Eq. (14)
+  const Vec2 r_c = -step, r_b = between - step;
   const double inertia =
       c.inertia + c.mass * r_c.squaredNorm() + b.inertia + b.mass * r_b.squaredNorm();
   c.omega = (c.inertia * c.omega + c.mass * cross(r_c, c.v) + b.inertia * b.omega +
              b.mass * cross(r_b, b.v)) /
             inertia;                           // Eq. (10)
   c.v = (c.mass * c.v + b.mass * b.v) / mass;  // Eq. (11)
-  c.center += c.rotation.inverse() * (x - c.x);
+  c.center += c.rotation.inverse() * step;
+  c.moveBy(step);
   c.mass = mass;        // Eq. (12)
   c.inertia = inertia;  // Eq. (13)
-  c.x = x;              // Eq. (14)
   c.inv_mass = 1.0 / mass;
   c.inv_inertia = 1.0 / inertia;
 }
@@ -225,6 +227,7 @@ void followAnchors(State& state) {
     if (r.floating() || r.anchor == kWorldFrame) continue;
     const Rigid& anchor = state[rigidOf(c.anchor)];
     r.x = anchor.x;
+    r.rest = anchor.rest;
     r.angle = anchor.angle;
     r.rotation = anchor.rotation;
     r.previous_rotation = anchor.previous_rotation;

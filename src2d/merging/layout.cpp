@@ -20,7 +20,6 @@ Aabb memberBounds(const State& state, BodyId b) {
 void gatherMass(State& state, RigidId id) {
   Rigid& r = state[id];
   const Collection& c = state.collection(id);
-  const Pose frame = r.frame();
   // Seen from a member, so that the rounding does not depend on where in the frame they are.
   const Vec2 origin = state[c.members.front()].local;
   r.mass = 0.0;
@@ -31,14 +30,14 @@ void gatherMass(State& state, RigidId id) {
     first += state[b].mass * (state[b].local - origin);
     r.bounds.include(memberBounds(state, b));
   }
-  const Vec2 center = origin + onGrid(first / r.mass);
+  const Vec2 center = origin + first / r.mass;
   r.inertia = 0.0;
   for (const BodyId b : c.members) {
     r.inertia += state[b].inertia + state[b].mass * (state[b].local - center).squaredNorm();
   }
   if (r.floating()) {
+    r.moveBy(r.rotation * (center - r.center));
     r.center = center;
-    r.x = frame * center;
     r.inv_mass = 1.0 / r.mass;
     r.inv_inertia = 1.0 / r.inertia;
   }
@@ -53,7 +52,7 @@ void fitBox(State& state, RigidId id) {
   for (const BodyId b : state.collection(id).members) {
     const Body& body = state[b];
     for (const Vec2& corner : state[rigidOf(b)].box.corners()) {
-      points.push_back(Pose{body.local, body.local_rotation} * corner);
+      points.push_back(Pose{body.local, body.local_rotation}.exactly(corner));
     }
   }
   state[id].box = tightBox(points);

@@ -24,6 +24,7 @@ RigidId freeBody(State& state, BodyId b, const Rigid& whole) {
   const double angle = state.angle(b);
   Rigid& r = state[rigidOf(b)];
   r.x = pose.position;
+  r.rest = Vec2::Zero();
   r.angle = angle;
   r.rotation = Rotation::of(angle);
   r.previous_rotation = r.rotation;
@@ -36,20 +37,37 @@ RigidId freeBody(State& state, BodyId b, const Rigid& whole) {
   return rigidOf(b);
 }
 
+/// What leaves the world's frame gets a frame of its own at one of its bodies: as it turns, the
+/// rounding must not depend on how far from the world's origin it was.
+void leaveWorldFrame(State& state, RigidId id) {
+  Collection& c = state.collection(id);
+  const Vec2 offset = state[c.members.front()].local;
+  state[id].x += offset;
+  for (const BodyId b : c.members) state[b].local -= offset;
+  for (InternalContact& inner : c.contacts) {
+    for (ContactPoint& point : inner.contact.points) point.position -= offset;
+  }
+}
+
 /// Makes a rigid thing that has the whole's frame move as the whole did, floating or anchored.
 void inheritMotion(State& state, RigidId id, const Rigid& whole, bool anchored) {
   Rigid& r = state[id];
-  if (!anchored) r.anchor = kFloating;
+  if (!anchored) {
+    if (r.anchor == kWorldFrame) leaveWorldFrame(state, id);
+    r.anchor = kFloating;
+  }
   gatherMass(state, id);
-  r.v = whole.velocityAt(r.x);
+  r.v = whole.velocityAt(r.exactCenter());
   r.omega = whole.omega;
 }
 
-RigidId newPart(State& state, const std::vector<BodyId>& members, const Rigid& whole, BodyId anchor,
+RigidId newPart(State& state, const std::vector<BodyId>& members,
+                std::vector<InternalContact>&& contacts, const Rigid& whole, BodyId anchor,
                 bool anchored) {
   const RigidId id = newCollection(state);
   Collection& c = state.collection(id);
   c.members = members;
+  c.contacts = std::move(contacts);
   c.anchor = anchor;
   c.stale = true;
   Rigid& r = state[id];
@@ -62,23 +80,6 @@ RigidId newPart(State& state, const std::vector<BodyId>& members, const Rigid& w
   addShapes(state, id, members);
   insertRigid(state, id);
   return id;
-}
-
-/// What leaves the world's frame gets its frame's origin at its centre of mass: as it turns, the
-/// rounding must not depend on how far from the world's origin it was.
-void centreFrame(State& state, RigidId id) {
-  Rigid& r = state[id];
-  Collection& c = state.collection(id);
-  const Vec2 offset = onGrid(r.center);
-  removeShapes(state, id, c.members);
-  r.center -= offset;
-  r.bounds = {r.bounds.lower - offset, r.bounds.upper - offset};
-  for (const BodyId b : c.members) state[b].local -= offset;
-  for (InternalContact& inner : c.contacts) {
-    for (ContactPoint& point : inner.contact.points) point.position -= offset;
-  }
-  addShapes(state, id, c.members);
-  r.resized = true;
 }
 
 /// Contacts between the parts return to the table with their impulses and today's geometry.
@@ -137,10 +138,8 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
     if (members[p].size() == 1 && !anchored[p]) {
       result.push_back(freeBody(state, members[p].front(), whole));
     } else {
-      const RigidId made = newPart(state, members[p], whole, anchor, anchored[p] != 0);
-      state.collection(made).contacts = std::move(kept[p]);
-      if (whole.anchor == kWorldFrame && !anchored[p]) centreFrame(state, made);
-      result.push_back(made);
+      result.push_back(
+          newPart(state, members[p], std::move(kept[p]), whole, anchor, anchored[p] != 0));
     }
   }
 
@@ -156,10 +155,12 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
     c.blocks.clear();
     c.block_contact.clear();
     c.stale = true;
+    const bool new_frame = whole.anchor == kWorldFrame && !anchored[largest];
+    if (new_frame) removeShapes(state, id, c.members);
     inheritMotion(state, id, whole, anchored[largest] != 0);
+    if (new_frame) addShapes(state, id, c.members);
     state[id].resized = true;
     state[id].quiet_steps = 0;
-    if (whole.anchor == kWorldFrame && !anchored[largest]) centreFrame(state, id);
   }
   releaseContacts(state, released);
   return result;

@@ -28,7 +28,7 @@ void captureBodies(const State& state, Snapshot& out) {
     const Rigid& r = state.rigid(id);
     BodyState seen;
     seen.id = id;
-    seen.x = state.pose(id).position;
+    seen.x = body.rigid == rigidOf(id) ? r.exactCenter() : state.pose(id).position;
     seen.angle = state.angle(id);
     seen.v = velocityOf(state, id);
     seen.omega = r.omega;

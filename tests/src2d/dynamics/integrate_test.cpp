@@ -30,7 +30,7 @@ TEST(Integrate, FreeFallFollowsTheClosedFormOfSymplecticEuler) {
     const BodyState seen = see(world, BodyId{0});
     const Vec2 x = body.at + n * h * body.velocity + 0.5 * h * h * n * (n + 1) * scene.gravity;
     const Vec2 v = body.velocity + n * h * scene.gravity;
-    ASSERT_LT((seen.x - x).norm(), 1e-11) << "after step " << n;
+    ASSERT_LT((seen.x - x).norm(), 1e-12) << "after step " << n;
     ASSERT_LT((seen.v - v).norm(), 1e-12) << "after step " << n;
   }
 }

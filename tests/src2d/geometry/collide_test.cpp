@@ -158,7 +158,7 @@ TEST(Collide, SeesADiscOnAFaceFromBothSides) {
   const Manifold back = collide(disc, floor, pose.inverse(), kMargin);
   ASSERT_EQ(back.count, 1);
   EXPECT_NEAR((pose.rotation * back.normal - Vec2(0.0, -1.0)).norm(), 0.0, 1e-15);
-  EXPECT_NEAR((pose * back.points[0].position - m.points[0].position).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((pose.exactly(back.points[0].position) - m.points[0].position).norm(), 0.0, 1e-15);
 }
 
 TEST(Collide, SeesADiscAtACorner) {
