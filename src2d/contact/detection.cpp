@@ -54,6 +54,11 @@ void prune(State& state, const BodyPair& pair, Notes* notes) {
   }
 }
 
+/// Between two things at rest nothing changes, and so nothing breathes.
+void holdBreath(Contact& contact) {
+  for (ContactPoint& point : contact.points) point.breath = 0.0F;
+}
+
 bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
 
 }  // namespace
@@ -101,7 +106,10 @@ void detectContacts(State& state, Scratch& scratch) {
   updateBroadphase(state, scratch);
   for (const ContactTable::Entry& entry : state.contacts.order) {
     const Rigid &a = state.rigid(entry.key.a), &b = state.rigid(entry.key.b);
-    if (resting(a) && resting(b)) continue;
+    if (resting(a) && resting(b)) {
+      holdBreath(state.contacts[entry]);
+      continue;
+    }
     const double ahead = approach(state, scratch, entry.key.a, entry.key.b);
     updateManifold(state, state.contacts[entry], ahead);
   }

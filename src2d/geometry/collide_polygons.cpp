@@ -25,6 +25,8 @@ constexpr double kCornerWidth = 1e-5;
 // Below this distance the direction between two corners says nothing; above it a corner that is
 // nearer than the faces matters. [m]
 constexpr double kCornerDistance = 5e-4;
+// Corners in one place overlap truly when the faces do by more than this. [m]
+constexpr double kCornerOverlap = 1e-4;
 
 struct Edge {
   Vec2 begin, end;
@@ -106,13 +108,15 @@ Manifold cornerContact(const FacePair& pair, int end, double margin) {
   const Vec2 nearest = pair.incident.begin + std::clamp(t, 0.0, 1.0) * along;
   const Vec2 d = nearest - corner;
   const double distance = d.norm();
-  if (distance <= kCornerDistance) return m;
-  // Box2D may prefer A's face by its tolerance of 0.5 mm although it is B's that parts them.
+  // Box2D may prefer A's face by its tolerance of 0.5 mm although it is B's that parts them; two
+  // corners in one place have no direction between them, but neither do they bear on each other.
+  const bool one_place = distance <= kCornerDistance;
   const double height = pair.height(nearest);
-  if (height < -kCornerDistance) {  // a true overlap: only the face's own direction ends it
+  if (height < (one_place ? -kCornerOverlap : -kCornerDistance)) {
+    // a true overlap: only the face's own direction ends it
     m.normal = pair.normalFromA();
     addPoint(m, nearest - 0.5 * height * pair.normal, height, pair.feature(end));
-  } else if (distance <= margin) {
+  } else if (!one_place && distance <= margin) {
     m.normal = (pair.swapped ? -1.0 : 1.0) / distance * d;
     addPoint(m, corner + 0.5 * d, distance, pair.feature(end));
   }

@@ -133,8 +133,7 @@ void compareWithBruteForce(const World& world, const Snapshot& before, const Sna
       const double rough = (b.x - a.x).norm() - reach(info_a) - reach(info_b);
       if (!listed && rough > 0.0) continue;
       const double apart = separation(world, a, b);
-      // Corners nearer than half a millimetre have no direction, and no contact.
-      if (apart < -1e-3) RC_ASSERT(listed);
+      if (apart < -1e-4) RC_ASSERT(listed);
       if (listed) {
         const double turning =
             3 * (std::abs(a.omega) * reach(info_a) + (std::abs(b.omega) + 2.0) * reach(info_b));
