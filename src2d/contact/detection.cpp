@@ -54,9 +54,13 @@ void prune(State& state, const BodyPair& pair, Notes* notes) {
   }
 }
 
-/// Between two things at rest nothing changes, and so nothing breathes.
-void holdBreath(Contact& contact) {
-  for (ContactPoint& point : contact.points) point.breath = 0.0F;
+/// Between two things at rest nothing changes, and so nothing breathes. What holds them is no
+/// friction of this contact when both are fixed to the world: nobody solves for it.
+void holdStill(Contact& contact, bool fixed) {
+  for (ContactPoint& point : contact.points) {
+    point.breath = 0.0F;
+    if (fixed) point.lambda_t = 0.0;
+  }
 }
 
 bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
@@ -107,7 +111,7 @@ void detectContacts(State& state, Scratch& scratch) {
   for (const ContactTable::Entry& entry : state.contacts.order) {
     const Rigid &a = state.rigid(entry.key.a), &b = state.rigid(entry.key.b);
     if (resting(a) && resting(b)) {
-      holdBreath(state.contacts[entry]);
+      holdStill(state.contacts[entry], !a.asleep && !b.asleep);
       continue;
     }
     const double ahead = approach(state, scratch, entry.key.a, entry.key.b);

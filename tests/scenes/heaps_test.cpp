@@ -3,10 +3,27 @@
 namespace merge2d {
 namespace {
 
-TEST(Pile, MergesAndFallsAsleep) {
+/// What Fig. 11 shows: first they merge with each other, then with the ground, then they sleep.
+TEST(Pile, MergesWithEachOtherThenWithTheGroundThenFallsAsleep) {
   SceneRun run("pile");
-  run.until(5.0);
-  EXPECT_GT(run.count(EventType::Merge), 20);
+  int most_floating = 0, most_on_ground = 0;
+  std::int64_t floating_since = -1, on_ground_since = -1;
+  while (run.now().stats.asleep < 90 && run.world().steps() < 2000) {
+    run.steps(1);
+    int floating = 0, on_ground = 0;
+    for (const CollectionView& c : run.now().collections) {
+      (c.anchored ? on_ground : floating) += static_cast<int>(c.bodies.size());
+    }
+    if (floating > 0 && floating_since < 0) floating_since = run.world().steps();
+    if (on_ground > 90 && on_ground_since < 0) on_ground_since = run.world().steps();
+    most_floating = std::max(most_floating, floating);
+    most_on_ground = std::max(most_on_ground, on_ground);
+  }
+  EXPECT_GT(run.count(EventType::Merge), 100) << "before half of them sleep";
+  EXPECT_GT(most_floating, 20);
+  EXPECT_GT(most_on_ground, 90) << "half of the bodies";
+  EXPECT_GT(floating_since, 0);
+  EXPECT_GT(on_ground_since, floating_since);
   run.until(20.0);
   EXPECT_EQ(run.now().stats.bodies, 180);
   EXPECT_EQ(run.now().stats.asleep, 180);

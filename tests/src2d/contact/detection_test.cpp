@@ -8,6 +8,8 @@
 #include <random>
 #include <set>
 
+#include "src2d/dynamics/setup.h"
+#include "src2d/merging/collection.h"
 #include "tests/support/scenes.h"
 
 namespace merge2d {
@@ -199,6 +201,37 @@ TEST(Detection, AContactKnowsWhereItIsAndHowDeep) {
   }
   EXPECT_NEAR(std::min(x[0], x[1]), 9.75, 1e-12);
   EXPECT_NEAR(std::max(x[0], x[1]), 10.75, 1e-12);
+}
+
+TEST(Detection, NothingBreathesOrSlidesBetweenTwoThingsFixedToTheWorld) {
+  Scene scene;
+  add(scene, pinned(box(4, 1, {0, -0.5})));
+  add(scene, box(1, 1, {0, 0.5}));
+  add(scene, box(1, 1, {0.3, 1.5}));
+  merge2d::Setup setup;
+  Scratch scratch;
+  setUp(scene, Mode::Merge, setup);
+  State& state = setup.state;
+  detectContacts(state, scratch);
+  const auto between = [&]() -> Contact& {
+    for (const auto& entry : state.contacts.order) {
+      if (entry.key.a == BodyId{1} && entry.key.b == BodyId{2}) return state.contacts[entry];
+    }
+    throw std::runtime_error("the boxes do not touch");
+  };
+  for (ContactPoint& p : between().points) {
+    p.lambda_n = 2.0;
+    p.lambda_t = 1.0;  // on the edge of the cone when the two were fixed
+    p.breath = 1e-3F;
+  }
+  anchorRigid(state, RigidId{1}, BodyId{0});
+  anchorRigid(state, RigidId{2}, BodyId{0});
+  detectContacts(state, scratch);
+  for (const ContactPoint& p : between().points) {
+    EXPECT_EQ(p.breath, 0.0F);
+    EXPECT_EQ(p.lambda_t, 0.0);
+    EXPECT_EQ(p.lambda_n, 2.0);
+  }
 }
 
 TEST(Detection, AContactKeepsItsFeaturesWhileABoxSlides) {
