@@ -49,19 +49,19 @@ void fields(Ar& ar, Some<Drift> auto& d) {
 /// Of the leaf only whether there is one: the tree is built anew.
 template <class Ar>
 void fields(Ar& ar, Some<Rigid> auto& r) {
-  auto& [x, rest, angle, rotation, previous_rotation, center, v, omega, mass, inertia, inv_mass,
-         inv_inertia, anchor, bounds, box, leaf, quiet_steps, asleep, resized] = r;
+  auto& [x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
+         inv_inertia, bounds, box, anchor, leaf, quiet_steps, asleep, resized] = r;
   bool present = r.present();
-  ar(x, rest, angle, rotation, previous_rotation, center, v, omega, mass, inertia, inv_mass, inv_inertia,
-     anchor, bounds, box, present, quiet_steps, asleep, resized);
+  ar(x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
+     inv_inertia, bounds, box, anchor, present, quiet_steps, asleep, resized);
   if constexpr (!std::is_const_v<std::remove_reference_t<decltype(r)>>) leaf = present ? 0 : -1;
 }
 template <class Ar>
 void fields(Ar& ar, Some<Body> auto& b) {
-  auto& [first_shape, shape_count, mass, inertia, friction, restitution, pinned_until, motion,
-         alive, magnet_on, load, load_asleep, rigid, local, local_angle, local_rotation] = b;
-  ar(first_shape, shape_count, mass, inertia, friction, restitution, pinned_until, motion, alive,
-     magnet_on, load, load_asleep, rigid, local, local_angle, local_rotation);
+  auto& [first_shape, shape_count, rigid, motion, alive, magnet_on, mass, inertia, friction,
+         restitution, pinned_until, local_angle, local, local_rotation, load, load_asleep] = b;
+  ar(first_shape, shape_count, rigid, motion, alive, magnet_on, mass, inertia, friction,
+     restitution, pinned_until, local_angle, local, local_rotation, load, load_asleep);
 }
 
 template <class Ar>
@@ -76,8 +76,8 @@ void fields(Ar& ar, Some<ContactPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Contact> auto& c) {
-  auto& [key, normal, count, points, mu, restitution, quiet_steps] = c;
-  ar(key, normal, count, points, mu, restitution, quiet_steps);
+  auto& [key, normal, count, quiet_steps, points] = c;
+  ar(key, normal, count, quiet_steps, points);
 }
 template <class Ar>
 void fields(Ar& ar, Some<ContactTable::Entry> auto& e) {

@@ -250,12 +250,8 @@ void addContacts(State& state, const std::vector<ContactKey>& keys) {
       slot = table.free_slots.back();
       table.free_slots.pop_back();
     }
-    const Body &a = state[key.a], &b = state[key.b];
-    Contact& contact = table.slots[slot];
-    contact = {};
-    contact.key = key;
-    contact.mu = std::sqrt(a.friction * b.friction);
-    contact.restitution = static_cast<float>(std::max(a.restitution, b.restitution));
+    table.slots[slot] = {};
+    table.slots[slot].key = key;
     table.order.push_back({key, slot});
   }
   std::inplace_merge(table.order.begin(), table.order.begin() + static_cast<std::ptrdiff_t>(known),
@@ -287,6 +283,9 @@ void updateBroadphase(State& state, Scratch& scratch) {
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   dropParted(state, scratch);
   if (!candidates.empty()) addContacts(state, candidates);
+  // In a first step or after a crash they are many; their memory is not needed again.
+  constexpr std::size_t kMany = 256;
+  if (candidates.size() > kMany) std::vector<ContactKey>().swap(candidates);
 }
 
 }  // namespace merge2d

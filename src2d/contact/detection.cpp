@@ -5,6 +5,7 @@
 #include "src2d/contact/approach.h"
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/internal_edges.h"
+#include "src2d/core/memory.h"
 
 namespace merge2d {
 namespace {
@@ -94,8 +95,9 @@ void updateManifold(const State& state, Contact& contact, double ahead) {
 }
 
 void collectPairs(const State& state, Scratch& scratch) {
-  scratch.pairs.clear();
   const auto& order = state.contacts.order;
+  scratch.pairs.clear();
+  reserveTightly(scratch.pairs, order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     const Contact& contact = state.contacts[order[i]];
     if (contact.count == 0) continue;

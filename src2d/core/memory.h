@@ -6,16 +6,29 @@
 
 namespace merge2d {
 
-/// Makes room for `n` elements, and an eighth more when it has to grow.
+/// Makes room for `n` elements, and a thirty-second more when it has to grow.
 template <class T>
 void reserveTightly(std::vector<T>& v, std::size_t n) {
-  if (v.capacity() < n) v.reserve(n + n / 8);
+  if (v.capacity() < n) v.reserve(n + n / 32);
+}
+
+/// One more element at the end, likewise.
+template <class T>
+void appendTightly(std::vector<T>& v) {
+  reserveTightly(v, v.size() + 1);
+  v.emplace_back();
+}
+
+/// Memory of several vectors [bytes].
+template <class... T>
+std::size_t bytesOf(const std::vector<T>&... v) {
+  return (std::size_t{0} + ... + (v.capacity() * sizeof(T)));
 }
 
 /// Gives memory back that is mostly unused.
-template <class T>
-void trim(std::vector<T>& v) {
-  if (v.size() < v.capacity() / 2) v.shrink_to_fit();
+template <class... T>
+void trim(std::vector<T>&... v) {
+  (..., (v.size() < v.capacity() / 2 ? v.shrink_to_fit() : void()));
 }
 
 }  // namespace merge2d

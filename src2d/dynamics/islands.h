@@ -5,6 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "src2d/core/memory.h"
+
 namespace merge2d {
 
 /// Disjoint sets of the numbers 0 … n−1; a set is named by its smallest member.
@@ -14,6 +16,7 @@ class DisjointSets {
     parent_.resize(n);
     std::iota(parent_.begin(), parent_.end(), 0u);
   }
+  std::size_t memoryBytes() const { return bytesOf(parent_); }
   std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i) {
       parent_[i] = parent_[parent_[i]];

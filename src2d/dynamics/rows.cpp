@@ -20,6 +20,7 @@ const Rigid& anchorOf(const State& state, std::size_t i) {
 
 /// u₋ + h M⁻¹ f for everything in B; what is fixed or asleep keeps its velocity.
 void startVelocities(const State& state, Scratch& scratch) {
+  reserveTightly(scratch.u, state.rigids.size() + 1);
   scratch.u.resize(state.rigids.size() + 1);
   scratch.u.back() = {};
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
@@ -65,30 +66,44 @@ constexpr double kTouching = 1e-4;
 /// does not depend on where in the step the bodies met.
 double restitutionBias(const State& state, const Contact& contact, ContactPoint& point,
                        double normal_velocity, double bias) {
-  if (contact.restitution == 0.0) return bias;
+  const double restitution = restitutionOf(state, contact.key.a, contact.key.b);
+  if (restitution == 0.0) return bias;
   const auto approach = static_cast<float>(-normal_velocity);
   point.approach = approach > 0.0F ? std::max(point.approach, approach) : 0.0F;
   const bool fast = point.approach > state.settings.solver.restitution_velocity;
   if (!fast || point.gap > kTouching) return bias;
-  return std::min<double>(bias, -contact.restitution * std::exchange(point.approach, 0.0F));
+  return std::min<double>(bias, -restitution * std::exchange(point.approach, 0.0F));
 }
 
 /// The points of one pair of bodies, two to a block where they share a normal.
-void listSources(State& state, const BodyPair& pair, Scratch& scratch) {
+void listSources(const State& state, const BodyPair& pair, Scratch& scratch) {
   const RigidId a = state[pair.a].rigid, b = state[pair.b].rigid;
   if (!simulated(state[a]) && !simulated(state[b])) return;
-  const std::size_t first = scratch.row_sources.size();
+  auto& sources = scratch.row_sources;
+  const std::size_t first = sources.size();
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-    Contact& contact = state.contacts[state.contacts.order[i]];
-    for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
-      const bool joins = scratch.row_sources.size() > first &&
-                         scratch.row_sources.back().count == 1 &&
-                         scratch.row_sources.back().contact->normal == contact.normal;
-      if (!joins) scratch.row_sources.push_back({a, b, &contact, {}, 0});
-      RowSource& source = scratch.row_sources.back();
-      source.points[static_cast<std::size_t>(source.count++)] = &contact.points[k];
+    const ContactTable::Entry& entry = state.contacts.order[i];
+    const Contact& contact = state.contacts[entry];
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(contact.count); ++k) {
+      const PointIndex point = 2 * entry.slot + k;
+      const bool joins =
+          sources.size() > first && sources.back().count() == 1 &&
+          state.contacts.contactOf(sources.back().points[0]).normal == contact.normal;
+      if (joins) {
+        sources.back().points[1] = point;
+      } else {
+        sources.push_back({{point, RowSource::kNone}});
+      }
     }
   }
+}
+
+struct RowEnds {
+  RigidId a{}, b{};
+};
+RowEnds endsOf(const State& state, const RowSource& source) {
+  const ContactKey& key = state.contacts.contactOf(source.points[0]).key;
+  return {state[key.a].rigid, state[key.b].rigid};
 }
 
 /// Orders the blocks by island and, inside it, by colour: blocks of one colour share no body, so
@@ -98,8 +113,9 @@ void orderBlocks(const State& state, Scratch& scratch) {
   sets.reset(state.rigids.size());
   const auto moves = [&](RigidId id) { return scratch.u[index(id)].inv_mass > 0.0; };
   for (const RowSource& source : scratch.row_sources) {
-    if (moves(source.a) && moves(source.b)) {
-      sets.unite(static_cast<std::uint32_t>(source.a), static_cast<std::uint32_t>(source.b));
+    const auto [a, b] = endsOf(state, source);
+    if (moves(a) && moves(b)) {
+      sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
     }
   }
   uniteJoints(state, scratch);
@@ -108,43 +124,45 @@ void orderBlocks(const State& state, Scratch& scratch) {
   reserveTightly(scratch.block_order, scratch.row_sources.size());
   scratch.block_order.resize(scratch.row_sources.size());
   for (std::uint32_t i = 0; i < scratch.row_sources.size(); ++i) {
-    const RowSource& source = scratch.row_sources[i];
-    const bool a_moves = moves(source.a), b_moves = moves(source.b);
-    std::uint64_t &a = scratch.colours[index(source.a)], &b = scratch.colours[index(source.b)];
+    const RowEnds ends = endsOf(state, scratch.row_sources[i]);
+    const bool a_moves = moves(ends.a), b_moves = moves(ends.b);
+    std::uint64_t &a = scratch.colours[index(ends.a)], &b = scratch.colours[index(ends.b)];
     const std::uint64_t used = (a_moves ? a : 0) | (b_moves ? b : 0);
     const auto colour = static_cast<std::uint32_t>(std::min(std::countr_one(used), 63));
     if (a_moves) a |= std::uint64_t{1} << colour;
     if (b_moves) b |= std::uint64_t{1} << colour;
-    const auto body = static_cast<std::uint32_t>(a_moves ? source.a : source.b);
+    const auto body = static_cast<std::uint32_t>(a_moves ? ends.a : ends.b);
     scratch.block_order[i] = {sets.find(body), colour, i};
   }
   std::sort(scratch.block_order.begin(), scratch.block_order.end());
 }
 
 /// The rows of one block, with the impulses of the last step as a start.
-ContactBlock makeBlock(const State& state, const Scratch& scratch, const RowSource& source) {
-  const Contact& contact = *source.contact;
+ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& source) {
+  const Contact& contact = state.contacts.contactOf(source.points[0]);
   const Pose pose_a = state.pose(contact.key.a);
-  const Rigid &a = state[source.a], &b = state[source.b];
+  const RowEnds ends = endsOf(state, source);
+  const Rigid &a = state[ends.a], &b = state[ends.b];
+  const auto count = static_cast<std::size_t>(source.count());
   const SolverSettings& settings = state.settings.solver;
   BlockGeometry g;
   g.normal = pose_a.rotation * contact.normal;
-  g.count = source.count;
+  g.count = source.count();
   g.softness = contactSoftness(settings, ownInverseMass(state, contact.key.a),
                                ownInverseMass(state, contact.key.b));
-  for (std::size_t i = 0; i < static_cast<std::size_t>(source.count); ++i) {
-    const Vec2 position = pose_a * source.points[i]->position;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 position = pose_a * state.contacts.point(source.points[i]).position;
     g.arm_a[i] = position - a.x;
     g.arm_b[i] = position - b.x;
   }
   ContactBlock k;
-  k.a = static_cast<std::uint32_t>(source.a);
-  k.b = static_cast<std::uint32_t>(source.b);
-  k.mu = contact.mu;
+  k.a = static_cast<std::uint32_t>(ends.a);
+  k.b = static_cast<std::uint32_t>(ends.b);
+  k.mu = frictionOf(state, contact.key.a, contact.key.b);
   k.bilateral = isBilateral(state, contact.key.a, contact.key.b);
   bool rests = false;
-  for (int i = 0; i < source.count; ++i) {
-    ContactPoint& point = *source.points[static_cast<std::size_t>(i)];
+  for (int i = 0; i < source.count(); ++i) {
+    ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(i)]);
     const Vec2 before = b.v + cross(b.omega, g.arm_b[i]) - a.v - cross(a.omega, g.arm_a[i]);
     const double rest = contactBias(settings, state.h, point.gap);
     k.bias[i] = restitutionBias(state, contact, point, g.normal.dot(before), rest);
@@ -155,14 +173,14 @@ ContactBlock makeBlock(const State& state, const Scratch& scratch, const RowSour
   // Only what rests breathes: compliance would take speed from a bounce.
   if (!rests) g.softness = 0.0;
   prepareBlock(k, g, scratch.u[k.a], scratch.u[k.b]);
-  for (int i = k.count; i < source.count; ++i) {  // too close to the first point to count
-    source.points[static_cast<std::size_t>(i)]->lambda_n = 0.0;
-    source.points[static_cast<std::size_t>(i)]->lambda_t = 0.0;
+  if (k.count < source.count()) {  // the second is too close to the first to count
+    ContactPoint& point = state.contacts.point(source.points[1]);
+    point.lambda_n = point.lambda_t = 0.0;
   }
   return k;
 }
 
-void buildBlocks(const State& state, Scratch& scratch) {
+void buildBlocks(State& state, Scratch& scratch) {
   scratch.islands.clear();
   scratch.blocks.clear();
   reserveTightly(scratch.blocks, scratch.block_order.size());

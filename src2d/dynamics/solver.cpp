@@ -55,12 +55,12 @@ SweepChange solveIsland(const SolverSettings& settings, Scratch& scratch, const 
 }
 
 /// Hands the impulses back to the contacts, with the velocities that they leave.
-void storeImpulses(const Scratch& scratch) {
+void storeImpulses(State& state, const Scratch& scratch) {
   for (std::size_t i = 0; i < scratch.blocks.size(); ++i) {
     const ContactBlock& k = scratch.blocks[i];
     const RowSource& source = scratch.row_sources[scratch.block_order[i].source];
     for (int p = 0; p < k.count; ++p) {
-      ContactPoint& point = *source.points[static_cast<std::size_t>(p)];
+      ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(p)]);
       const ContactVelocity w = contactVelocity(k, p, k.nx, k.ny, scratch.u[k.a], scratch.u[k.b]);
       point.lambda_n = k.lambda_n(p);
       point.lambda_t = k.lambda_t(p);
@@ -82,7 +82,7 @@ void solveContacts(State& state, Scratch& scratch) {
     all.squared += change.squared;
     all.total += change.total;
   }
-  storeImpulses(scratch);
+  storeImpulses(state, scratch);
   storeJointImpulses(state, scratch);
   scratch.stats.residual = all.total > 0.0 ? std::sqrt(all.squared / all.total) : 0.0;
 }

@@ -16,7 +16,8 @@ void aimAtGaps(const State& state, Scratch& scratch) {
     const RowSource& source = scratch.row_sources[scratch.block_order[i].source];
     for (int p = 0; p < k.count; ++p) {
       const double w = contactVelocity(k, p, k.nx, k.ny, scratch.u[k.a], scratch.u[k.b]).n;
-      const double gap = source.points[static_cast<std::size_t>(p)]->gap + state.h * w;
+      const ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(p)]);
+      const double gap = point.gap + state.h * w;
       k.bias[p] = (gap > 0.0 ? gap : kCorrectedShare * gap) / state.h;
     }
     k.lambda = {};

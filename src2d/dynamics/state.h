@@ -36,17 +36,17 @@ inline constexpr FrameId kWorldFrame = 0;
 struct Rigid {
   Vec2 x = Vec2::Zero();       ///< centre of mass (the frame's origin when not floating) [m]
   Vec2 rest = Vec2::Zero();    ///< of it, what is finer than the grid of positions [m]
-  double angle = 0.0;          ///< [rad]
-  Rotation rotation;           ///< of `angle`
-  Rotation previous_rotation;  ///< before the last position update
   Vec2 center = Vec2::Zero();  ///< centre of mass in the frame [m]
   Vec2 v = Vec2::Zero();       ///< of the centre of mass [m/s]
   double omega = 0.0;          ///< [rad/s]
+  double angle = 0.0;          ///< [rad]
+  Rotation rotation;           ///< of `angle`
+  Rotation previous_rotation;  ///< before the last position update
   double mass = 0.0, inertia = 0.0;
   double inv_mass = 0.0, inv_inertia = 0.0;  ///< 0 unless floating
-  FrameId anchor = kFloating;                ///< the frame it is fixed to
   Aabb bounds;                               ///< in the frame [m]
   OrientedBox box;                           ///< in the frame [m]
+  FrameId anchor = kFloating;                ///< the frame it is fixed to
   int leaf = -1;                             ///< in the broadphase; −1: not simulated as its own
   int quiet_steps = 0;                       ///< consecutive steps below the sleeping threshold
   bool asleep = false;
@@ -64,23 +64,25 @@ struct Rigid {
   }
   Pose frame() const { return {x + onGrid(rest - rotation * center), rotation}; }
   Vec2 velocityAt(const Vec2& p) const { return v + cross(omega, p - x - rest); }
+  /// The same where another's centre of mass is, to which no sum of a place and a rest is exact.
+  Vec2 velocityAt(const Rigid& o) const { return v + cross(omega, (o.x - x) + (o.rest - rest)); }
 };
 
 /// A body's own constants, and where it is found now.
 struct Body {
   std::uint32_t first_shape = 0, shape_count = 0;  ///< into State::shape_collider
-  double mass = 0.0, inertia = 0.0;
-  double friction = 0.0, restitution = 0.0;
-  double pinned_until = 0.0;
+  RigidId rigid{};                                 ///< itself, or its collection
   Motion motion = Motion::Dynamic;
   bool alive = true;  ///< false before its emission
   bool magnet_on = false;
-  Vec2 load = Vec2::Zero(),
-       load_asleep = Vec2::Zero();  ///< outer forces now, and when it slept [N]
-  RigidId rigid{};                  ///< itself, or its collection
-  Vec2 local = Vec2::Zero();        ///< pose in the collection's frame
-  double local_angle = 0.0;
+  double mass = 0.0, inertia = 0.0;
+  double friction = 0.0, restitution = 0.0;
+  double pinned_until = 0.0;
+  double local_angle = 0.0;  ///< pose in the collection's frame
+  Vec2 local = Vec2::Zero();
   Rotation local_rotation;
+  Vec2 load = Vec2::Zero();         ///< outer forces now [N]
+  Vec2 load_asleep = Vec2::Zero();  ///< the same when it fell asleep
 };
 
 /// Identifies a pair of shapes; contacts are kept in this order.
@@ -107,11 +109,12 @@ struct Contact {
   ContactKey key;
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in a's frame; inside a collection in its frame
   int count = 0;
-  std::array<ContactPoint, 2> points;
-  double mu = 0.0;
-  float restitution = 0.0F;
   int quiet_steps = 0;  ///< consecutive steps in which the pair could have merged
+  std::array<ContactPoint, 2> points;
 };
+
+/// A point of a contact in the table: twice its slot, plus which of the two it is.
+using PointIndex = std::uint32_t;
 
 /// Contacts between different rigid things: slots that stay in place, and their order by key.
 struct ContactTable {
@@ -125,6 +128,10 @@ struct ContactTable {
 
   Contact& operator[](const Entry& entry) { return slots[entry.slot]; }
   const Contact& operator[](const Entry& entry) const { return slots[entry.slot]; }
+
+  const Contact& contactOf(PointIndex i) const { return slots[i / 2]; }
+  ContactPoint& point(PointIndex i) { return slots[i / 2].points[i % 2]; }
+  const ContactPoint& point(PointIndex i) const { return slots[i / 2].points[i % 2]; }
 };
 
 /// A pair of bodies in contact: a run of ContactTable::order.
@@ -280,6 +287,14 @@ struct State {
   }
 };
 
+/// The mixing rules of two bodies: friction by the geometric mean, restitution by the larger.
+inline double frictionOf(const State& state, BodyId a, BodyId b) {
+  return std::sqrt(state[a].friction * state[b].friction);
+}
+inline double restitutionOf(const State& state, BodyId a, BodyId b) {
+  return std::max(state[a].restitution, state[b].restitution);
+}
+
 /// Contacts of a magnet that is on pull too, and do not slide.
 inline bool isBilateral(const State& state, BodyId a, BodyId b) {
   return state[a].magnet_on || state[b].magnet_on;
@@ -307,10 +322,9 @@ struct SweepContact {
 
 /// What a block of the full solve is made from, and where its impulses go.
 struct RowSource {
-  RigidId a{}, b{};
-  const Contact* contact = nullptr;
-  std::array<ContactPoint*, 2> points{};
-  int count = 0;
+  static constexpr PointIndex kNone = ~PointIndex{0};
+  std::array<PointIndex, 2> points{kNone, kNone};
+  int count() const { return points[1] == kNone ? 1 : 2; }
 };
 
 /// Blocks and bodies of one island of the full solve: ranges of Scratch::blocks, island_bodies.

@@ -3,6 +3,8 @@
 
 #include <box2d/b2_dynamic_tree.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -20,6 +22,7 @@ class AabbTree {
   AabbTree& operator=(const AabbTree&) = delete;
 
   int insert(const Aabb& box, std::uint32_t value) {
+    grow();
     return tree_.CreateProxy(toB2(box), toUserData(value));
   }
   /// A leaf with this very fat box, which another tree's `fatBox` gave: a tree that is built anew
@@ -33,11 +36,15 @@ class AabbTree {
            box.upperBound.y, ahead.y);
     // Moving a leaf from far away gives it just the box that `box` and `ahead` ask for.
     const b2Vec2 far(1e8F, 1e8F);
+    grow();
     const int leaf = tree_.CreateProxy({far, far}, toUserData(value));
     tree_.MoveProxy(leaf, box, ahead);
     return leaf;
   }
-  void remove(int leaf) { tree_.DestroyProxy(leaf); }
+  void remove(int leaf) {
+    tree_.DestroyProxy(leaf);
+    --leaves_;
+  }
 
   /// True when the box left its fat box and the leaf was placed anew, with room ahead along
   /// `displacement` [m].
@@ -64,7 +71,15 @@ class AabbTree {
     tree_.Query(&callback, tree_.GetFatAABB(leaf));
   }
 
+  /// Box2D keeps its nodes, twice as many as leaves, in an array that doubles from sixteen.
+  std::size_t memoryBytes() const {
+    const std::size_t nodes = 2 * most_leaves_;
+    return std::bit_ceil(std::max<std::size_t>(nodes, 16)) * sizeof(b2TreeNode);
+  }
+
  private:
+  void grow() { most_leaves_ = std::max(most_leaves_, ++leaves_); }
+
   /// Bounds that Box2D grows to [lower, upper] exactly. Growing rounds, so that not every number
   /// can be reached from one side; `ahead`, which only moves one bound outwards, gives the rest. As
   /// fat boxes are wider than twice their margin, at most one side needs it.
@@ -108,6 +123,7 @@ class AabbTree {
   }
 
   b2DynamicTree tree_;
+  std::size_t leaves_ = 0, most_leaves_ = 0;
 };
 
 }  // namespace merge2d

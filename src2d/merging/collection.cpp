@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src2d/contact/broadphase.h"
+#include "src2d/core/memory.h"
 
 namespace merge2d {
 namespace {
@@ -103,9 +104,9 @@ RigidId newCollection(State& state) {
   std::size_t slot = 0;
   while (slot < state.collections.size() && state.collections[slot].id != kNoCollection) ++slot;
   if (slot == state.collections.size()) {
-    state.collections.emplace_back();
-    state.rigids.emplace_back();
-    state.broadphase.shape_trees.emplace_back();
+    appendTightly(state.collections);
+    appendTightly(state.rigids);
+    appendTightly(state.broadphase.shape_trees);
   }
   const RigidId id{static_cast<std::uint32_t>(state.bodies.size() + slot)};
   Collection& c = state.collections[slot];

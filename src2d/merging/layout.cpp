@@ -70,6 +70,7 @@ void layOutWelds(const State& state, Collection& c) {
     c.welds.back().count = i + 1 - c.welds.back().first;
   }
   addJointWelds(state, c);
+  c.welds.shrink_to_fit();
   std::size_t o = 0;
   for (Weld& weld : c.welds) {
     while (o < old.size() && std::pair(old[o].a, old[o].b) < std::pair(weld.a, weld.b)) ++o;
@@ -106,7 +107,7 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   ContactBlock k;
   k.a = static_cast<std::uint32_t>(contact.key.a);
   k.b = static_cast<std::uint32_t>(contact.key.b);
-  k.mu = contact.mu;
+  k.mu = frictionOf(state, contact.key.a, contact.key.b);
   k.bilateral = isBilateral(state, contact.key.a, contact.key.b);
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];

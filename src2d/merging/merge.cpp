@@ -47,6 +47,7 @@ struct PairContacts {
 PairContacts lookAt(const State& state, const BodyPair& pair) {
   PairContacts seen;
   const bool bilateral = isBilateral(state, pair.a, pair.b);
+  const double mu = frictionOf(state, pair.a, pair.b);
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
     const Contact& contact = state.contacts[state.contacts.order[i]];
     for (int k = 0; k < contact.count; ++k) {
@@ -56,8 +57,7 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
       seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
       seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
       const bool at_rest = std::abs(p.w_t) < state.settings.sleeping.velocity;
-      seen.on_edge +=
-          !bilateral && !at_rest && std::abs(p.lambda_t) >= kOnEdge * contact.mu * p.lambda_n;
+      seen.on_edge += !bilateral && !at_rest && std::abs(p.lambda_t) >= kOnEdge * mu * p.lambda_n;
     }
   }
   return seen;
@@ -405,15 +405,19 @@ bool weld(State& state, const BodyPair& pair) {
 }
 
 /// The full solve has become smaller: its memory goes back.
-void releaseRows(Scratch& scratch) {
+void releaseRows(State& state, Scratch& scratch) {
+  trim(state.broadphase.near);
   scratch.blocks.clear();
   scratch.row_sources.clear();
-  trim(scratch.blocks);
-  trim(scratch.row_sources);
-  for (auto* v : {&scratch.nncg.before, &scratch.nncg.direction}) {
-    v->clear();
-    v->shrink_to_fit();
-  }
+  scratch.block_order.clear();
+  scratch.sweep_contacts.clear();
+  scratch.candidates.clear();
+  scratch.near_candidates.clear();
+  scratch.nncg.before.clear();
+  scratch.nncg.direction.clear();
+  trim(scratch.blocks, scratch.row_sources, scratch.block_order, scratch.sweep_contacts,
+       scratch.candidates, scratch.near_candidates, scratch.nncg.before, scratch.nncg.direction,
+       scratch.pairs, scratch.ready, scratch.u, scratch.sweep_before);
 }
 
 }  // namespace
@@ -451,7 +455,7 @@ void merge(State& state, Scratch& scratch) {
   layOutCollections(state);
   compactContacts(state);
   collectPairs(state, scratch);
-  releaseRows(scratch);
+  releaseRows(state, scratch);
 }
 
 }  // namespace merge2d

@@ -28,7 +28,7 @@ RigidId freeBody(State& state, BodyId b, const Rigid& whole) {
   r.angle = angle;
   r.rotation = Rotation::of(angle);
   r.previous_rotation = r.rotation;
-  r.v = whole.velocityAt(r.x);
+  r.v = whole.velocityAt(r);
   r.omega = whole.omega;
   r.quiet_steps = 0;
   r.asleep = false;
@@ -57,7 +57,7 @@ void inheritMotion(State& state, RigidId id, const Rigid& whole, bool anchored) 
     r.anchor = kFloating;
   }
   gatherMass(state, id);
-  r.v = whole.velocityAt(r.exactCenter());
+  r.v = whole.velocityAt(r);
   r.omega = whole.omega;
 }
 

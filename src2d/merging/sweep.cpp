@@ -120,7 +120,7 @@ void addOuterContact(const State& state, const Contact& contact, std::uint32_t s
   }
   k.a = static_cast<std::uint32_t>(a);
   k.b = static_cast<std::uint32_t>(b);
-  k.mu = contact.mu;
+  k.mu = frictionOf(state, contact.key.a, contact.key.b);
   k.bilateral = isBilateral(state, a, b);
   prepareBlock(k, g, ua, ub);
   scratch.sweep_contacts.push_back(outer);

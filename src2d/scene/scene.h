@@ -18,7 +18,7 @@ namespace merge2d {
 /// The time of what never ends [s]; the strength of what never breaks.
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
-enum class Motion { Dynamic, Pinned, Scripted };
+enum class Motion : std::uint8_t { Dynamic, Pinned, Scripted };
 
 /// offset = axis · amplitude · (1 − cos(2π t / period)): starts at rest.
 struct Sinusoid {

@@ -53,9 +53,9 @@ ContactView view(const State& state, const Contact& contact, const ContactPoint&
   seen.lambda_t = p.lambda_t;
   seen.w_n = p.w_n;
   seen.w_t = p.w_t;
-  seen.mu = contact.mu;
+  seen.mu = frictionOf(state, contact.key.a, contact.key.b);
   seen.state =
-      stateOf(p.lambda_n, p.lambda_t, contact.mu, isBilateral(state, contact.key.a, contact.key.b));
+      stateOf(p.lambda_n, p.lambda_t, seen.mu, isBilateral(state, contact.key.a, contact.key.b));
   seen.fresh = p.fresh;
   return seen;
 }
@@ -201,11 +201,6 @@ void measure(const State& state, const Actions& actions, const Snapshot& seen, S
   }
 }
 
-template <class T>
-std::size_t bytes(const std::vector<T>& v) {
-  return v.capacity() * sizeof(T);
-}
-
 }  // namespace
 
 void captureState(const State& state, const Actions& actions, const Scratch& scratch,
@@ -245,27 +240,6 @@ void countBodies(const State& state, Scratch& scratch) {
       for (const ContactBlock& k : c.blocks) stats.internal_contacts += k.count;
     }
   }
-}
-
-std::size_t memoryBytes(const State& state, const Scratch& scratch) {
-  std::size_t total = bytes(state.colliders) + bytes(state.shape_body) +
-                      bytes(state.collider_bounds) + bytes(state.shape_collider) +
-                      bytes(state.bodies) + bytes(state.rigids) + bytes(state.contacts.slots) +
-                      bytes(state.contacts.order) + bytes(state.joints) +
-                      bytes(state.broadphase.near) + bytes(state.broadphase.shape_leaves);
-  for (const Collection& c : state.collections) {
-    total += sizeof(Collection) + bytes(c.members) + bytes(c.contacts) + bytes(c.blocks) +
-             bytes(c.block_contact) + bytes(c.welds) + bytes(c.push);
-  }
-  total += bytes(scratch.u) + bytes(scratch.blocks) + bytes(scratch.row_sources) +
-           bytes(scratch.nncg.before) + bytes(scratch.nncg.direction) +
-           bytes(scratch.nncg.u_before) + bytes(scratch.nncg.u_direction) +
-           bytes(scratch.block_order) + bytes(scratch.sweep_u) + bytes(scratch.sweep_contacts) +
-           bytes(scratch.sweep_before) + bytes(scratch.pairs);
-  // Two nodes per leaf of each tree.
-  constexpr std::size_t kNode = 2 * 48;
-  total += kNode * (state.rigids.size() + state.shape_body.size());
-  return total;
 }
 
 }  // namespace merge2d

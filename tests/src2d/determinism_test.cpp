@@ -233,6 +233,25 @@ TEST(Determinism, ASceneMovedByAKilometreHasTheSameEventsAtTheSameSteps) {
   EXPECT_GT(eventsOf(towerUnderFire(), Mode::MergeSleep, 400).size(), 20u);
 }
 
+TEST(Determinism, ASceneMovedByAKilometreHasTheSameVelocitiesBitForBit) {
+  for (const Mode mode : kModes) {
+    World here(towerUnderFire(), inMode(mode));
+    World there(shifted(towerUnderFire(), {1000, 1000}), inMode(mode));
+    Snapshot a, b;
+    for (int step = 1; step <= 400; ++step) {
+      here.step();
+      there.step();
+      here.capture(a);
+      there.capture(b);
+      for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+        ASSERT_EQ(a.bodies[i].v, b.bodies[i].v) << name(mode) << ", step " << step;
+        ASSERT_EQ(a.bodies[i].omega, b.bodies[i].omega) << name(mode) << ", step " << step;
+        ASSERT_EQ(a.bodies[i].angle, b.bodies[i].angle) << name(mode) << ", step " << step;
+      }
+    }
+  }
+}
+
 TEST(Determinism, ASceneMovedByAKilometreEndsWhereItShould) {
   for (const Mode mode : kModes) {
     World here(wall(8, 5), inMode(mode)), there(shifted(wall(8, 5), {1000, -1000}), inMode(mode));

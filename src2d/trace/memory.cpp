@@ -1,0 +1,49 @@
+/// How much memory a world holds.
+
+#include "src2d/core/memory.h"
+
+#include "src2d/trace/capture.h"
+
+namespace merge2d {
+namespace {
+
+std::size_t bytesOfBroadphase(const Broadphase& b) {
+  std::size_t total = b.tree.memoryBytes() + bytesOf(b.shape_trees, b.shape_leaves, b.near);
+  for (const auto& tree : b.shape_trees) {
+    if (tree) total += sizeof(AabbTree) + tree->memoryBytes();
+  }
+  return total;
+}
+
+std::size_t bytesOfState(const State& s) {
+  std::size_t total = bytesOf(s.colliders, s.collider_bounds, s.shape_collider, s.shape_body,
+                              s.first_sibling, s.siblings, s.bodies, s.rigids, s.collections,
+                              s.joints, s.joined_pairs, s.ready_before) +
+                      bytesOf(s.contacts.slots, s.contacts.free_slots, s.contacts.order) +
+                      bytesOfBroadphase(s.broadphase);
+  for (const Collection& c : s.collections) {
+    total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.block_weld, c.watched,
+                     c.pivots, c.cut_welds, c.welds, c.joints, c.push);
+  }
+  return total;
+}
+
+std::size_t bytesOfScratch(const Scratch& s) {
+  return bytesOf(s.loads, s.kicks, s.springs, s.pairs, s.events, s.moved, s.moved_flag,
+                 s.candidates, s.near_candidates, s.near_refined, s.seeds, s.stirred, s.restless,
+                 s.island_awake) +
+         bytesOf(s.sweep_u, s.sweep_before, s.sweep_contacts, s.sweep_joints, s.near_collection,
+                 s.disturbed, s.cuts_before, s.ready) +
+         bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
+                 s.joint_order, s.joint_blocks, s.block_order) +
+         bytesOf(s.nncg.before, s.nncg.direction, s.nncg.u_before, s.nncg.u_direction) +
+         s.sets.memoryBytes();
+}
+
+}  // namespace
+
+std::size_t memoryBytes(const State& state, const Scratch& scratch) {
+  return bytesOfState(state) + bytesOfScratch(scratch);
+}
+
+}  // namespace merge2d
