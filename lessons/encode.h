@@ -1,6 +1,6 @@
 #pragma once
 /// A recording as a page carries it: a JSON head that says what there is, and packed columns.
-/// lessons/web/src/trace.ts reads it again; the two change together.
+/// lessons/web/src/head.ts and tracks.ts read it again; they change together.
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 import { chart, type Series } from './chart';
 import { h, number, plural } from './dom';
 import type { State } from './state';
-import type { DecisionTrack } from './trace';
+import type { DecisionTrack } from './tracks';
 
 const kNames: Record<string, [string, string]> = {
   'relative-motion': ['Fastest relative motion', 'm/s'],

@@ -6,12 +6,13 @@ import { ledger } from './ledger';
 import { type Lesson, LessonPanel } from './lesson';
 import { layerSwitches, ribbon, transport } from './controls';
 import { h } from './dom';
+import type { Packed } from './head';
 import { inspector } from './inspector';
 import { helpDialog, listenToKeys } from './keys';
 import { nowCard } from './now';
 import { Picture } from './picture';
 import { State } from './state';
-import { Trace, type Packed } from './trace';
+import { Trace } from './trace';
 
 interface PageData {
   title: string;

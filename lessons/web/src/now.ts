@@ -1,8 +1,9 @@
 // What happens in this stage of this step, in words: for the eye and for the screen reader.
 import { h, plural } from './dom';
+import type { EventRow } from './head';
 import { kLast, kStages } from './stages';
 import type { State } from './state';
-import type { EventRow, Trace } from './trace';
+import type { Trace } from './trace';
 
 const kReasons: Record<string, string> = {
   broken: 'its contact broke', sliding: 'it slides', 'relative-motion': 'it moves', cycle: 'its cycle fell apart', user: 'it was pulled',
