@@ -14,6 +14,7 @@ struct Encoding {
   double positions = 65536.0;  ///< steps per visible height
   double decades = 256.0;      ///< steps per factor of two of a velocity or an impulse
   int contacts_every = 1;      ///< time steps between two samples of contacts and decisions
+  std::size_t impulses = 0;    ///< how many contacts' impulses inside steps, over all steps
 };
 const std::vector<Encoding>& encodings();
 

@@ -1,9 +1,10 @@
 // The layers of the picture that lie on contacts: marks, forces, graph, nearness to a limit.
 import type { Vec } from './head';
+import { aboutImpulses, changeOf } from './inside';
 import type { Paths, Sight } from './sight';
 import { kUnmerge } from './stages';
 import { arrow, cross, disc, fixed, polygon, square } from './strokes';
-import type { Contact } from './trace';
+import type { Contact, Impulse } from './trace';
 
 /** Criteria whose value grows towards a limit. */
 const kLimits = ['relative-motion', 'sliding', 'breathing', 'opening', 'cone'];
@@ -39,19 +40,22 @@ function carried(sight: Sight, contact: Contact): boolean {
   return before !== null && before.lambdaN > 0;
 }
 
+/** Impulses as forces; stages that are about impulses show those before them too, broad and pale. */
 export function forces(sight: Sight): Paths {
-  const paths = { force: '', friction: '', inner: '', cone: '' };
+  const paths = { earlier: '', force: '', friction: '', inner: '', cone: '' };
   const { state, stage } = sight;
-  if (!state.layers.has('forces')) return paths;
+  const changing = aboutImpulses(state);
+  if (!state.layers.has('forces') && !changing) return paths;
   const scale = sight.scales.force / sight.trace.head.h;
   const withCone = stage === 'SolveLCP' || stage === 'Unmerge' || stage === 'SingleIterationPGS';
   for (const c of sight.contacts) {
-    if (c.lambdaN <= 0) continue;
     const [x, y] = sight.view.at([c.x, c.y]);
     const [tx, ty] = [-c.ny, c.nx];
-    const fx = scale * (c.lambdaN * c.nx + c.lambdaT * tx);
-    const fy = scale * (c.lambdaN * c.ny + c.lambdaT * ty);
-    paths[c.internal ? 'inner' : 'force'] += arrow(x, y, fx, -fy);
+    const along = ([n, t]: Impulse): Vec => [scale * (n * c.nx + t * tx), -scale * (n * c.ny + t * ty)];
+    const change = changing ? changeOf(state, c) : null;
+    if (change && stage !== 'WarmStart') paths.earlier += arrow(x, y, ...along(change.before));
+    if (c.lambdaN <= 0) continue;
+    paths[c.internal ? 'inner' : 'force'] += arrow(x, y, ...along([c.lambdaN, c.lambdaT]));
     if (c.state === 'sliding') paths.friction += arrow(x, y, scale * c.lambdaT * tx, -scale * c.lambdaT * ty);
     if (withCone && hasCone(sight, c)) {
       const n = scale * c.lambdaN;

@@ -1,4 +1,4 @@
-// What a recorded run says about itself in plain JSON: lessons/encode.cpp writes it.
+// What a recorded run says about itself in plain JSON: lessons/encode_head.cpp writes it.
 export type Vec = [number, number];
 export type EventRow = [step: number, type: string, a: number, b: number, collection: number, reason: string];
 
@@ -39,6 +39,7 @@ export interface Head {
   colors: [number, number][];
   springs: [number, number, number, number, number, number][];
   ledger?: number[][];
+  inside?: [step: number, contacts: number][];
   orders?: [step: number, visits: [a: number, b: number, depth: number][]][];
 }
 

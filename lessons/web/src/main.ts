@@ -7,6 +7,7 @@ import { type Lesson, LessonPanel } from './lesson';
 import { layerSwitches, ribbon, transport } from './controls';
 import { h } from './dom';
 import type { Packed } from './head';
+import { impulseCard } from './impulses';
 import { inspector } from './inspector';
 import { helpDialog, listenToKeys } from './keys';
 import { nowCard } from './now';
@@ -64,7 +65,7 @@ function start(): void {
       h('div', { class: 'left' }, h('div', { class: 'stage-area' },
         h('div', { class: 'frame' }, picture.root, badge(state)),
         controls.root, layerSwitches(state), ribbon(state)), familyTree(state), ledger(state)),
-      h('div', { class: 'side' }, panel?.root ?? null, nowCard(state), equationCard(state), inspector(state))),
+      h('div', { class: 'side' }, panel?.root ?? null, nowCard(state), equationCard(state), impulseCard(state), inspector(state))),
     help);
   listenToKeys(state, controls, { help: () => help.showModal(), part: (by) => panel?.move(by) });
   printing(data, state);

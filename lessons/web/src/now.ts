@@ -1,6 +1,7 @@
 // What happens in this stage of this step, in words: for the eye and for the screen reader.
 import { h, plural } from './dom';
 import type { EventRow } from './head';
+import { impulsesText } from './impulses';
 import { kLast, kStages } from './stages';
 import type { State } from './state';
 import type { Trace } from './trace';
@@ -44,7 +45,8 @@ export function describe(state: State): string {
   const events = eventsShown(state);
   const told = events.slice(0, 3).map((row) => `${eventText(state.trace, row)}.`).join(' ');
   const more = events.length > 3 ? ` And ${plural(events.length - 3, 'more event')}.` : '';
-  return `${head} ${plural(s.active, 'body is simulated', 'bodies are simulated')}, ${plural(s.collections, 'collection')}, ${plural(s.contacts, 'contact')} solved, ${s.internal} inside collections, ${s.asleep} asleep. ${told}${more}`;
+  const inside = impulsesText(state);
+  return `${head} ${plural(s.active, 'body is simulated', 'bodies are simulated')}, ${plural(s.collections, 'collection')}, ${plural(s.contacts, 'contact')} solved, ${s.internal} inside collections, ${s.asleep} asleep. ${told}${more}${inside && ` ${inside}`}`;
 }
 
 export function nowCard(state: State): HTMLElement {

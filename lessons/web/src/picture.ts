@@ -11,7 +11,7 @@ import { kHeight, kWidth, type Scales, scalesOf, View } from './view';
 
 /** From back to front. */
 const kPaths = ['springs', 'boxes', 'centre', 'graph', 'welds', 'cone', 'heat-calm', 'heat-warm', 'heat-near', 'heat-over',
-  'idle', 'merged', 'active', 'broken', 'cut', 'fresh', 'force', 'friction', 'inner', 'velocity', 'before', 'corners', 'focus'];
+  'idle', 'merged', 'active', 'broken', 'cut', 'fresh', 'earlier', 'force', 'friction', 'inner', 'velocity', 'before', 'corners', 'focus'];
 const kLayers = [springs, boxes, newCollections, graph, heat, contactMarks, forces, velocities, ways, corners, focus];
 
 let pictures = 0;

@@ -1,5 +1,6 @@
 // What the picture shows at one moment: the layers are drawn from it.
 import { groupedAt } from './groups';
+import { contactsOfStage } from './inside';
 import { kPositions, kStages } from './stages';
 import type { State } from './state';
 import type { Contact, Trace } from './trace';
@@ -28,6 +29,6 @@ export function sightOf(state: State, view: View, scales: Scales): Sight {
     stage: kStages[stage].id,
     still: !state.playing && step > 0,
     grouped: groupedAt(trace, step, stage),
-    contacts: trace.head.full ? trace.contactsAt(step, posed) : [],
+    contacts: contactsOfStage(state, posed),
   };
 }

@@ -33,4 +33,6 @@ export const kStages: Stage[] = [
 
 export const kLast = kStages.length - 1;
 export const kPositions = kStages.findIndex((stage) => stage.id === 'AdvancePositions');
+export const kSweep = kStages.findIndex((stage) => stage.id === 'SingleIterationPGS');
+export const kSolve = kStages.findIndex((stage) => stage.id === 'SolveLCP');
 export const kUnmerge = kStages.findIndex((stage) => stage.id === 'Unmerge');

@@ -1,6 +1,6 @@
 // A recorded run, to be asked what is where at a time step.
 import type { Criterion, EventRow, Head, Packed } from './head';
-import { type BodyTrack, ByPair, type ContactTrack, type DecisionTrack, readBody, readContact, readDecision } from './tracks';
+import { type BodyTrack, ByPair, type ContactTrack, type DecisionTrack, type Inside, readBody, readContact, readDecision, readInside } from './tracks';
 import { Unpacker } from './unpack';
 
 /** A quantity that is kept in codes: some spread evenly, some over many decades. */
@@ -29,6 +29,17 @@ export interface Contact {
   state: 'broken' | 'sticking' | 'sliding';
   internal: boolean;
   fresh: boolean;
+}
+
+/** Along the normal and along the tangent [N s]. */
+export type Impulse = [normal: number, tangent: number];
+
+/** Before and after the single sweep, and with which the full solve begins. */
+export interface Impulses {
+  warm: Impulse;
+  swept: Impulse;
+  begin: Impulse;
+  inner: boolean;
 }
 
 export interface Decision {
@@ -73,6 +84,7 @@ export class Trace {
   private readonly amount: Scale;
   private readonly fine = logarithmic(1e-6, 1024);
   private readonly slots = new Map<number, number>();
+  private readonly insides = new Map<number, Inside>();
   private readonly contactsOf: ByPair<ContactTrack>;
   private readonly decisionsOf: ByPair<DecisionTrack>;
 
@@ -84,8 +96,12 @@ export class Trace {
     const { full, every, criteria } = this.head;
     for (let i = 0; i < this.head.bodies.length; ++i) this.bodies.push(readBody(read, full));
     if (full) {
-      for (let n = read.number(); n > 0; --n) this.contacts.push(readContact(read, every));
+      for (let n = read.number(), i = 0; i < n; ++i) this.contacts.push(readContact(read, every, i));
       for (let n = read.number(); n > 0; --n) this.decisions.push(readDecision(read, every, criteria));
+      for (let n = read.number(); n > 0; --n) {
+        const inside = readInside(read);
+        this.insides.set(inside.step, inside);
+      }
     }
     this.contactsOf = new ByPair(this.contacts);
     this.decisionsOf = new ByPair(this.decisions);
@@ -191,6 +207,33 @@ export class Trace {
       if (contact) out.push(contact);
     }
     return out;
+  }
+
+  /** The impulses of a contact inside a step, where they were kept. */
+  impulses(track: ContactTrack, step: number): Impulses | null {
+    const inside = this.insides.get(step);
+    const i = inside?.place.get(track.id);
+    if (!inside || i === undefined) return null;
+    return {
+      warm: [this.amount(inside.warmN[i]), this.amount(inside.warmT[i])],
+      swept: [this.amount(inside.sweptN[i]), this.amount(inside.sweptT[i])],
+      begin: [this.amount(inside.beginN[i]), this.amount(inside.beginT[i])],
+      inner: inside.inner[i] === 1,
+    };
+  }
+
+  /** Whether something was swept in a step; unknown where its inside was not kept. */
+  sweeping(step: number): boolean | undefined {
+    return this.insides.get(step)?.sweeping;
+  }
+
+  /** The step whose inside was kept that is nearest, if any. */
+  nearestInside(step: number): number | undefined {
+    let best: number | undefined;
+    for (const at of this.insides.keys()) {
+      if (best === undefined || Math.abs(at - step) < Math.abs(best - step)) best = at;
+    }
+    return best;
   }
 
   tracksOf(a: number, b: number): ContactTrack[] {

@@ -61,6 +61,7 @@ export interface BodyTrack {
 }
 
 export interface ContactTrack {
+  id: number;
   a: number;
   b: number;
   mu: number;
@@ -88,6 +89,20 @@ export interface DecisionTrack {
   passed: Int32Array;
 }
 
+/** The impulses of one step before and after its single sweep, per contact: lessons/impulses.h. */
+export interface Inside {
+  step: number;
+  sweeping: boolean; // something was merged, so that there was a sweep
+  place: Map<number, number>; // track to index
+  warmN: Int32Array;
+  warmT: Int32Array;
+  sweptN: Int32Array;
+  sweptT: Int32Array;
+  beginN: Int32Array; // of the full solve
+  beginT: Int32Array;
+  inner: Int32Array; // inside a collection during the sweep
+}
+
 /** With velocities where the whole run is recorded. */
 export function readBody(read: Unpacker, full: boolean): BodyTrack {
   const track: BodyTrack = {
@@ -106,8 +121,9 @@ export function readBody(read: Unpacker, full: boolean): BodyTrack {
   return track;
 }
 
-export function readContact(read: Unpacker, every: number): ContactTrack {
+export function readContact(read: Unpacker, every: number, id: number): ContactTrack {
   return {
+    id,
     a: read.number(),
     b: read.number(),
     mu: read.number() * 1e-5,
@@ -136,6 +152,16 @@ export function readDecision(read: Unpacker, every: number, criteria: Criterion[
     count: read.runs(),
     passed: read.runs(),
   };
+}
+
+export function readInside(read: Unpacker): Inside {
+  const [step, sweeping] = [read.number(), read.number() === 1];
+  const place = new Map([...read.column()].map((track, i) => [track, i]));
+  const [warmN, warmT] = [read.column(), read.column()];
+  const sum = (from: Int32Array, by: Int32Array) => from.map((code, i) => code + by[i]);
+  const [sweptN, sweptT] = [sum(warmN, read.column()), sum(warmT, read.column())];
+  const [beginN, beginT] = [sum(sweptN, read.column()), sum(sweptT, read.column())];
+  return { step, sweeping, place, warmN, warmT, sweptN, sweptT, beginN, beginT, inner: read.runs() };
 }
 
 /** The tracks of each pair of bodies. */
