@@ -2,10 +2,8 @@
 import { boxesAt, boxOf } from './groups';
 import type { Vec } from './head';
 import type { Paths, Sight } from './sight';
-import { kStages } from './stages';
+import { kVelocities } from './stages';
 import { arrow, coil, disc, fixed, polygon } from './strokes';
-
-const kVelocities = kStages.findIndex((stage) => stage.id === 'AdvanceVelocities');
 
 export function velocities(sight: Sight): Paths {
   const { state, trace, view, posed } = sight;

@@ -2,7 +2,7 @@
 import { h, plural } from './dom';
 import type { EventRow } from './head';
 import { impulsesText } from './impulses';
-import { kLast, kStages } from './stages';
+import { kLast, kStages, stageAt } from './stages';
 import type { State } from './state';
 import type { Trace } from './trace';
 
@@ -32,7 +32,7 @@ const kStageOfEvent: Record<string, string> = {
 function eventsShown(state: State): EventRow[] {
   const rows = state.trace.eventsAt.get(state.step) ?? [];
   return rows.filter((row) => {
-    const at = kStages.findIndex((stage) => stage.id === kStageOfEvent[row[1]]);
+    const at = stageAt(kStageOfEvent[row[1]]);
     return state.stage === kLast || at === state.stage;
   });
 }
