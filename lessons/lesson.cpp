@@ -35,8 +35,8 @@ struct Lesson::Source {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kLayers = {"contacts", "forces",     "graph", "boxes",
-                                                     "heat",     "velocities", "ghost", "labels"};
+constexpr std::array<std::string_view, 9> kLayers = {
+    "contacts", "forces", "graph", "boxes", "heat", "velocities", "ghost", "labels", "beside"};
 
 constexpr std::array kModes = {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep};
 

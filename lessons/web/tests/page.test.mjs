@@ -34,6 +34,7 @@ circle = 0.5
   make('what-merging-is');
   make('contact-forces');
   make('one-sweep');
+  make('how-fast-is-still');
   make('books');
   make('evil', 'evil.toml');
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
@@ -228,8 +229,41 @@ test('what if shows another run, and says so', async () => {
   await close();
 });
 
+test('a slider over a threshold shows the runs that were computed beforehand', async () => {
+  const { page, step, close } = await open('how-fast-is-still');
+  await page.locator('.slider').fill('300');
+  const merged = [];
+  for (const [at, value] of ['0.001', '0.01', '0.1', '1'].entries()) {
+    await page.locator('.threshold-slider input').fill(String(at));
+    assert.equal(await page.textContent('.threshold-slider output'), value);
+    assert.equal(await page.getAttribute('.threshold-slider input', 'aria-valuetext'), value);
+    assert.equal(await step(), 300);
+    merged.push(Number(await page.textContent('.facts .fact:nth-child(1) strong')));
+  }
+  assert.ok(merged[0] > merged[3], `bodies simulated: ${merged}`);
+  await page.selectOption('select[aria-label^="What if"]', '1');
+  assert.equal(await page.textContent('.threshold-slider output'), '–');
+  await close();
+});
+
+test('the reference can be seen as a ghost or beside the picture', async () => {
+  const { page, close } = await open('how-fast-is-still');
+  await page.locator('.slider').fill('300');
+  const other = page.locator('.frame:has(> .picture:not(.interactive))');
+  assert.ok(!(await other.isVisible()));
+  await page.keyboard.press('9');
+  assert.ok(await other.isVisible());
+  assert.match(await other.textContent(), /Reference/);
+  assert.equal(await other.locator('.body.c0').count(), 0);
+  await page.keyboard.press('9');
+  assert.ok(!(await other.isVisible()));
+  await page.keyboard.press('7');
+  assert.ok((await page.locator('.picture.interactive .ghosts path:visible').count()) > 0);
+  await close();
+});
+
 test('a narrow window needs no sideways scrolling', async () => {
-  for (const name of ['what-merging-is', 'books']) {
+  for (const name of ['what-merging-is', 'books', 'how-fast-is-still']) {
     const { page, close } = await open(name, { viewport: { width: 360, height: 740 } });
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
     await close();
@@ -268,12 +302,13 @@ test('the screen reader hears each state', async () => {
 
 for (const colorScheme of ['light', 'dark']) {
   test(`axe finds nothing to complain about in ${colorScheme}`, async () => {
-    for (const name of ['what-merging-is', 'contact-forces', 'books', 'one-sweep']) {
+    for (const name of ['what-merging-is', 'contact-forces', 'books', 'one-sweep', 'how-fast-is-still']) {
       const { page, close } = await open(name, { colorScheme });
       await page.keyboard.press('n');
       await page.keyboard.press('m');
       await page.locator('.picture .body:not(.fixed)').first().click({ force: true });
       if (name === 'contact-forces') await page.click('text=Just show me');
+      if (name === 'how-fast-is-still') await page.keyboard.press('9');
       if (name === 'one-sweep') await page.click('.stage:nth-child(7)');
       await page.evaluate(axe);
       const { violations } = await page.evaluate(() => window.axe.run());
