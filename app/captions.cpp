@@ -7,16 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "app/web_vtt.h"
+
 namespace merge2d {
 namespace {
-
-std::string clockText(std::int64_t second) {
-  return fmt::format("{:02}:{:02}:{:02}.000", second / 3600, second / 60 % 60, second % 60);
-}
-
-std::string cue(std::int64_t second, const std::string& text) {
-  return fmt::format("\n{} --> {}\n{}\n", clockText(second), clockText(second + 1), text);
-}
 
 /// "1 merge", "3 merges".
 std::string counted(int number, const std::string& one, const std::string& many) {
@@ -41,15 +35,6 @@ std::string counted(EventType type, bool collection, int number) {
       return counted(number, "body appears", "bodies appear");
   }
   return {};
-}
-
-/// What would be read as markup.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  }
-  return out;
 }
 
 }  // namespace
@@ -87,14 +72,12 @@ std::string Captions::describe(const Second& second) {
 }
 
 std::string Captions::text(const std::string& title) const {
-  std::string out = "WEBVTT\n";
-  const bool quiet_start = !seconds_.contains(0);
-  if (quiet_start) out += cue(0, escaped(title));
+  WebVtt out;
+  if (!seconds_.contains(0)) out.add(0, title);
   for (const auto& [number, second] : seconds_) {
-    const std::string start = number == 0 ? escaped(title) + "\n" : "";
-    out += cue(number, start + describe(second));
+    out.add(number, (number == 0 ? title + "\n" : "") + describe(second));
   }
-  return out;
+  return out.text();
 }
 
 }  // namespace merge2d

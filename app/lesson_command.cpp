@@ -45,11 +45,14 @@ std::optional<fs::path> lessonNamed(const std::string& name) {
 Recording recorded(const Scene& scene, Mode mode, Detail detail, const Console& console) {
   const std::int64_t steps = stepCount(scene);
   Progress progress(console, "step", steps);
-  return record(
-      scene, {.mode = mode, .detail = detail, .steps = steps, .progress = [&](std::int64_t step) {
-                stopIfInterrupted();
-                progress.update(step);
-              }});
+  const auto step_done = [&](std::int64_t step) {
+    stopIfInterrupted();
+    progress.update(step);
+  };
+  Recording recording =
+      record(scene, {.mode = mode, .detail = detail, .steps = steps, .progress = step_done});
+  if (detail == Detail::Full) lookInside(recording, {}, step_done);
+  return recording;
 }
 
 /// A scene's page: no text, no questions, the reference as ghost.

@@ -13,7 +13,7 @@
 #include "app/output_file.h"
 #include "app/progress.h"
 #include "app/simulation.h"
-#include "app/stage_pictures.h"
+#include "app/stage_rendering.h"
 #include "render/apng.h"
 #include "render/contact_sheet.h"
 #include "render/frame.h"
@@ -26,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSheetCell = 640;  // width of a picture in a contact sheet, at most [px]
-
 constexpr const char* kExamples = R"(Examples:
   merge2d render tower-platform
   merge2d render pile -q l --seconds 3 --format gif
@@ -39,8 +37,9 @@ constexpr const char* kExamples = R"(Examples:
 
 The pictures are called frame_000000.png, frame_000001.png, …; frame k shows the time k / fps, and
 the last one the end of the run. Beside them, run.json tells how they were made and captions.vtt
-what happens. A folder is used only when it is empty or holds an earlier rendering, which is
-replaced; --force puts the frames among other files.)";
+what happens; those of --stages have captions in step_000599.vtt, a second for each picture. A
+folder is used only when it is empty or holds an earlier rendering, which is replaced; --force puts
+the frames among other files.)";
 
 /// A rendering from its options to its files.
 class Rendering {
@@ -231,52 +230,6 @@ void Rendering::run() {
   noteSpeed();
   makeContactSheet();
   printProducts(makeAnimation());
-}
-
-/// The eleven stages of one step, a picture each.
-void renderStages(const RenderOptions& options) {
-  const Console console(options);
-  const Scene scene = loadScene(options, console);
-  const fs::path folder =
-      (options.folder.empty() ? fs::path("frames") / scene.name : fs::path(options.folder)) /
-      "stages";
-  FrameStyle style;
-  style.width = evenSize(options.width());
-  style.height = evenSize(options.height());
-  style.theme = options.theme;
-  style.transparent = options.transparent;
-  Recorder recorder(scene, options.mode);
-  while (recorder.world().steps() + 1 < *options.at) {
-    stopIfInterrupted();
-    recorder.skip();
-  }
-  const StepRecord record = recorder.record();
-  StagePictures pictures(scene, options.mode, style);
-  fs::create_directories(folder);
-  std::vector<Picture> cells;
-  for (std::size_t i = 0; i < kStages; ++i) {
-    const auto stage = static_cast<Stage>(i);
-    const fs::path file =
-        folder / fmt::format("step_{:06}_{:02}_{}.png", record.step, i + 1, name(stage));
-    const std::string text = pictures.save(&record, stage, file.string(), options.force);
-    console.detail(text);
-    if (options.contact_sheet) cells.push_back(shrunk(loadPng(file), kSheetCell));
-  }
-  if (options.contact_sheet) {
-    const fs::path file = folder / fmt::format("step_{:06}.png", record.step);
-    savePng(file, contactSheet(cells, options.contact_sheet->first, style.theme.background),
-            {.alpha = style.transparent,
-             .description = fmt::format("The eleven stages of step {}.", record.step)});
-    console.note(fmt::format("{} shows them all", file.string()));
-  }
-  if (options.json) {
-    const Json out{{"scene", scene.name},
-                   {"folder", folder.string()},
-                   {"step", record.step},
-                   {"written", kStages}};
-    return print(out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-  }
-  print(folder.string() + "\n");
 }
 
 void render(const RenderOptions& options) {

@@ -4,11 +4,9 @@
 #include <map>
 #include <tuple>
 
+#include "lessons/encode_head.h"
 #include "lessons/pack.h"
 #include "render/camera.h"
-#include "render/silhouette.h"
-#include "src2d/trace/json_text.h"
-#include "src2d/trace/parameters.h"
 
 namespace merge2d {
 namespace {
@@ -20,10 +18,11 @@ constexpr double kFriction = 1e-5;  ///< quantum of a coefficient
 class Encoder {
  public:
   Encoder(const Recording& recording, const Encoding& encoding)
-      : r_(recording), every_(encoding.contacts_every) {
-    length_.quantum = cameraOf(recording).height / encoding.positions;
-    angle_.quantum = 4.0 / encoding.positions;
-    amount_.steps = encoding.decades;
+      : r_(recording), most_impulses_(encoding.impulses) {
+    legend_.every = encoding.contacts_every;
+    legend_.length.quantum = cameraOf(recording).height / encoding.positions;
+    legend_.angle.quantum = 4.0 / encoding.positions;
+    legend_.amount.steps = encoding.decades;
   }
 
   EncodedTrace encode() {
@@ -31,10 +30,12 @@ class Encoder {
     if (r_.detail == Detail::Full) {
       packContacts();
       packDecisions();
+      packInside();
     }
     packStats();
     EncodedTrace out;
-    out.head = head();
+    legend_.inside = insideKept();
+    out.head = headOf(r_, legend_);
     out.data = base64(deflated(packer_.bytes()));
     return out;
   }
@@ -53,15 +54,15 @@ class Encoder {
   }
   template <class T>
   void lengths(const std::vector<T>& values) {
-    column(values, [&](double v) { return length_.code(v); });
+    column(values, [&](double v) { return legend_.length.code(v); });
   }
   template <class T>
   void angles(const std::vector<T>& values) {
-    column(values, [&](double v) { return angle_.code(v); });
+    column(values, [&](double v) { return legend_.angle.code(v); });
   }
   template <class T>
   void amounts(const std::vector<T>& values) {
-    column(values, [&](double v) { return amount_.code(v); });
+    column(values, [&](double v) { return legend_.amount.code(v); });
   }
 
   void packBodies() {
@@ -86,8 +87,8 @@ class Encoder {
     std::size_t sample = 0;
     for (const Span& span : spans) {
       for (std::int64_t step = span.first; step < span.first + span.count; ++step, ++sample) {
-        if (step % every_ != 0) continue;
-        const std::int64_t at = step / every_;
+        if (step % legend_.every != 0) continue;
+        const std::int64_t at = step / legend_.every;
         if (kept_spans_.empty() || kept_spans_.back().first + kept_spans_.back().count != at) {
           kept_spans_.push_back({at, 0});
         }
@@ -136,8 +137,8 @@ class Encoder {
   /// The index of a track's criterion in the head's table.
   std::size_t criterionOf(const DecisionTrack& t) {
     const auto key = std::tuple{t.stage, t.criterion, t.threshold, t.needed};
-    const auto [at, added] = criterion_of_.try_emplace(key, criteria_.size());
-    if (added) criteria_.push_back(&t);
+    const auto [at, added] = criterion_of_.try_emplace(key, legend_.criteria.size());
+    if (added) legend_.criteria.push_back(&t);
     return at->second;
   }
 
@@ -152,6 +153,47 @@ class Encoder {
       amounts(kept(t.value));
       runs(kept(t.count));
       runs(kept(t.passed));
+    }
+  }
+
+  /// Of the steps worth most, as many as there is room for, in the order of steps; where not each
+  /// step has its contacts in the page, of those that do.
+  std::vector<const ImpulsesInside*> insideKept() const {
+    std::vector<const ImpulsesInside*> kept;
+    std::size_t total = 0;
+    for (const ImpulsesInside& inside : r_.inside) {
+      if (inside.step % legend_.every != 0) continue;
+      total += inside.contact.size();
+      if (total > most_impulses_) break;
+      kept.push_back(&inside);
+    }
+    std::ranges::sort(kept, {}, &ImpulsesInside::step);
+    return kept;
+  }
+
+  /// What the sweep changed is little as a rule: it is kept as a difference of codes.
+  void changes(const std::vector<float>& from, const std::vector<float>& to) {
+    codes_.clear();
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      codes_.push_back(legend_.amount.code(to[i]) - legend_.amount.code(from[i]));
+    }
+    packer_.column(codes_);
+  }
+
+  void packInside() {
+    const std::vector<const ImpulsesInside*> kept = insideKept();
+    packer_.number(static_cast<std::int64_t>(kept.size()));
+    for (const ImpulsesInside* inside : kept) {
+      packer_.number(inside->step);
+      packer_.number(inside->sweeping ? 1 : 0);
+      packer_.column(inside->contact);
+      amounts(inside->warm_n);
+      amounts(inside->warm_t);
+      changes(inside->warm_n, inside->swept_n);
+      changes(inside->warm_t, inside->swept_t);
+      changes(inside->swept_n, inside->begin_n);
+      changes(inside->swept_t, inside->begin_t);
+      runs(inside->inner);
     }
   }
 
@@ -174,104 +216,29 @@ class Encoder {
     statistic([&](const Stats& s) { return fine.code(s.angular_momentum); });
   }
 
-  std::string head() const {
-    JsonText out;
-    const Camera camera = cameraOf(r_);
-    out.open('{').field("scene", r_.scene.name).field("title", r_.scene.title);
-    out.field("mode", name(r_.mode)).field("full", r_.detail == Detail::Full);
-    out.field("h", r_.scene.step).field("steps", r_.steps).field("every", every_);
-    out.key("gravity").value(r_.scene.gravity);
-    out.key("camera").row(camera.center.x(), camera.center.y(), camera.height);
-    out.field("length", length_.quantum).field("angle", angle_.quantum);
-    out.key("amount").row(amount_.floor, amount_.steps);
-    out.key("parameters");
-    writeParameters(out, r_.scene);
-    headBodies(out);
-    out.array("criteria", criteria_, [&](const DecisionTrack* t) {
-      out.open('{').field("stage", t->stage).field("criterion", t->criterion);
-      out.field("equation", t->equation).field("threshold", t->threshold);
-      out.field("needed", t->needed).close('}');
-    });
-    out.array("events", r_.events, [&](const TimedEvent& e) {
-      out.row(e.step, name(e.event.type), e.event.a, e.event.b, e.event.collection,
-              name(e.event.reason));
-    });
-    out.array("colors", r_.colors, [&](const CollectionColor& c) { out.row(c.id, c.slot); });
-    out.array("ledger", r_.ledger, [&](const LedgerEntry& e) {
-      const auto change = [&](double LedgerEntry::Sums::*of) {
-        return std::pair{e.before.*of, e.after.*of};
-      };
-      out.open('[').value(e.step).value(static_cast<int>(e.stage)).value(e.anchored ? 1 : 0);
-      for (const auto of : {&LedgerEntry::Sums::px, &LedgerEntry::Sums::py,
-                            &LedgerEntry::Sums::angular, &LedgerEntry::Sums::kinetic}) {
-        const auto [before, after] = change(of);
-        out.value(static_cast<float>(before)).value(static_cast<float>(after));
-      }
-      out.close(']');
-    });
-    out.array("orders", r_.orders, [&](const SweepOrder& order) {
-      out.open('[').value(order.step).open('[');
-      for (const NotedVisit& visit : order.visits) out.row(visit.a, visit.b, visit.depth);
-      out.close(']').close(']');
-    });
-    out.array("springs", r_.scene.springs, [&](const SpringDesc& s) { headSpring(out, s); });
-    out.close('}');
-    return std::string(out.text());
-  }
-
-  void headSpring(JsonText& out, const SpringDesc& s) const {
-    // Anchors are given in the body's own frame, the page knows the one at its centre of mass.
-    const auto local = [&](BodyIndex body, const Vec2& anchor) -> Vec2 {
-      return anchor - areaProperties(r_.scene.bodies[body].shapes).centroid;
-    };
-    const Vec2 from = local(s.body, s.anchor), to = s.to_body ? local(*s.to_body, s.to) : s.to;
-    out.row(s.body, from.x(), from.y(), s.to_body ? static_cast<std::int64_t>(*s.to_body) : -1,
-            to.x(), to.y());
-  }
-
-  void headBodies(JsonText& out) const {
-    out.array("bodies", r_.bodies, [&](const BodyInfo& body) {
-      out.open('{').field("name", body.name).field("motion", name(body.motion));
-      out.field("mass", body.mass).field("inertia", body.inertia);
-      const Silhouette looks = silhouette(body.shapes);
-      out.array("pieces", looks.pieces, [&](const Piece& piece) {
-        out.open('[');
-        if (piece.kind == Piece::Kind::Disc) {
-          out.value(piece.frame.position.x()).value(piece.frame.position.y()).value(piece.radius);
-        } else {
-          for (const Vec2& v : piece.vertices) out.value(v);
-        }
-        out.close(']');
-      });
-      out.array("boundary", looks.boundary,
-                [&](const Segment& s) { out.row(s.from.x(), s.from.y(), s.to.x(), s.to.y()); });
-      out.close('}');
-    });
-  }
-
   const Recording& r_;
-  std::int64_t every_;
-  Linear length_, angle_;
-  Logarithmic amount_;
+  std::size_t most_impulses_;
+  ColumnLegend legend_;
   Packer packer_;
   std::vector<std::int32_t> codes_;
   std::vector<std::size_t> kept_;
   std::vector<Span> kept_spans_;
   std::map<std::tuple<std::string, std::string, double, int>, std::size_t> criterion_of_;
-  std::vector<const DecisionTrack*> criteria_;
 };
 
 }  // namespace
 
 const std::vector<Encoding>& encodings() {
   static const std::vector<Encoding> kAll = {
-      {.positions = 65536, .decades = 256, .contacts_every = 1},
-      {.positions = 32768, .decades = 64, .contacts_every = 1},
-      {.positions = 16384, .decades = 32, .contacts_every = 2},
-      {.positions = 16384, .decades = 16, .contacts_every = 5},
-      {.positions = 8192, .decades = 8, .contacts_every = 10},
-      {.positions = 4096, .decades = 8, .contacts_every = 50},
-      {.positions = 4096, .decades = 8, .contacts_every = 1'000'000},
+      {.positions = 65536, .decades = 256, .contacts_every = 1, .impulses = kMostImpulses},
+      {.positions = 65536, .decades = 256, .contacts_every = 1, .impulses = 50'000},
+      {.positions = 32768, .decades = 64, .contacts_every = 1, .impulses = 50'000},
+      {.positions = 32768, .decades = 64, .contacts_every = 1, .impulses = 10'000},
+      {.positions = 16384, .decades = 32, .contacts_every = 2, .impulses = 10'000},
+      {.positions = 16384, .decades = 16, .contacts_every = 5, .impulses = 10'000},
+      {.positions = 8192, .decades = 8, .contacts_every = 10, .impulses = 10'000},
+      {.positions = 4096, .decades = 8, .contacts_every = 50, .impulses = 10'000},
+      {.positions = 4096, .decades = 8, .contacts_every = 1'000'000, .impulses = 0},
   };
   return kAll;
 }

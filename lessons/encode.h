@@ -1,6 +1,6 @@
 #pragma once
 /// A recording as a page carries it: a JSON head that says what there is, and packed columns.
-/// lessons/web/src/trace.ts reads it again; the two change together.
+/// lessons/web/src/head.ts and tracks.ts read it again; they change together.
 
 #include <string>
 #include <vector>
@@ -14,6 +14,7 @@ struct Encoding {
   double positions = 65536.0;  ///< steps per visible height
   double decades = 256.0;      ///< steps per factor of two of a velocity or an impulse
   int contacts_every = 1;      ///< time steps between two samples of contacts and decisions
+  std::size_t impulses = 0;    ///< how many contacts' impulses inside steps, over all steps
 };
 const std::vector<Encoding>& encodings();
 

@@ -35,8 +35,8 @@ struct Lesson::Source {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kLayers = {"contacts", "forces",     "graph", "boxes",
-                                                     "heat",     "velocities", "ghost", "labels"};
+constexpr std::array<std::string_view, 9> kLayers = {
+    "contacts", "forces", "graph", "boxes", "heat", "velocities", "ghost", "labels", "beside"};
 
 constexpr std::array kModes = {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep};
 
@@ -239,6 +239,24 @@ class Loader {
 
 Lesson loadLesson(const fs::path& folder) { return Loader(folder).load(); }
 
+namespace {
+
+/// The steps of a trace that a lesson shows or asks about; moments that do not happen have none.
+std::vector<std::int64_t> stepsShown(const Lesson& lesson, std::size_t trace,
+                                     const Recording& recording) {
+  std::vector<std::int64_t> out;
+  for (const LessonPart& part : lesson.parts) {
+    if (part.trace != trace) continue;
+    if (const auto found = part.at.find(recording)) out.push_back(found->step);
+    const Moment* reveal = part.question ? part.question->reveal() : nullptr;
+    if (reveal == nullptr) continue;
+    if (const auto found = reveal->find(recording)) out.push_back(found->step);
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<Recording> recordLesson(const Lesson& lesson,
                                     const std::function<void(std::int64_t)>& progress) {
   std::vector<Recording> out;
@@ -247,6 +265,7 @@ std::vector<Recording> recordLesson(const Lesson& lesson,
     out.push_back(
         record(trace.scene,
                {.mode = trace.mode, .detail = Detail::Full, .steps = steps, .progress = progress}));
+    lookInside(out.back(), stepsShown(lesson, out.size() - 1, out.back()), progress);
   }
   return out;
 }

@@ -24,6 +24,8 @@ class Question {
 
   /// Its text, options, the right ones, and the sentence that explains them.
   void write(JsonText& out, const Recording& recording, std::int64_t asked_at) const;
+  /// When the answer can be seen; null where the question says nothing about it.
+  const Moment* reveal() const { return reveal_ ? &*reveal_ : nullptr; }
 
  private:
   enum class Kind { Words, Threshold, Freed, Contact, Collections };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lessons/impulses.h"
 #include "render/palette.h"
 #include "src2d/scene/scene.h"
 #include "src2d/trace/notes.h"
@@ -106,7 +107,8 @@ struct Recording {
   std::vector<SweepOrder> orders;  ///< of the first kMostOrders steps with something new
   static constexpr std::size_t kMostOrders = 60;
   static constexpr std::size_t kMostVisits = 400;
-  std::vector<LedgerEntry> ledger;  ///< of each stage that merged or unmerged something
+  std::vector<LedgerEntry> ledger;     ///< of each stage that merged or unmerged something
+  std::vector<ImpulsesInside> inside;  ///< of steps that were looked into, those worth most first
 
   bool present(BodyId body, std::int64_t step) const {
     const BodyTrack& track = tracks[index(body)];

@@ -1,7 +1,9 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "app/program.h"
 #include "render/png.h"
+#include "src2d/trace/snapshot.h"
 #include "tests/app/program_testing.h"
 
 namespace merge2d {
@@ -71,12 +73,34 @@ TEST_F(Step, RenderDrawsTheElevenStagesOfAStep) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "out/stages\n");
   const Words names = files("out/stages");
-  ASSERT_EQ(names.size(), 12U);
+  ASSERT_EQ(names.size(), 13U);
   EXPECT_EQ(names[0], "step_000005.png");
-  EXPECT_EQ(names[1], "step_000005_01_ContactDetection.png");
-  EXPECT_EQ(names[11], "step_000005_11_Merge.png");
+  EXPECT_EQ(names[1], "step_000005.vtt");
+  EXPECT_EQ(names[2], "step_000005_01_ContactDetection.png");
+  EXPECT_EQ(names[12], "step_000005_11_Merge.png");
   EXPECT_EQ(run({"render", "stack.toml", "--stages"}).code, kWrongUsage);
   EXPECT_EQ(run({"render", "stack.toml", "--at", "5"}).code, kWrongUsage);
+}
+
+TEST_F(Step, StagePicturesHaveCaptionsOfASecondEach) {
+  const Words arguments = {"render", "stack.toml", "--stages", "--at", "5",
+                           "-r",     "160x90",     "-o",       "out"};
+  ASSERT_EQ(run(arguments).code, 0);
+  const std::string captions = read("out/stages/step_000005.vtt");
+  const Words lines = linesOf(captions);
+  ASSERT_EQ(lines.size(), 1U + kStages * 3U);
+  EXPECT_EQ(lines[0], "WEBVTT");
+  for (std::size_t i = 0; i < kStages; ++i) {
+    EXPECT_EQ(lines[1 + 3 * i], "");
+    EXPECT_EQ(lines[2 + 3 * i], fmt::format("00:00:{:02}.000 --> 00:00:{:02}.000", i, i + 1));
+    EXPECT_THAT(lines[3 + 3 * i], HasSubstr(fmt::format("Step 5, stage {} of {}, {}: ", i + 1,
+                                                        kStages, name(static_cast<Stage>(i)))));
+  }
+  // They replace those of an earlier rendering, but nothing else.
+  EXPECT_EQ(run(arguments).code, 0);
+  write("out/stages/step_000005.vtt", "notes of mine\n");
+  EXPECT_NE(run(arguments).code, 0);
+  EXPECT_EQ(read("out/stages/step_000005.vtt"), "notes of mine\n");
 }
 
 TEST_F(Step, RenderMakesAContactSheet) {

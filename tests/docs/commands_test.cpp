@@ -4,10 +4,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
+#include <string>
 
 #include "tests/docs/docs_testing.h"
 
@@ -31,10 +32,10 @@ std::string outputOf(const std::string& command) {
 class Commands : public testing::Test {
  protected:
   void SetUp() override {
-    if (!fs::exists(kProgram)) GTEST_SKIP() << "merge2d was not built";
-    std::string name = (fs::temp_directory_path() / "merge2d-docs-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
+    ASSERT_TRUE(fs::exists(kProgram)) << "merge2d was not built";
+    folder_ = fs::path(testing::TempDir()) / ("merge2d_docs_" + std::to_string(getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
     fs::create_directory_symlink(kRoot / "docs", folder_ / "docs");
   }
   void TearDown() override {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,15 +14,21 @@
 namespace merge2d {
 namespace {
 
+/// An animation of pictures of one colour each, at 25 per second.
+std::filesystem::path animation(const TemporaryFolder& folder,
+                                const std::vector<std::uint32_t>& colors) {
+  const std::filesystem::path file = folder.path() / "a.png";
+  ApngWriter writer(file, 25);
+  for (const std::uint32_t color : colors) writer.add(Picture(16, 8, rgb(color)));
+  writer.finish();
+  return file;
+}
+
 TEST(Apng, HoldsAllFramesInOrder) {
   const TemporaryFolder folder;
-  ApngWriter writer(folder.path() / "a.png", 25);
-  for (const std::uint32_t color : {0xff0000U, 0x00ff00U, 0x0000ffU})
-    writer.add(Picture(16, 8, rgb(color)));
-  writer.finish();
+  const auto bytes = readFileBytes(animation(folder, {0xff0000, 0x00ff00, 0x0000ff}));
   EXPECT_EQ(folder.count(), 1U);
 
-  const auto bytes = readFileBytes(folder.path() / "a.png");
   std::vector<std::string> types;
   std::uint32_t sequence = 0;
   PngChunks chunks(bytes);
@@ -45,12 +52,8 @@ TEST(Apng, HoldsAllFramesInOrder) {
 
 TEST(Apng, AFrameCanBeTakenOutAgain) {
   const TemporaryFolder folder;
-  ApngWriter writer(folder.path() / "a.png", 30);
-  writer.add(Picture(16, 8, rgb(0xff0000)));
-  writer.add(Picture(16, 8, rgb(0x0000ff)));
-  writer.finish();
+  const auto bytes = readFileBytes(animation(folder, {0xff0000, 0x0000ff}));
   // The second frame's data without its sequence number is the data of a PNG file.
-  const auto bytes = readFileBytes(folder.path() / "a.png");
   std::vector<std::uint8_t> png(kPngSignature.begin(), kPngSignature.end());
   const auto append = [&](const std::vector<std::uint8_t>& b) {
     png.insert(png.end(), b.begin(), b.end());
@@ -66,11 +69,7 @@ TEST(Apng, AFrameCanBeTakenOutAgain) {
 
 TEST(Apng, ReadersWithoutAnimationSeeTheFirstFrame) {
   const TemporaryFolder folder;
-  ApngWriter writer(folder.path() / "a.png", 30);
-  writer.add(Picture(16, 8, rgb(0xff0000)));
-  writer.add(Picture(16, 8, rgb(0x0000ff)));
-  writer.finish();
-  EXPECT_EQ(loadPng(folder.path() / "a.png").at(3, 3), rgb(0xff0000));
+  EXPECT_EQ(loadPng(animation(folder, {0xff0000, 0x0000ff})).at(3, 3), rgb(0xff0000));
 }
 
 TEST(Apng, RefusesOddSizesAndFramesThatDiffer) {

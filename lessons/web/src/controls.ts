@@ -1,7 +1,7 @@
 // The ribbon of stages, the transport, the slider and the layer switches.
 import { h, svg } from './dom';
 import { kStages } from './stages';
-import { kLayers, type State } from './state';
+import { kLayers, kOfReference, type State } from './state';
 
 const kEventKinds = ['impact', 'unmerge', 'merge', 'sleep', 'wake'] as const;
 const kSpeeds = [0.02, 0.1, 0.25, 0.5, 1, 2, 4];
@@ -138,7 +138,7 @@ export function transport(state: State): Transport {
 
 export function layerSwitches(state: State): HTMLElement {
   const buttons = kLayers
-    .filter((layer) => layer.id !== 'ghost' || state.reference !== undefined)
+    .filter((layer) => !kOfReference.includes(layer.id) || state.reference !== undefined)
     .map((layer) => {
       const digit = kLayers.indexOf(layer) + 1;
       const button = h('button', {
@@ -155,7 +155,7 @@ export function layerSwitches(state: State): HTMLElement {
 
 export function toggleLayer(state: State, digit: number): void {
   const layer = kLayers[digit - 1];
-  if (!layer || (layer.id === 'ghost' && !state.reference)) return;
+  if (!layer || (kOfReference.includes(layer.id) && !state.reference)) return;
   if (!state.layers.delete(layer.id)) state.layers.add(layer.id);
   state.changed();
 }

@@ -1,5 +1,6 @@
 // The equation of the active stage, its symbols filled with the numbers of this step.
 import { h, number } from './dom';
+import { changeOf, contactsOfStage } from './inside';
 import { kStages } from './stages';
 import type { State } from './state';
 import type { Contact, Decision } from './trace';
@@ -33,7 +34,7 @@ function block(node: MathMLElement): MathMLElement {
 
 /** The contact that is meant: of the selection, else the one that presses most. */
 function contactMeant(state: State): Contact | null {
-  const all = state.trace.head.full ? state.trace.contactsAt(state.step) : [];
+  const all = contactsOfStage(state);
   const s = state.selection;
   const wanted = s?.kind === 'pair' ? all.filter((c) => c.a === s.a && c.b === s.b)
     : s?.kind === 'body' ? all.filter((c) => c.a === s.body || c.b === s.body) : all;
@@ -74,9 +75,13 @@ function line(state: State): Line | null {
       const c = contactMeant(state);
       const symbols = row(mn(0), mo('≤'), sub('w', 'n'), mo('⊥'), sub('λ', 'n'), mo('≥'), mn(0), mo(','), mo('|'), sub('λ', 't'), mo('|'), mo('≤'), mi('μ'), sub('λ', 'n'));
       if (!c) return { symbols, numbers: null, note: 'Eqs. (4)–(7). Nothing touches now.' };
+      // The velocity is known at the end of the step; before and after a stage the impulse alone.
+      const change = changeOf(state, c);
       return {
         symbols,
-        numbers: row(sub('w', 'n'), mo('='), mn(c.wN), text('\u2009m/s,\u2002'), sub('λ', 'n'), mo('='), mn(c.lambdaN), text('\u2009N\u2009s')),
+        numbers: change
+          ? row(sub('λ', 'n'), mo(':'), mn(change.before[0]), mo('→'), mn(change.after[0]), text('\u2009N\u2009s'))
+          : row(sub('w', 'n'), mo('='), mn(c.wN), text('\u2009m/s,\u2002'), sub('λ', 'n'), mo('='), mn(c.lambdaN), text('\u2009N\u2009s')),
         more: row(mo('|'), mn(c.lambdaT), mo('|'), mo(Math.abs(c.lambdaT) <= c.mu * c.lambdaN * (1 + 1e-3) ? '≤' : '>'), mn(c.mu), mo('·'), mn(c.lambdaN), mo('='), mn(c.mu * c.lambdaN), text('\u2009N\u2009s')),
         note: `Eqs. (4)–(7), for ${between(state, c)}${c.internal ? ', inside a collection' : ''}.`,
       };

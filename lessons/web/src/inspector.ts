@@ -1,8 +1,9 @@
 // The numbers of a body or of a pair in contact, now and over time, against their limits.
 import { chart, type Series } from './chart';
 import { h, number, plural } from './dom';
+import { contactsOfStage } from './inside';
 import type { State } from './state';
-import type { DecisionTrack } from './trace';
+import type { DecisionTrack } from './tracks';
 
 const kNames: Record<string, [string, string]> = {
   'relative-motion': ['Fastest relative motion', 'm/s'],
@@ -33,7 +34,7 @@ export function inspector(state: State): HTMLElement {
   state.onChange(() => {
     if (state.playing && drawn === 'none' && !state.selection) return;
     const selection = state.selection;
-    const key = selection ? `${JSON.stringify(selection)}-${state.step}-${state.trace.label}` : 'none';
+    const key = selection ? `${JSON.stringify(selection)}-${state.step}-${state.stage}-${state.trace.label}` : 'none';
     if (key === drawn) return;
     drawn = key;
     if (!selection) {
@@ -112,7 +113,7 @@ function pairView(state: State, a: number, b: number): HTMLElement[] {
   const trace = state.trace;
   const out: HTMLElement[] = [h('h3', {}, `${trace.name(a)} and ${trace.name(b)}`)];
   const tracks = trace.tracksOf(a, b);
-  const contacts = tracks.map((t) => trace.contact(t, state.step)).filter((c) => c !== null);
+  const contacts = contactsOfStage(state).filter((c) => tracks.includes(c.track));
   if (contacts.length === 0) out.push(h('p', {}, 'They do not touch at this step.'));
   const hh = trace.head.h;
   const first = contacts[0];

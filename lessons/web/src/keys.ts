@@ -13,7 +13,7 @@ const kKeys: [string, string][] = [
   ['Home End', 'to the start, to the end'],
   ['R', 'from the start again'],
   ['+ −', 'faster, slower'],
-  ['1 … 8', 'layers of the picture'],
+  ['1 … 9', 'layers of the picture'],
   ['N P', 'next, previous part of the lesson'],
   ['Esc', 'select nothing'],
   ['?', 'this help'],
@@ -70,7 +70,7 @@ export function listenToKeys(state: State, transport: Transport, actions: KeyAct
         state.changed();
       };
       case '?': return actions.help;
-      default: return /^[1-8]$/.test(key) ? () => toggleLayer(state, Number(key)) : undefined;
+      default: return /^[1-9]$/.test(key) ? () => toggleLayer(state, Number(key)) : undefined;
     }
   };
   document.addEventListener('keydown', onKey);

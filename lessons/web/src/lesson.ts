@@ -1,6 +1,6 @@
 // The lesson beside the picture: parts, and questions that are asked before they are shown.
 import { h } from './dom';
-import { kLast, kStages } from './stages';
+import { kLast, stageAt } from './stages';
 import type { LayerId, Selection, State } from './state';
 
 export interface Option {
@@ -40,7 +40,7 @@ export function prose(html: string): HTMLElement {
 }
 
 export function stageIndex(id: string): number {
-  const at = kStages.findIndex((stage) => stage.id === id);
+  const at = stageAt(id);
   return at < 0 ? kLast : at;
 }
 

@@ -1,4 +1,5 @@
 // A lesson page: reads the recorded runs inside it and shows them.
+import { beside } from './beside';
 import { equationCard } from './equation';
 import { familyTree } from './family';
 import { handout } from './handout';
@@ -6,12 +7,15 @@ import { ledger } from './ledger';
 import { type Lesson, LessonPanel } from './lesson';
 import { layerSwitches, ribbon, transport } from './controls';
 import { h } from './dom';
+import type { Packed } from './head';
+import { impulseCard } from './impulses';
 import { inspector } from './inspector';
 import { helpDialog, listenToKeys } from './keys';
 import { nowCard } from './now';
 import { Picture } from './picture';
 import { State } from './state';
-import { Trace, type Packed } from './trace';
+import { Trace } from './trace';
+import { badge, thresholdSlider, whatIf } from './whatif';
 
 interface PageData {
   title: string;
@@ -57,39 +61,18 @@ function start(): void {
   });
   app.append(
     h('header', {}, h('h1', {}, h('span', { class: 'kicker' }, data.lesson ? 'A lesson on adaptive merging' : 'Adaptive merging, step by step'), data.title),
-      h('div', { class: 'tools' }, whatIf(state), themeButton(),
+      h('div', { class: 'tools' }, thresholdSlider(state), whatIf(state), themeButton(),
         h('button', { type: 'button', class: 'plain', onclick: () => help.showModal() }, 'Keys', h('kbd', { 'aria-hidden': true }, '?')))),
     h('main', {},
       h('div', { class: 'left' }, h('div', { class: 'stage-area' },
-        h('div', { class: 'frame' }, picture.root, badge(state)),
+        beside(state, h('div', { class: 'frame' }, picture.root, badge(state))),
         controls.root, layerSwitches(state), ribbon(state)), familyTree(state), ledger(state)),
-      h('div', { class: 'side' }, panel?.root ?? null, nowCard(state), equationCard(state), inspector(state))),
+      h('div', { class: 'side' }, panel?.root ?? null, nowCard(state), equationCard(state), impulseCard(state), inspector(state))),
     help);
   listenToKeys(state, controls, { help: () => help.showModal(), part: (by) => panel?.move(by) });
   printing(data, state);
   state.changed();
   document.documentElement.dataset.ready = 'true';
-}
-
-/** The other runs, computed beforehand. */
-function whatIf(state: State): HTMLElement | null {
-  if (state.traces.length < 2) return null;
-  const select = h('select', { 'aria-label': 'What if: another run of the scene', onchange: () => {
-    state.trace = state.traces[Number(select.value)];
-    state.playing = false;
-    state.goTo(state.step, state.stage);
-  } }, ...state.traces.map((trace, i) => h('option', { value: i }, i === 0 ? `What if … (${trace.label})` : trace.label)));
-  state.onChange(() => { select.value = String(state.traces.indexOf(state.trace)); });
-  return select;
-}
-
-function badge(state: State): HTMLElement {
-  const root = h('div', { class: 'badge' });
-  state.onChange(() => {
-    root.textContent = state.trace === state.traces[0] ? '' : `What if: ${state.trace.label}`;
-    root.hidden = root.textContent === '';
-  });
-  return root;
 }
 
 function printing(data: PageData, state: State): void {

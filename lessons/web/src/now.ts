@@ -1,8 +1,10 @@
 // What happens in this stage of this step, in words: for the eye and for the screen reader.
 import { h, plural } from './dom';
-import { kLast, kStages } from './stages';
+import type { EventRow } from './head';
+import { impulsesText } from './impulses';
+import { kLast, kStages, stageAt } from './stages';
 import type { State } from './state';
-import type { EventRow, Trace } from './trace';
+import type { Trace } from './trace';
 
 const kReasons: Record<string, string> = {
   broken: 'its contact broke', sliding: 'it slides', 'relative-motion': 'it moves', cycle: 'its cycle fell apart', user: 'it was pulled',
@@ -30,7 +32,7 @@ const kStageOfEvent: Record<string, string> = {
 function eventsShown(state: State): EventRow[] {
   const rows = state.trace.eventsAt.get(state.step) ?? [];
   return rows.filter((row) => {
-    const at = kStages.findIndex((stage) => stage.id === kStageOfEvent[row[1]]);
+    const at = stageAt(kStageOfEvent[row[1]]);
     return state.stage === kLast || at === state.stage;
   });
 }
@@ -43,7 +45,8 @@ export function describe(state: State): string {
   const events = eventsShown(state);
   const told = events.slice(0, 3).map((row) => `${eventText(state.trace, row)}.`).join(' ');
   const more = events.length > 3 ? ` And ${plural(events.length - 3, 'more event')}.` : '';
-  return `${head} ${plural(s.active, 'body is simulated', 'bodies are simulated')}, ${plural(s.collections, 'collection')}, ${plural(s.contacts, 'contact')} solved, ${s.internal} inside collections, ${s.asleep} asleep. ${told}${more}`;
+  const inside = impulsesText(state);
+  return `${head} ${plural(s.active, 'body is simulated', 'bodies are simulated')}, ${plural(s.collections, 'collection')}, ${plural(s.contacts, 'contact')} solved, ${s.internal} inside collections, ${s.asleep} asleep. ${told}${more}${inside && ` ${inside}`}`;
 }
 
 export function nowCard(state: State): HTMLElement {

@@ -14,10 +14,13 @@ export const kLayers = [
   { id: 'boxes', label: 'Boxes' },
   { id: 'velocities', label: 'Velocities' },
   { id: 'heat', label: 'Near a limit' },
-  { id: 'ghost', label: 'Reference' },
+  { id: 'ghost', label: 'Reference as ghost' },
   { id: 'labels', label: 'Labels' },
+  { id: 'beside', label: 'Reference beside' },
 ] as const;
 export type LayerId = (typeof kLayers)[number]['id'];
+/** Layers that need a run without merging. */
+export const kOfReference: readonly LayerId[] = ['ghost', 'beside'];
 
 export class State {
   step = 0;

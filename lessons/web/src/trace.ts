@@ -1,143 +1,10 @@
-// A recorded run: lessons/encode.cpp writes it, this reads it.
+// A recorded run, to be asked what is where at a time step.
+import type { Criterion, EventRow, Head, Packed } from './head';
+import { type BodyTrack, ByPair, type ContactTrack, type DecisionTrack, type Inside, readBody, readContact, readDecision, readInside } from './tracks';
 import { Unpacker } from './unpack';
-
-export type Vec = [number, number];
-export type EventRow = [step: number, type: string, a: number, b: number, collection: number, reason: string];
-
-export interface BodyInfo {
-  name: string;
-  motion: 'dynamic' | 'pinned' | 'scripted';
-  mass: number;
-  inertia: number;
-  pieces: (number | Vec)[][];
-  boundary: [number, number, number, number][];
-}
-
-export interface Criterion {
-  stage: string;
-  criterion: string;
-  equation: string;
-  threshold: number;
-  needed: number;
-}
-
-export interface Head {
-  scene: string;
-  title: string;
-  mode: string;
-  full: boolean;
-  h: number;
-  steps: number;
-  every: number;
-  gravity: Vec;
-  camera: [number, number, number];
-  length: number;
-  angle: number;
-  amount: Vec;
-  parameters: Record<string, unknown>;
-  bodies: BodyInfo[];
-  criteria: Criterion[];
-  events: EventRow[];
-  colors: [number, number][];
-  springs: [number, number, number, number, number, number][];
-  ledger?: number[][];
-  orders?: [step: number, visits: [a: number, b: number, depth: number][]][];
-}
-
-export interface Packed {
-  label: string;
-  head: Head;
-  data: string;
-}
 
 /** A quantity that is kept in codes: some spread evenly, some over many decades. */
 type Scale = (code: number) => number;
-
-/** Samples of something that comes and goes. */
-export class Spans {
-  private readonly first: Int32Array;
-  private readonly count: Int32Array;
-  private readonly sample: Int32Array;
-  readonly size: number;
-
-  constructor(read: Unpacker, private readonly every: number) {
-    const n = read.number();
-    this.first = new Int32Array(n);
-    this.count = new Int32Array(n);
-    this.sample = new Int32Array(n);
-    let total = 0;
-    for (let i = 0; i < n; ++i) {
-      this.first[i] = read.number();
-      this.count[i] = read.number();
-      this.sample[i] = total;
-      total += this.count[i];
-    }
-    this.size = total;
-  }
-
-  /** The sample of a step, or -1. */
-  at(step: number): number {
-    const at = Math.floor(step / this.every);
-    let low = 0;
-    let high = this.first.length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (this.first[middle] <= at) low = middle + 1;
-      else high = middle;
-    }
-    const i = low - 1;
-    return i >= 0 && at < this.first[i] + this.count[i] ? this.sample[i] + at - this.first[i] : -1;
-  }
-
-  /** All sampled steps with their samples. */
-  *steps(): Generator<[number, number]> {
-    for (let i = 0; i < this.first.length; ++i) {
-      for (let j = 0; j < this.count[i]; ++j) {
-        yield [(this.first[i] + j) * this.every, this.sample[i] + j];
-      }
-    }
-  }
-}
-
-export interface BodyTrack {
-  first: number;
-  x: Int32Array;
-  y: Int32Array;
-  angle: Int32Array;
-  collection: Int32Array;
-  asleep: Int32Array;
-  vx?: Int32Array;
-  vy?: Int32Array;
-  omega?: Int32Array;
-}
-
-export interface ContactTrack {
-  a: number;
-  b: number;
-  mu: number;
-  spans: Spans;
-  x: Int32Array;
-  y: Int32Array;
-  normal: Int32Array;
-  gap: Int32Array;
-  lambdaN: Int32Array;
-  lambdaT: Int32Array;
-  wN: Int32Array;
-  wT: Int32Array;
-  state: Int32Array;
-  internal: Int32Array;
-  fresh: Int32Array;
-}
-
-export interface DecisionTrack {
-  a: number;
-  b: number;
-  criterion: Criterion;
-  spans: Spans;
-  value: Int32Array;
-  count: Int32Array;
-  passed: Int32Array;
-}
 
 export interface Pose {
   x: number;
@@ -162,6 +29,17 @@ export interface Contact {
   state: 'broken' | 'sticking' | 'sliding';
   internal: boolean;
   fresh: boolean;
+}
+
+/** Along the normal and along the tangent [N s]. */
+export type Impulse = [normal: number, tangent: number];
+
+/** Before and after the single sweep, and with which the full solve begins. */
+export interface Impulses {
+  warm: Impulse;
+  swept: Impulse;
+  begin: Impulse;
+  inner: boolean;
 }
 
 export interface Decision {
@@ -206,19 +84,27 @@ export class Trace {
   private readonly amount: Scale;
   private readonly fine = logarithmic(1e-6, 1024);
   private readonly slots = new Map<number, number>();
-  private readonly contactsOf = new Map<string, ContactTrack[]>();
-  private readonly decisionsOf = new Map<string, DecisionTrack[]>();
+  private readonly insides = new Map<number, Inside>();
+  private readonly contactsOf: ByPair<ContactTrack>;
+  private readonly decisionsOf: ByPair<DecisionTrack>;
 
   constructor(packed: Packed) {
     this.head = packed.head;
     this.label = packed.label;
     this.amount = logarithmic(packed.head.amount[0], packed.head.amount[1]);
     const read = new Unpacker(packed.data);
-    for (let i = 0; i < this.head.bodies.length; ++i) this.bodies.push(this.readBody(read));
-    if (this.head.full) {
-      for (let n = read.number(); n > 0; --n) this.addContact(read);
-      for (let n = read.number(); n > 0; --n) this.addDecision(read);
+    const { full, every, criteria } = this.head;
+    for (let i = 0; i < this.head.bodies.length; ++i) this.bodies.push(readBody(read, full));
+    if (full) {
+      for (let n = read.number(), i = 0; i < n; ++i) this.contacts.push(readContact(read, every, i));
+      for (let n = read.number(); n > 0; --n) this.decisions.push(readDecision(read, every, criteria));
+      for (let n = read.number(); n > 0; --n) {
+        const inside = readInside(read);
+        this.insides.set(inside.step, inside);
+      }
     }
+    this.contactsOf = new ByPair(this.contacts);
+    this.decisionsOf = new ByPair(this.decisions);
     for (let i = 0; i < 11; ++i) this.statColumns.push(read.column());
     for (const row of this.head.events) {
       const list = this.eventsAt.get(row[0]);
@@ -226,61 +112,6 @@ export class Trace {
       else this.eventsAt.set(row[0], [row]);
     }
     for (const [id, slot] of this.head.colors) this.slots.set(id, slot);
-  }
-
-  private readBody(read: Unpacker): BodyTrack {
-    const track: BodyTrack = {
-      first: read.number(),
-      x: read.column(),
-      y: read.column(),
-      angle: read.column(),
-      collection: read.runs(),
-      asleep: read.runs(),
-    };
-    if (this.head.full) {
-      track.vx = read.column();
-      track.vy = read.column();
-      track.omega = read.column();
-    }
-    return track;
-  }
-
-  private addContact(read: Unpacker): void {
-    const track: ContactTrack = {
-      a: read.number(),
-      b: read.number(),
-      mu: read.number() * 1e-5,
-      spans: new Spans(read, this.head.every),
-      x: read.column(),
-      y: read.column(),
-      normal: read.column(),
-      gap: read.column(),
-      lambdaN: read.column(),
-      lambdaT: read.column(),
-      wN: read.column(),
-      wT: read.column(),
-      state: read.runs(),
-      internal: read.runs(),
-      fresh: read.runs(),
-    };
-    this.contacts.push(track);
-    const key = `${track.a}-${track.b}`;
-    this.contactsOf.set(key, [...(this.contactsOf.get(key) ?? []), track]);
-  }
-
-  private addDecision(read: Unpacker): void {
-    const track: DecisionTrack = {
-      a: read.number(),
-      b: read.number(),
-      criterion: this.head.criteria[read.number()],
-      spans: new Spans(read, this.head.every),
-      value: read.column(),
-      count: read.runs(),
-      passed: read.runs(),
-    };
-    this.decisions.push(track);
-    const key = `${track.a}-${track.b}`;
-    this.decisionsOf.set(key, [...(this.decisionsOf.get(key) ?? []), track]);
   }
 
   name(body: number): string {
@@ -378,12 +209,39 @@ export class Trace {
     return out;
   }
 
+  /** The impulses of a contact inside a step, where they were kept. */
+  impulses(track: ContactTrack, step: number): Impulses | null {
+    const inside = this.insides.get(step);
+    const i = inside?.place.get(track.id);
+    if (!inside || i === undefined) return null;
+    return {
+      warm: [this.amount(inside.warmN[i]), this.amount(inside.warmT[i])],
+      swept: [this.amount(inside.sweptN[i]), this.amount(inside.sweptT[i])],
+      begin: [this.amount(inside.beginN[i]), this.amount(inside.beginT[i])],
+      inner: inside.inner[i] === 1,
+    };
+  }
+
+  /** Whether something was swept in a step; unknown where its inside was not kept. */
+  sweeping(step: number): boolean | undefined {
+    return this.insides.get(step)?.sweeping;
+  }
+
+  /** The step whose inside was kept that is nearest, if any. */
+  nearestInside(step: number): number | undefined {
+    let best: number | undefined;
+    for (const at of this.insides.keys()) {
+      if (best === undefined || Math.abs(at - step) < Math.abs(best - step)) best = at;
+    }
+    return best;
+  }
+
   tracksOf(a: number, b: number): ContactTrack[] {
-    return this.contactsOf.get(`${Math.min(a, b)}-${Math.max(a, b)}`) ?? [];
+    return this.contactsOf.find(a, b);
   }
 
   decisionTracksOf(a: number, b: number): DecisionTrack[] {
-    return this.decisionsOf.get(`${Math.min(a, b)}-${Math.max(a, b)}`) ?? [];
+    return this.decisionsOf.find(a, b);
   }
 
   decision(track: DecisionTrack, step: number): Decision | null {

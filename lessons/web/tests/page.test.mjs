@@ -33,6 +33,8 @@ circle = 0.5
 `);
   make('what-merging-is');
   make('contact-forces');
+  make('one-sweep');
+  make('how-fast-is-still');
   make('books');
   make('evil', 'evil.toml');
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
@@ -134,6 +136,52 @@ test('the keyboard alone does everything', async () => {
   await close();
 });
 
+test('the sweep and the full solve show impulses before and after, in a step with an impact', async () => {
+  const { page, close } = await open('one-sweep');
+  const impact = await page.$eval('#data', (data) =>
+    JSON.parse(data.textContent).traces[0].head.events.find(([, type]) => type === 'impact')[0]);
+  await page.locator('.slider').fill(String(impact));
+  const at = async (stage) => {
+    await page.click(`.stage:nth-child(${stage})`);
+    const path = (layer) => page.getAttribute(`.layer.${layer}`, 'd');
+    return {
+      title: await page.textContent('section:has(> .impulses) h2'),
+      rows: await page.$$eval('.impulses tbody tr', (rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent))),
+      text: await page.textContent('.impulses p'),
+      equation: await page.textContent('.equation'),
+      forces: `${await path('force')}${await path('inner')}`,
+      earlier: await path('earlier'),
+    };
+  };
+  const [warm, swept, solved] = [await at(4), await at(5), await at(7)];
+  assert.match(warm.title, /of the last step/);
+  assert.match(swept.title, /before and after the sweep/);
+  assert.match(solved.title, /before and after the full solve/);
+
+  // What the sweep begins with is what the warm start gave; both stages change it.
+  const named = (rows, name) => rows.find((row) => row[0] === name);
+  for (const [name, normal] of warm.rows) {
+    const row = named(swept.rows, name);
+    if (row) assert.equal(row[1], normal);
+  }
+  for (const { rows, text } of [swept, solved]) {
+    assert.ok(rows.some(([, before, after]) => before !== after));
+    assert.match(text, /changed [1-9]\d* of \d+ impulses/);
+  }
+  assert.notDeepEqual(swept.rows, warm.rows);
+  assert.notDeepEqual(solved.rows, swept.rows);
+
+  assert.equal(warm.earlier, '');
+  assert.notEqual(swept.earlier, '');
+  assert.notEqual(solved.earlier, '');
+  assert.equal(new Set([warm.forces, swept.forces, solved.forces]).size, 3);
+  assert.equal(new Set([warm.equation, swept.equation, solved.equation]).size, 3);
+
+  await page.click('.stage:nth-child(8)');
+  assert.ok(!(await page.isVisible('.impulses')));
+  await close();
+});
+
 test('a click on a contact or a body shows its numbers against their limits', async () => {
   const { page, close } = await open('what-merging-is');
   for (let i = 0; i < 40 && !(await page.getAttribute('.layer.active', 'd')); ++i) await page.keyboard.press('ArrowRight');
@@ -181,8 +229,41 @@ test('what if shows another run, and says so', async () => {
   await close();
 });
 
+test('a slider over a threshold shows the runs that were computed beforehand', async () => {
+  const { page, step, close } = await open('how-fast-is-still');
+  await page.locator('.slider').fill('300');
+  const merged = [];
+  for (const [at, value] of ['0.001', '0.01', '0.1', '1'].entries()) {
+    await page.locator('.threshold-slider input').fill(String(at));
+    assert.equal(await page.textContent('.threshold-slider output'), value);
+    assert.equal(await page.getAttribute('.threshold-slider input', 'aria-valuetext'), value);
+    assert.equal(await step(), 300);
+    merged.push(Number(await page.textContent('.facts .fact:nth-child(1) strong')));
+  }
+  assert.ok(merged[0] > merged[3], `bodies simulated: ${merged}`);
+  await page.selectOption('select[aria-label^="What if"]', '1');
+  assert.equal(await page.textContent('.threshold-slider output'), '–');
+  await close();
+});
+
+test('the reference can be seen as a ghost or beside the picture', async () => {
+  const { page, close } = await open('how-fast-is-still');
+  await page.locator('.slider').fill('300');
+  const other = page.locator('.frame:has(> .picture:not(.interactive))');
+  assert.ok(!(await other.isVisible()));
+  await page.keyboard.press('9');
+  assert.ok(await other.isVisible());
+  assert.match(await other.textContent(), /Reference/);
+  assert.equal(await other.locator('.body.c0').count(), 0);
+  await page.keyboard.press('9');
+  assert.ok(!(await other.isVisible()));
+  await page.keyboard.press('7');
+  assert.ok((await page.locator('.picture.interactive .ghosts path:visible').count()) > 0);
+  await close();
+});
+
 test('a narrow window needs no sideways scrolling', async () => {
-  for (const name of ['what-merging-is', 'books']) {
+  for (const name of ['what-merging-is', 'books', 'how-fast-is-still']) {
     const { page, close } = await open(name, { viewport: { width: 360, height: 740 } });
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
     await close();
@@ -221,12 +302,14 @@ test('the screen reader hears each state', async () => {
 
 for (const colorScheme of ['light', 'dark']) {
   test(`axe finds nothing to complain about in ${colorScheme}`, async () => {
-    for (const name of ['what-merging-is', 'contact-forces', 'books']) {
+    for (const name of ['what-merging-is', 'contact-forces', 'books', 'one-sweep', 'how-fast-is-still']) {
       const { page, close } = await open(name, { colorScheme });
       await page.keyboard.press('n');
       await page.keyboard.press('m');
       await page.locator('.picture .body:not(.fixed)').first().click({ force: true });
       if (name === 'contact-forces') await page.click('text=Just show me');
+      if (name === 'how-fast-is-still') await page.keyboard.press('9');
+      if (name === 'one-sweep') await page.click('.stage:nth-child(7)');
       await page.evaluate(axe);
       const { violations } = await page.evaluate(() => window.axe.run());
       assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(' | ')}`), []);

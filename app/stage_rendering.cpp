@@ -1,0 +1,114 @@
+#include "app/stage_rendering.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "app/console.h"
+#include "app/interrupt.h"
+#include "app/output_file.h"
+#include "app/run_file.h"
+#include "app/simulation.h"
+#include "app/stage_pictures.h"
+#include "app/web_vtt.h"
+#include "render/contact_sheet.h"
+#include "render/png.h"
+
+namespace merge2d {
+namespace {
+
+namespace fs = std::filesystem;
+
+StepRecord recordStep(const Scene& scene, const RenderOptions& options) {
+  Recorder recorder(scene, options.mode);
+  while (recorder.world().steps() + 1 < *options.at) {
+    stopIfInterrupted();
+    recorder.skip();
+  }
+  return recorder.record();
+}
+
+FrameStyle styleOf(const RenderOptions& options) {
+  FrameStyle style;
+  style.width = evenSize(options.width());
+  style.height = evenSize(options.height());
+  style.theme = options.theme;
+  style.transparent = options.transparent;
+  return style;
+}
+
+/// The pictures of one step and what goes with them.
+class StageFiles {
+ public:
+  StageFiles(const RenderOptions& options, const Console& console, const Scene& scene)
+      : options_(options),
+        console_(console),
+        style_(styleOf(options)),
+        record_(recordStep(scene, options)),
+        folder_(
+            (options.folder.empty() ? fs::path("frames") / scene.name : fs::path(options.folder)) /
+            "stages"),
+        pictures_(scene, options.mode, style_) {}
+
+  const fs::path& folder() const { return folder_; }
+  std::int64_t step() const { return record_.step; }
+
+  void write() {
+    fs::create_directories(folder_);
+    for (std::size_t i = 0; i < kStages; ++i) drawStage(i);
+    writeFile(file(".vtt").string(), captions_.text(),
+              {.everything = options_.force, .ours = WebVtt::kStart});
+    if (options_.contact_sheet) writeContactSheet();
+  }
+
+ private:
+  /// "stages/step_000045" and what follows.
+  fs::path file(const std::string& rest) const {
+    return folder_ / fmt::format("step_{:06}{}", record_.step, rest);
+  }
+
+  void drawStage(std::size_t i) {
+    const auto stage = static_cast<Stage>(i);
+    const fs::path picture = file(fmt::format("_{:02}_{}.png", i + 1, name(stage)));
+    const std::string text = pictures_.save(&record_, stage, picture.string(), options_.force);
+    captions_.add(static_cast<std::int64_t>(i), text);
+    console_.detail(text);
+    if (options_.contact_sheet) cells_.push_back(shrunk(loadPng(picture), kSheetCell));
+  }
+
+  void writeContactSheet() const {
+    const fs::path sheet = file(".png");
+    savePng(sheet, contactSheet(cells_, options_.contact_sheet->first, style_.theme.background),
+            {.alpha = style_.transparent,
+             .description = fmt::format("The eleven stages of step {}.", record_.step)});
+    console_.note(fmt::format("{} shows them all", sheet.string()));
+  }
+
+  const RenderOptions& options_;
+  const Console& console_;
+  FrameStyle style_;
+  StepRecord record_;
+  fs::path folder_;
+  StagePictures pictures_;
+  WebVtt captions_;  ///< a second for each picture
+  std::vector<Picture> cells_;
+};
+
+}  // namespace
+
+void renderStages(const RenderOptions& options) {
+  const Console console(options);
+  const Scene scene = loadScene(options, console);
+  StageFiles files(options, console, scene);
+  files.write();
+  if (options.json) {
+    const Json out{{"scene", scene.name},
+                   {"folder", files.folder().string()},
+                   {"step", files.step()},
+                   {"written", kStages}};
+    return print(out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  }
+  print(files.folder().string() + "\n");
+}
+
+}  // namespace merge2d

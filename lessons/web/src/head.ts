@@ -1,0 +1,50 @@
+// What a recorded run says about itself in plain JSON: lessons/encode_head.cpp writes it.
+export type Vec = [number, number];
+export type EventRow = [step: number, type: string, a: number, b: number, collection: number, reason: string];
+
+export interface BodyInfo {
+  name: string;
+  motion: 'dynamic' | 'pinned' | 'scripted';
+  mass: number;
+  inertia: number;
+  pieces: (number | Vec)[][];
+  boundary: [number, number, number, number][];
+}
+
+export interface Criterion {
+  stage: string;
+  criterion: string;
+  equation: string;
+  threshold: number;
+  needed: number;
+}
+
+export interface Head {
+  scene: string;
+  title: string;
+  mode: string;
+  full: boolean;
+  h: number;
+  steps: number;
+  every: number;
+  gravity: Vec;
+  camera: [number, number, number];
+  length: number;
+  angle: number;
+  amount: Vec;
+  parameters: Record<string, unknown>;
+  bodies: BodyInfo[];
+  criteria: Criterion[];
+  events: EventRow[];
+  colors: [number, number][];
+  springs: [number, number, number, number, number, number][];
+  ledger?: number[][];
+  inside?: [step: number, contacts: number][];
+  orders?: [step: number, visits: [a: number, b: number, depth: number][]][];
+}
+
+export interface Packed {
+  label: string;
+  head: Head;
+  data: string;
+}

@@ -1,0 +1,176 @@
+// The columns of a recorded run: lessons/encode.cpp writes them, these read them.
+import type { Criterion } from './head';
+import type { Unpacker } from './unpack';
+
+/** Samples of something that comes and goes. */
+export class Spans {
+  private readonly first: Int32Array;
+  private readonly count: Int32Array;
+  private readonly sample: Int32Array;
+  readonly size: number;
+
+  constructor(read: Unpacker, private readonly every: number) {
+    const n = read.number();
+    this.first = new Int32Array(n);
+    this.count = new Int32Array(n);
+    this.sample = new Int32Array(n);
+    let total = 0;
+    for (let i = 0; i < n; ++i) {
+      this.first[i] = read.number();
+      this.count[i] = read.number();
+      this.sample[i] = total;
+      total += this.count[i];
+    }
+    this.size = total;
+  }
+
+  /** The sample of a step, or -1. */
+  at(step: number): number {
+    const at = Math.floor(step / this.every);
+    let low = 0;
+    let high = this.first.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.first[middle] <= at) low = middle + 1;
+      else high = middle;
+    }
+    const i = low - 1;
+    return i >= 0 && at < this.first[i] + this.count[i] ? this.sample[i] + at - this.first[i] : -1;
+  }
+
+  /** All sampled steps with their samples. */
+  *steps(): Generator<[number, number]> {
+    for (let i = 0; i < this.first.length; ++i) {
+      for (let j = 0; j < this.count[i]; ++j) {
+        yield [(this.first[i] + j) * this.every, this.sample[i] + j];
+      }
+    }
+  }
+}
+
+export interface BodyTrack {
+  first: number;
+  x: Int32Array;
+  y: Int32Array;
+  angle: Int32Array;
+  collection: Int32Array;
+  asleep: Int32Array;
+  vx?: Int32Array;
+  vy?: Int32Array;
+  omega?: Int32Array;
+}
+
+export interface ContactTrack {
+  id: number;
+  a: number;
+  b: number;
+  mu: number;
+  spans: Spans;
+  x: Int32Array;
+  y: Int32Array;
+  normal: Int32Array;
+  gap: Int32Array;
+  lambdaN: Int32Array;
+  lambdaT: Int32Array;
+  wN: Int32Array;
+  wT: Int32Array;
+  state: Int32Array;
+  internal: Int32Array;
+  fresh: Int32Array;
+}
+
+export interface DecisionTrack {
+  a: number;
+  b: number;
+  criterion: Criterion;
+  spans: Spans;
+  value: Int32Array;
+  count: Int32Array;
+  passed: Int32Array;
+}
+
+/** The impulses of one step before and after its single sweep, per contact: lessons/impulses.h. */
+export interface Inside {
+  step: number;
+  sweeping: boolean; // something was merged, so that there was a sweep
+  place: Map<number, number>; // track to index
+  warmN: Int32Array;
+  warmT: Int32Array;
+  sweptN: Int32Array;
+  sweptT: Int32Array;
+  beginN: Int32Array; // of the full solve
+  beginT: Int32Array;
+  inner: Int32Array; // inside a collection during the sweep
+}
+
+/** With velocities where the whole run is recorded. */
+export function readBody(read: Unpacker, full: boolean): BodyTrack {
+  const track: BodyTrack = {
+    first: read.number(),
+    x: read.column(),
+    y: read.column(),
+    angle: read.column(),
+    collection: read.runs(),
+    asleep: read.runs(),
+  };
+  if (full) {
+    track.vx = read.column();
+    track.vy = read.column();
+    track.omega = read.column();
+  }
+  return track;
+}
+
+export function readContact(read: Unpacker, every: number, id: number): ContactTrack {
+  return {
+    id,
+    a: read.number(),
+    b: read.number(),
+    mu: read.number() * 1e-5,
+    spans: new Spans(read, every),
+    x: read.column(),
+    y: read.column(),
+    normal: read.column(),
+    gap: read.column(),
+    lambdaN: read.column(),
+    lambdaT: read.column(),
+    wN: read.column(),
+    wT: read.column(),
+    state: read.runs(),
+    internal: read.runs(),
+    fresh: read.runs(),
+  };
+}
+
+export function readDecision(read: Unpacker, every: number, criteria: Criterion[]): DecisionTrack {
+  return {
+    a: read.number(),
+    b: read.number(),
+    criterion: criteria[read.number()],
+    spans: new Spans(read, every),
+    value: read.column(),
+    count: read.runs(),
+    passed: read.runs(),
+  };
+}
+
+export function readInside(read: Unpacker): Inside {
+  const [step, sweeping] = [read.number(), read.number() === 1];
+  const place = new Map([...read.column()].map((track, i) => [track, i]));
+  const [warmN, warmT] = [read.column(), read.column()];
+  const sum = (from: Int32Array, by: Int32Array) => from.map((code, i) => code + by[i]);
+  const [sweptN, sweptT] = [sum(warmN, read.column()), sum(warmT, read.column())];
+  const [beginN, beginT] = [sum(sweptN, read.column()), sum(sweptT, read.column())];
+  return { step, sweeping, place, warmN, warmT, sweptN, sweptT, beginN, beginT, inner: read.runs() };
+}
+
+/** The tracks of each pair of bodies. */
+export class ByPair<Track extends { a: number; b: number }> {
+  private readonly of = new Map<string, Track[]>();
+  constructor(tracks: Track[]) {
+    for (const track of tracks) this.of.set(`${track.a}-${track.b}`, [...this.find(track.a, track.b), track]);
+  }
+  find(a: number, b: number): Track[] {
+    return this.of.get(`${Math.min(a, b)}-${Math.max(a, b)}`) ?? [];
+  }
+}
