@@ -1,12 +1,18 @@
 #include "src2d/merging/parts.h"
 
-#include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/unmerge.h"
 
 namespace merge2d {
 namespace {
+
+/// Per body its node: the members from 1 on, 0 for the frame.
+std::vector<std::uint32_t> nodesOf(const State& state, const Collection& c) {
+  std::vector<std::uint32_t> node(state.bodies.size(), 0);
+  for (std::uint32_t i = 0; i < c.members.size(); ++i) node[index(c.members[i])] = i + 1;
+  return node;
+}
 
 /// The contacts of a weld that hold, in the collection's frame, and what its joints are worth.
 void addPins(const State& state, const Collection& c, const Weld& weld, std::uint32_t a,
@@ -28,15 +34,13 @@ void addPins(const State& state, const Collection& c, const Weld& weld, std::uin
 }  // namespace
 
 bool hangsTogether(const State& state, const Collection& c, DisjointSets& sets) {
-  const auto node = [&](BodyId b) {
-    return state[b].rigid == c.rigid ? static_cast<std::uint32_t>(memberIndex(c, b)) + 1 : 0u;
-  };
+  const std::vector<std::uint32_t> node = nodesOf(state, c);
   sets.reset(c.members.size() + 1);
   std::size_t joined = 0;
   bool on_frame = state[c.rigid].floating();
   for (const Weld& weld : c.welds) {
     if (weld.cut || activeContacts(c, weld) < 2) continue;
-    const std::uint32_t a = node(weld.a), b = node(weld.b);
+    const std::uint32_t a = node[index(weld.a)], b = node[index(weld.b)];
     if (a == 0 || b == 0) {
       on_frame = true;
     } else {
@@ -47,12 +51,11 @@ bool hangsTogether(const State& state, const Collection& c, DisjointSets& sets) 
 }
 
 Parts partsWithoutCuts(const State& state, const Collection& c) {
-  const auto node = [&](BodyId b) {
-    return state[b].rigid == c.rigid ? static_cast<std::uint32_t>(memberIndex(c, b)) + 1 : 0u;
-  };
+  const std::vector<std::uint32_t> node = nodesOf(state, c);
   std::vector<Pin> pins;
+  pins.reserve(2 * c.welds.size());
   for (const Weld& weld : c.welds) {
-    if (!weld.cut) addPins(state, c, weld, node(weld.a), node(weld.b), pins);
+    if (!weld.cut) addPins(state, c, weld, node[index(weld.a)], node[index(weld.b)], pins);
   }
   const auto nodes = static_cast<std::uint32_t>(c.members.size() + 1);
   const CycleCriterion criterion = state.settings.unmerging.rule == Rule::Paper
