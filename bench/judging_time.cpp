@@ -35,9 +35,9 @@ JudgingTime judgingTime() { return total; }
 }  // namespace merge2d
 
 // ld --wrap=F: calls of F become calls of __wrap_F, and __real_F is F.
-using merge2d::Collection, merge2d::CycleCriterion, merge2d::DisjointSets, merge2d::Groups,
-    merge2d::MergeGraph, merge2d::Parts, merge2d::Pin, merge2d::ReadyPair, merge2d::Scratch,
-    merge2d::State, merge2d::Timed;
+using merge2d::Collection, merge2d::CycleCriterion, merge2d::Groups, merge2d::MergeGraph,
+    merge2d::Parts, merge2d::Pin, merge2d::ReadyPair, merge2d::Scratch, merge2d::State,
+    merge2d::Timed;
 
 #define MERGE2D_HELD_GROUPS(prefix) \
   prefix##_ZN7merge2d10heldGroupsEjSt4spanIKNS_3PinELm18446744073709551615EENS_14CycleCriterionE
@@ -45,8 +45,6 @@ using merge2d::Collection, merge2d::CycleCriterion, merge2d::DisjointSets, merge
   prefix##_ZN7merge2d12pairsToJudgeERKNS_5StateERKNS_7ScratchERKNS_10MergeGraphE
 #define MERGE2D_PINS_OF(prefix) \
   prefix##_ZNK7merge2d10MergeGraph6pinsOfERKSt6vectorINS_9ReadyPairESaIS2_EE
-#define MERGE2D_HANGS_TOGETHER(prefix) \
-  prefix##_ZN7merge2d13hangsTogetherERKNS_5StateERKNS_10CollectionERNS_12DisjointSetsE
 #define MERGE2D_PARTS(prefix) prefix##_ZN7merge2d16partsWithoutCutsERKNS_5StateERKNS_10CollectionE
 
 extern "C" {
@@ -71,12 +69,6 @@ std::vector<Pin> MERGE2D_PINS_OF(__wrap_)(const MergeGraph* graph,
                                           const std::vector<ReadyPair>& ready) {
   const Timed timed;
   return MERGE2D_PINS_OF(__real_)(graph, ready);
-}
-
-bool MERGE2D_HANGS_TOGETHER(__real_)(const State&, const Collection&, DisjointSets&);
-bool MERGE2D_HANGS_TOGETHER(__wrap_)(const State& state, const Collection& c, DisjointSets& sets) {
-  const Timed timed;
-  return MERGE2D_HANGS_TOGETHER(__real_)(state, c, sets);
 }
 
 Parts MERGE2D_PARTS(__real_)(const State&, const Collection&);

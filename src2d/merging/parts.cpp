@@ -33,23 +33,6 @@ void addPins(const State& state, const Collection& c, const Weld& weld, std::uin
 
 }  // namespace
 
-bool hangsTogether(const State& state, const Collection& c, DisjointSets& sets) {
-  const std::vector<std::uint32_t> node = nodesOf(state, c);
-  sets.reset(c.members.size() + 1);
-  std::size_t joined = 0;
-  bool on_frame = state[c.rigid].floating();
-  for (const Weld& weld : c.welds) {
-    if (weld.cut || activeContacts(c, weld) < 2) continue;
-    const std::uint32_t a = node[index(weld.a)], b = node[index(weld.b)];
-    if (a == 0 || b == 0) {
-      on_frame = true;
-    } else {
-      joined += sets.unite(a, b) ? 1 : 0;
-    }
-  }
-  return on_frame && joined + 1 == c.members.size();
-}
-
 Parts partsWithoutCuts(const State& state, const Collection& c) {
   const std::vector<std::uint32_t> node = nodesOf(state, c);
   std::vector<Pin> pins;

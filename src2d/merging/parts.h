@@ -14,10 +14,6 @@ struct Parts {
   std::vector<std::uint8_t> anchored;  ///< per part
 };
 
-/// True when all members hang together, or each on the frame, by welds with two contacts alone: a
-/// quick answer that is right most times.
-bool hangsTogether(const State& state, const Collection& c, DisjointSets& sets);
-
 /// The parts that the remaining welds hold together under the cycle criterion.
 Parts partsWithoutCuts(const State& state, const Collection& c);
 
