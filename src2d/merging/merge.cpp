@@ -7,34 +7,11 @@
 #include "src2d/core/memory.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
+#include "src2d/merging/group_notes.h"
 #include "src2d/merging/ready_pairs.h"
 
 namespace merge2d {
 namespace {
-
-/// Writes down for each ready pair which group holds it, if any does. `group` is empty when nothing
-/// was judged.
-void noteGroups(const State& state, Scratch& scratch, const Groups& group) {
-  if (!scratch.notes) return;
-  const auto held = [&](const ReadyPair& edge) {
-    return !group.empty() && group[edge.node_a] == group[edge.node_b];
-  };
-  std::vector<std::int32_t> first_body(group.size(), -1);
-  for (const ReadyPair& edge : scratch.ready) {  // ascending
-    if (!held(edge)) continue;
-    std::int32_t& first = first_body[group[edge.node_a]];
-    if (first < 0) first = static_cast<std::int32_t>(edge.pair.a);
-  }
-  for (const ReadyPair& edge : scratch.ready) {
-    noteMerge(state, scratch.notes, edge.pair,
-              {.criterion = "cycle",
-               .equation = "Section 8.2",
-               .value = static_cast<double>(edge.contacts),
-               .threshold = 2.0,
-               .verdict = held(edge) ? "merge" : "wait",
-               .group = held(edge) ? first_body[group[edge.node_a]] : -1});
-  }
-}
 
 /// The pairs to weld: ready, and held in the group that they would form.
 std::vector<BodyPair> pairsToWeld(State& state, Scratch& scratch) {
@@ -49,6 +26,7 @@ std::vector<BodyPair> pairsToWeld(State& state, Scratch& scratch) {
   for (const ReadyPair& edge : pairs) {
     if (group[edge.node_a] == group[edge.node_b]) held.push_back(edge.pair);
   }
+  if (scratch.notes) scratch.notes->judged += static_cast<int>(pairs.size());
   if (criterion != CycleCriterion::Off) noteGroups(state, scratch, group);
   std::swap(state.ready_before, scratch.ready);
   return held;

@@ -4,6 +4,7 @@
 
 #include "src2d/contact/detection.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/group_notes.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/parts.h"
 #include "src2d/merging/sweep.h"
@@ -15,22 +16,11 @@ namespace {
 /// One event per weld that ends.
 void reportCuts(const State& state, const Collection& before, Scratch& scratch) {
   for (const Weld& weld : before.welds) {
-    const bool together = state[weld.a].rigid == state[weld.b].rigid;
-    const bool on_frame =
-        !state.rigid(weld.a).floating() && state.rigid(weld.a).anchor == state.rigid(weld.b).anchor;
-    if (together || on_frame) continue;
+    if (stillTogether(state, weld.a, weld.b)) continue;
     scratch.events.push_back({EventType::Unmerge, weld.a, weld.b, before.id,
                               weld.cut ? weld.reason : EventReason::Cycle});
-    if (weld.cut || !scratch.notes) continue;
-    scratch.notes->decisions.push_back({.a = weld.a,
-                                        .b = weld.b,
-                                        .stage = "Unmerge",
-                                        .criterion = "cycle",
-                                        .equation = "Section 8.2",
-                                        .value = static_cast<double>(activeContacts(before, weld)),
-                                        .threshold = 2.0,
-                                        .verdict = "unmerge"});
   }
+  noteBrokenGroups(state, before, scratch.notes);
 }
 
 /// What was decided about welds may not be what came of it: `from` one verdict `to` another, in the
@@ -39,9 +29,7 @@ void restate(const State& state, Notes* notes, std::size_t first, std::string_vi
   if (!notes) return;
   for (std::size_t i = first; i < notes->decisions.size(); ++i) {
     Decision& d = notes->decisions[i];
-    const Rigid &a = state.rigid(d.a), &b = state.rigid(d.b);
-    const bool together = &a == &b || (!a.floating() && a.anchor == b.anchor);
-    if (together && d.verdict == "unmerge") d.verdict = to;
+    if (d.verdict == "unmerge" && stillTogether(state, d.a, d.b)) d.verdict = to;
   }
 }
 
@@ -55,12 +43,18 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
   scratch.split = true;
 }
 
+/// Asks the criterion anew.
+Parts partsOf(const State& state, Scratch& scratch, const Collection& c) {
+  if (scratch.notes) scratch.notes->judged += static_cast<int>(c.welds.size());
+  return partsWithoutCuts(state, c);
+}
+
 /// Breaks the joints that bear too much, also after more sweeps, and parts what they held.
 bool breakInside(State& state, Scratch& scratch, Collection& c) {
   sweepAgain(state, scratch, c);
   if (!anyJointBreaks(state, c)) return false;
   breakJointsInside(state, c);
-  const Parts parts = partsWithoutCuts(state, c);
+  const Parts parts = partsOf(state, scratch, c);
   if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, c.rigid, parts);
   scratch.split = true;  // to be laid out anew
   return true;
@@ -88,7 +82,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   // Broken welds that do not part the graph are found again in each step: look anew only when
   // there is one more.
   if (!newCut(c, scratch) && !test.contactOpened() && !loosened) return;
-  Parts parts = partsWithoutCuts(state, c);
+  Parts parts = partsOf(state, scratch, c);
   if (!fallsApart(state, c, parts)) return;
   const UnmergingSettings& settings = state.settings.unmerging;
   if (settings.rule == Rule::Default && settings.ordering) {
@@ -97,7 +91,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
     sweepAgain(state, scratch, c);
     confirmJoints(state, c, scratch.sweep_u);
     test.confirmAll();
-    parts = partsWithoutCuts(state, c);
+    parts = partsOf(state, scratch, c);
     c.refuted = !test.somethingGrows();
     if (!fallsApart(state, c, parts)) return;
   }
@@ -136,7 +130,7 @@ void releaseBody(State& state, Scratch& scratch, BodyId body) {
       weld.cut = any = true;
       weld.reason = EventReason::User;
     }
-    if (any) splitAtCuts(state, scratch, c.rigid, partsWithoutCuts(state, c));
+    if (any) splitAtCuts(state, scratch, c.rigid, partsOf(state, scratch, c));
   }
   finishSplits(state, scratch);
 }
