@@ -63,18 +63,22 @@ std::pair<BodyId, BodyId> bodiesOf(const Words& words, const std::vector<std::st
   return std::minmax(found[0], found[1]);
 }
 
-Json jsonOf(const Decision& d) {
+Json jsonOf(const Words& words, const Decision& d, const std::vector<Group>& groups) {
   Json out{{"stage", d.stage},    {"criterion", d.criterion}, {"equation", d.equation},
            {"value", d.value},    {"threshold", d.threshold}, {"margin", d.threshold - d.value},
            {"before", d.before},  {"count", d.count},         {"needed", d.needed},
            {"verdict", d.verdict}};
   if (!d.at.isZero()) out["at"] = {d.at.x(), d.at.y()};  // of one contact
+  const auto members = static_cast<std::size_t>(d.members);
+  if (d.members >= 0 && members < groups.size()) {
+    for (const BodyId body : groups[members]) out["group"].push_back(words.name(body));
+  }
   return out;
 }
 
 Json jsonOf(const Words& words, const Explanation& e) {
   Json tests = Json::array();
-  for (const Decision& d : e.tests) tests.push_back(jsonOf(d));
+  for (const Decision& d : e.tests) tests.push_back(jsonOf(words, d, e.groups));
   return {{"a", words.name(e.a)},
           {"b", words.name(e.b)},
           {"outcome", name(e.outcome)},
@@ -137,7 +141,8 @@ class StepReport {
     for (const Explanation& e : all_) {
       merge2d::print(e.text + "\n");
       for (const Decision& d : e.tests) {
-        merge2d::print(fmt::format("  {:<24}  {:<10}  {}\n", d.stage, d.verdict, words_.test(d)));
+        merge2d::print(
+            fmt::format("  {:<24}  {:<10}  {}\n", d.stage, d.verdict, words_.test(d, e.groups)));
       }
     }
   }

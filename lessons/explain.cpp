@@ -63,6 +63,7 @@ class Explainer {
         explainPair(out);
         break;
     }
+    takeGroups(out);
     return out;
   }
 
@@ -73,10 +74,22 @@ class Explainer {
             .outcome = Outcome::CameApart,
             .text = fmt::format("{} came apart {}: the scene let go of one of them.",
                                 words_.pair(e.a, e.b), atStep()),
-            .tests = {}};
+            .tests = {},
+            .groups = {}};
   }
 
  private:
+  std::string test(const Decision& d) const { return words_.test(d, after_.groups); }
+  /// An explanation outlives the snapshot.
+  void takeGroups(Explanation& out) const {
+    for (Decision& d : out.tests) {
+      const auto members = static_cast<std::size_t>(d.members);
+      if (d.members < 0 || members >= after_.groups.size()) continue;
+      d.members = static_cast<std::int32_t>(out.groups.size());
+      out.groups.push_back(after_.groups[members]);
+    }
+  }
+
   std::string atStep() const { return fmt::format("at step {}", after_.step); }
 
   /// The tests with one of these verdicts, in words; the nearest one of each criterion.
@@ -93,7 +106,7 @@ class Explainer {
       }
     }
     std::vector<std::string> parts;
-    for (const Decision* d : chosen) parts.push_back(words_.test(*d));
+    for (const Decision* d : chosen) parts.push_back(test(*d));
     return fmt::format("{}", fmt::join(parts, "; "));
   }
 
@@ -101,9 +114,8 @@ class Explainer {
     const Decision& d = out.tests.front();
     const bool hit = d.verdict == "impact";
     out.outcome = Outcome::Hit;
-    out.text =
-        fmt::format("{} {} {}: {}.", words_.pair(out.a, out.b),
-                    hit ? "hit each other" : "touched each other gently", atStep(), words_.test(d));
+    out.text = fmt::format("{} {} {}: {}.", words_.pair(out.a, out.b),
+                           hit ? "hit each other" : "touched each other gently", atStep(), test(d));
   }
 
   /// "brick[0,0]", or "C3 (brick[0,0] and 11 others)".
@@ -119,7 +131,7 @@ class Explainer {
 
   void explainSleep(Explanation& out) const {
     const std::string who = sleeper(out.a);
-    const std::string why = words_.test(out.tests.front());
+    const std::string why = test(out.tests.front());
     if (has(out.tests, "sleep")) {
       out.outcome = Outcome::Slept;
       out.text = fmt::format("{} fell asleep {}: {}.", who, atStep(), why);
@@ -129,7 +141,7 @@ class Explainer {
     } else {
       out.outcome = Outcome::Awake;
       std::vector<std::string> reasons;
-      for (const Decision& d : out.tests) reasons.push_back(words_.test(d));
+      for (const Decision& d : out.tests) reasons.push_back(test(d));
       out.text = fmt::format("{} stayed awake {}: {}.", who, atStep(), fmt::join(reasons, "; "));
     }
   }
@@ -153,7 +165,7 @@ class Explainer {
       out.outcome = Outcome::Held;
       const Decision* nearest = nearestTest(out.tests);
       out.text = fmt::format("The weld of {} held {}. Nearest to its limit: {}.", who, atStep(),
-                             nearest ? words_.test(*nearest) : "nothing");
+                             nearest ? test(*nearest) : "nothing");
     }
     const bool holds = out.outcome == Outcome::Held || out.outcome == Outcome::Loose;
     if (holds && has(out.tests, "recheck")) {
@@ -193,7 +205,7 @@ class Explainer {
     } else if (last.criterion == "cycle") {
       out.outcome = Outcome::Waiting;
       out.text = fmt::format("{} did not merge {}, though they passed every test for {} steps: {}.",
-                             who, atStep(), last.count, words_.test(last));
+                             who, atStep(), last.count, test(last));
     } else {
       out.outcome = Outcome::Waiting;
       out.text =

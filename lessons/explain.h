@@ -36,6 +36,7 @@ struct Explanation {
   Outcome outcome = Outcome::Held;
   std::string text{};             ///< one sentence or two
   std::vector<Decision> tests{};  ///< behind it, in the order they were made
+  std::vector<Group> groups{};    ///< of which the tests tell: what Decision::members indexes
 };
 
 /// Explains all decisions of the step after which `after` was captured; by outcome, and

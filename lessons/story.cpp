@@ -22,6 +22,7 @@ void WeldStory::add(const Snapshot& after) {
   own.step = after.step;
   own.bodies = after.bodies;
   own.collections = after.collections;
+  own.groups = after.groups;
   for (const Decision& d : after.decisions) {
     if (concerns(d.a, d.b)) own.decisions.push_back(d);
   }

@@ -89,13 +89,13 @@ std::string edge(const Decision& d) {
                      contacts(d.threshold), d.value > 1.0 ? "are" : "is", equationName(d.equation));
 }
 
-/// `group` is the name of the group's first body.
+/// `group` names its bodies.
 std::string cycle(const Decision& d, const std::string& group) {
   if (d.stage == "Unmerge") {
     return fmt::format(
-        "{} of its own held, but the group that it needs to be rigid came apart "
+        "{} of its own held, but the rigid group of {} that held the pair came apart "
         "(Section 8.2)",
-        contacts(d.value));
+        contacts(d.value), group);
   }
   if (d.verdict == "merge") {
     return d.value >= d.threshold
@@ -164,7 +164,19 @@ std::string Words::suggestion(std::string_view name) const {
   return didYouMean(name, names);
 }
 
-std::string Words::test(const Decision& d) const {
+std::string Words::group(const Group& group) const {
+  constexpr std::size_t kAll = 6, kSome = 4;  // so many are all named; of more, some
+  std::vector<std::string> names;
+  const bool all = group.size() <= kAll;
+  for (const BodyId body : group) {
+    if (!all && names.size() == kSome) break;
+    names.push_back(name(body));
+  }
+  if (!all) names.push_back(counted(group.size() - kSome, "other", "others"));
+  return listed(names);
+}
+
+std::string Words::test(const Decision& d, const std::vector<Group>& groups) const {
   const std::string_view c = d.criterion;
   if (d.stage == "SleepAndWake") return sleeping(d);
   if (c == "relative-motion") return compared("relative motion", d, "/s");
@@ -179,6 +191,8 @@ std::string Words::test(const Decision& d) const {
   if (c == "cone") return cone(d);
   if (c == "edge") return edge(d);
   if (c == "cycle") {
+    const auto members = static_cast<std::size_t>(d.members);
+    if (d.members >= 0 && members < groups.size()) return cycle(d, group(groups[members]));
     return cycle(d, d.group < 0 ? "its own" : name(BodyId{static_cast<std::uint32_t>(d.group)}));
   }
   if (c == "pressed") return "no contact between them carries a force (Section 5.3)";

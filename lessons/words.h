@@ -44,7 +44,11 @@ class Words {
   std::string suggestion(std::string_view name) const;
 
   /// One test: "relative motion 0.023 m/s is above 0.010 m/s (2.3 times; Eq. 17)".
-  std::string test(const Decision& test) const;
+  /// With the `groups` of its snapshot it names all bodies of a group, or the first of many.
+  std::string test(const Decision& test, const std::vector<Group>& groups = {}) const;
+
+  /// "brick[2,3], brick[2,4] and post", "a, b, c, d and 37 others".
+  std::string group(const Group& group) const;
 
   /// "brick[2,3] and brick[2,4] merged into C3", …
   std::string event(const Event& event) const;

@@ -108,6 +108,7 @@ std::size_t World::memoryBytes() const {
 void World::capture(Snapshot& out) const {
   captureState(impl_->setup.state, impl_->setup.actions, impl_->scratch, out);
   out.decisions = impl_->notes.decisions;
+  out.groups = impl_->notes.groups;
 }
 
 Snapshot World::capture() const {

@@ -5,26 +5,13 @@
 #include <random>
 
 #include "src2d/cycles/contraction.h"
+#include "src2d/cycles/growth.h"
 #include "src2d/cycles/motions.h"
 #include "src2d/cycles/pebble_game.h"
 #include "src2d/cycles/tolerance.h"
 
 namespace merge2d {
 namespace {
-
-/// Contacts count where they are.
-struct Placed {
-  double resolution = 0.0;  ///< [m]
-
-  bool distinct(const Pin& p, const Pin& q) const { return (p.at - q.at).norm() > resolution; }
-
-  /// Three pins hold three bodies unless they lie on a line.
-  bool closes(const Pin& p, const Pin& q, const Pin& r) const {
-    const Vec2 x = q.at - p.at, y = r.at - p.at;
-    const double longest = std::max({x.norm(), y.norm(), (x - y).norm()});
-    return longest > resolution && std::abs(cross(x, y)) > kRankTolerance * longest * longest;
-  }
-};
 
 /// Smallest and largest of the placed pins, and the largest coordinate.
 struct Extent {
@@ -80,7 +67,7 @@ std::vector<std::uint32_t> renumber(std::span<Pin> pins) {
 /// Refines one generic group. Pairs and triangles, of bodies and then of groups, settle most of it
 /// at their own scale; what remains is looked at as a whole.
 Groups placedGroup(std::uint32_t nodes, std::span<const Pin> pins, double resolution) {
-  Contraction contraction(nodes, pins, Placed{resolution});
+  Contraction contraction(nodes, pins, PinRule{resolution});
   contraction.run();
   Groups groups = contraction.groups();
   std::vector<Pin> rest;

@@ -1,18 +1,10 @@
 #include "src2d/cycles/triangle.h"
 
+#include "src2d/cycles/growth.h"
+
 namespace merge2d {
-namespace {
-
-/// Contacts are counted, wherever they are.
-struct Counted {
-  static bool distinct(const Pin& /*p*/, const Pin& /*q*/) { return true; }
-  static bool closes(const Pin& /*p*/, const Pin& /*q*/, const Pin& /*r*/) { return true; }
-};
-
-}  // namespace
-
 TriangleGroups triangleGroups(std::uint32_t nodes, std::span<const Pin> pins) {
-  Contraction contraction(nodes, pins, Counted{});
+  Contraction contraction(nodes, pins, PinRule{});
   contraction.run();
   return {contraction.groups(), contraction.cycles()};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src2d/cycles/growth.h"
 #include "src2d/cycles/rigid.h"
 #include "src2d/cycles/tolerance.h"
 #include "src2d/cycles/triangle.h"
@@ -16,11 +17,16 @@ Groups namedBy(DisjointSets& sets, std::uint32_t nodes) {
   return groups;
 }
 
-/// Most pairs in a pile have two contacts and need no theory: joins them at once.
-void joinFirmPairs(std::span<const Pin> pins, CycleCriterion criterion, DisjointSets& sets) {
+/// Pins nearer than this are one [m]; where they are does not matter to the triangles.
+double resolutionOf(std::span<const Pin> pins, CycleCriterion criterion) {
+  if (criterion == CycleCriterion::Triangle) return -1.0;
   double largest = 0.0;
   for (const Pin& pin : pins) largest = std::max(largest, pin.at.cwiseAbs().maxCoeff());
-  const double resolution = criterion == CycleCriterion::Rigid ? kPointTolerance * largest : -1.0;
+  return kPointTolerance * largest;
+}
+
+/// Most pairs in a pile have two contacts and need no theory: joins them at once.
+void joinFirmPairs(std::span<const Pin> pins, double resolution, DisjointSets& sets) {
   for (std::size_t i = 1; i < pins.size(); ++i) {
     const Pin &p = pins[i - 1], &q = pins[i];
     const bool one_pair = p.a == q.a && p.b == q.b;
@@ -34,26 +40,38 @@ struct Core {
   std::vector<Pin> pins;
 };
 
-Core coreOf(std::span<const Pin> pins, DisjointSets& sets) {
+Core coreOf(std::uint32_t nodes, std::span<const Pin> pins, DisjointSets& sets) {
+  constexpr std::uint32_t kNone = ~0u;
   Core core;
-  for (Pin pin : pins) {
-    pin.a = sets.find(pin.a);
-    pin.b = sets.find(pin.b);
-    if (pin.a == pin.b) continue;
-    core.pins.push_back(pin);
-    core.nodes.insert(core.nodes.end(), {pin.a, pin.b});
-  }
-  std::sort(core.nodes.begin(), core.nodes.end());
-  core.nodes.erase(std::unique(core.nodes.begin(), core.nodes.end()), core.nodes.end());
-  const auto number = [&](std::uint32_t node) {
-    const auto at = std::lower_bound(core.nodes.begin(), core.nodes.end(), node);
-    return static_cast<std::uint32_t>(at - core.nodes.begin());
+  core.pins.reserve(pins.size());
+  std::vector<std::uint32_t> number(nodes, kNone);
+  const auto numbered = [&](std::uint32_t node) {
+    if (number[node] == kNone) {
+      number[node] = static_cast<std::uint32_t>(core.nodes.size());
+      core.nodes.push_back(node);
+    }
+    return number[node];
   };
-  for (Pin& pin : core.pins) {
-    pin.a = number(pin.a);
-    pin.b = number(pin.b);
+  for (Pin pin : pins) {
+    const std::uint32_t a = sets.find(pin.a), b = sets.find(pin.b);
+    if (a == b) continue;
+    pin.a = numbered(a);
+    pin.b = numbered(b);
+    core.pins.push_back(pin);
   }
   return core;
+}
+
+/// Joins what hangs on the largest group, one body after the other.
+void joinGrown(const Core& core, double resolution, DisjointSets& sets) {
+  const auto inside =
+      grownGroup(static_cast<std::uint32_t>(core.nodes.size()), core.pins, {resolution});
+  std::uint32_t first = ~0u;
+  for (std::uint32_t i = 0; i < inside.size(); ++i) {
+    if (inside[i] == 0) continue;
+    if (first == ~0u) first = i;
+    sets.unite(core.nodes[first], core.nodes[i]);
+  }
 }
 
 }  // namespace
@@ -65,8 +83,10 @@ Groups heldGroups(std::uint32_t nodes, std::span<const Pin> pins, CycleCriterion
     for (const Pin& pin : pins) sets.unite(pin.a, pin.b);
     return namedBy(sets, nodes);
   }
-  joinFirmPairs(pins, criterion, sets);
-  const Core core = coreOf(pins, sets);
+  const double resolution = resolutionOf(pins, criterion);
+  joinFirmPairs(pins, resolution, sets);
+  joinGrown(coreOf(nodes, pins, sets), resolution, sets);
+  const Core core = coreOf(nodes, pins, sets);
   const auto size = static_cast<std::uint32_t>(core.nodes.size());
   const Groups joined = criterion == CycleCriterion::Triangle
                             ? triangleGroups(size, core.pins).groups

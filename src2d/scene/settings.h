@@ -34,7 +34,7 @@ struct SolverSettings {
   int iterations = 10;  ///< sweeps of the full solve, Section 8.1
   Stabilisation stabilisation = Stabilisation::Baumgarte;
   double erp = 0.05;            ///< Baumgarte: part of the overlap that is removed per step [1]
-  double compliance = 0.008;    ///< softness C = compliance · (1/mA + 1/mB), so it is [1]
+  double compliance = 0.009;    ///< softness C = compliance · (1/mA + 1/mB), so it is [1]
   double max_correction = 0.5;  ///< fastest velocity with which overlap is removed [m/s]
   double margin = 0.005;        ///< contacts are kept up to this gap [m]
   double restitution_velocity = 0.5;  ///< slower approaches do not bounce [m/s]

@@ -30,6 +30,8 @@ struct NotedCorners {
 
 /// Everything that was written down in one step.
 struct Notes {
+  std::vector<Group> groups;          ///< of which the decisions tell
+  int judged = 0;                     ///< pairs about which the cycle criterion was asked
   std::vector<Decision> decisions;    ///< of the whole step, in the order they were made
   std::vector<NotedPoint> pruned;     ///< ContactDetection: found, but not needed
   std::vector<BodyId> seeds;          ///< ContactOrdering: where something is new
@@ -37,6 +39,8 @@ struct Notes {
   std::vector<NotedCorners> corners;  ///< AccumulateRelativeMotion: of the pairs tested
 
   void clear() {
+    groups.clear();
+    judged = 0;
     decisions.clear();
     pruned.clear();
     seeds.clear();

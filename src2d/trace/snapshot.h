@@ -125,9 +125,14 @@ struct Decision {
   std::string_view verdict{};  ///< "merge", "wait", "apart", "keep", "unmerge", …
   int before = 0;              ///< the count up to the last step
   Vec2 at = Vec2::Zero();      ///< of tests of one contact: where it is, in the world [m]
-  std::int32_t group =
-      -1;  ///< of "cycle": the first body of the pairs that hold together; −1: none
+  /// Of "cycle": the first body of the group that holds the pair, or that came apart; −1: none.
+  std::int32_t group = -1;
+  std::int32_t members = -1;  ///< all its bodies: an index of Snapshot::groups
 };
+
+/// The bodies of a rigid group: first those whose contacts make it one, ascending, then those that
+/// are welded to them already, ascending.
+using Group = std::vector<BodyId>;
 
 /// The eleven stages of Algorithm 1, in order.
 enum class Stage {
@@ -172,6 +177,7 @@ struct Snapshot {
   std::vector<JointView> joints;    ///< of the scene, in its order; also broken ones
   std::vector<Event> events;        ///< of this step, in the order they happened
   std::vector<Decision> decisions;  ///< of this step, when they were asked for
+  std::vector<Group> groups;        ///< those that the decisions tell of
   Stats stats;
 };
 

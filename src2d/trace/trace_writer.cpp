@@ -98,7 +98,14 @@ void writeDecision(JsonText& out, const Decision& d) {
   out.field("margin", d.threshold - d.value).field("count", d.count).field("needed", d.needed);
   out.field("verdict", d.verdict);
   if (d.group >= 0) out.field("group", d.group);
+  if (d.members >= 0) out.field("members", d.members);
   out.close('}');
+}
+
+void writeGroup(JsonText& out, const Group& group) {
+  out.open('[');
+  for (const BodyId body : group) out.value(body);
+  out.close(']');
 }
 
 void writeSeconds(JsonText& out, const Stats& stats) {
@@ -132,6 +139,8 @@ void writeStep(JsonText& out, const Snapshot& s, const TraceOptions& options) {
   out.array("events", s.events, [&](const Event& e) { writeEvent(out, e); });
   if (options.decisions) {
     out.array("decisions", s.decisions, [&](const Decision& d) { writeDecision(out, d); });
+    if (!s.groups.empty())
+      out.array("groups", s.groups, [&](const Group& g) { writeGroup(out, g); });
   }
   writeStats(out, s.stats, options.timings);
   out.close('}');

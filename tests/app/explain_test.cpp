@@ -44,6 +44,16 @@ TEST_F(ExplainCommand, GivesAPairWithEachOfItsTestsAsJson) {
   }
 }
 
+TEST_F(ExplainCommand, NamesAllBodiesOfTheGroupThatHoldsAPair) {
+  const Words arguments{"explain", "truss-arch", "--at", "5", "--pair", "left-leg", "right-leg"};
+  EXPECT_THAT(run(arguments).out, HasSubstr("the rigid group of ground, left-leg and right-leg"));
+  Words with_json = arguments;
+  with_json.push_back("--json");
+  const Json tests = run(with_json).json()["explanations"][0]["tests"];
+  EXPECT_EQ(tests.back()["criterion"], "cycle");
+  EXPECT_EQ(tests.back()["group"], Json({"ground", "left-leg", "right-leg"}));
+}
+
 TEST_F(ExplainCommand, TellsTheStoryOfAWeld) {
   const Outcome outcome =
       run({"explain", "stack.toml", "--weld", "ground", "box[0,0]", "--steps", "100"});

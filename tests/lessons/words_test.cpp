@@ -89,6 +89,28 @@ TEST_F(WordsTest, TellsHowMuchOfTheConeIsUsed) {
             "friction 0.30 N s of the 0.40 N s that the pressure allows (75 %; Eq. 20)");
 }
 
+TEST(WordsOfGroups, AreAllTheBodiesOrSomeOfMany) {
+  std::vector<BodyInfo> bodies(9);
+  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].name = std::string(1, char('a' + i));
+  const Words words(bodies);
+  const auto group = [](std::uint32_t size) {
+    Group all;
+    for (std::uint32_t i = 0; i < size; ++i) all.push_back(BodyId{i});
+    return all;
+  };
+  EXPECT_EQ(words.group(group(3)), "a, b and c");
+  EXPECT_EQ(words.group(group(6)), "a, b, c, d, e and f");
+  EXPECT_EQ(words.group(group(9)), "a, b, c, d and 5 others");
+  Decision d{
+      .stage = "Merge", .criterion = "cycle", .value = 1, .threshold = 2, .verdict = "merge"};
+  d.group = 1;
+  EXPECT_THAT(words.test(d), testing::HasSubstr("the rigid group of b ("));
+  d.members = 0;
+  EXPECT_THAT(words.test(d, {group(3)}), testing::HasSubstr("the rigid group of a, b and c ("));
+  d.stage = "Unmerge";
+  EXPECT_THAT(words.test(d, {group(9)}), testing::HasSubstr("a, b, c, d and 5 others"));
+}
+
 TEST_F(WordsTest, FindsBodiesAndSuggestsNames) {
   EXPECT_EQ(words.find("brick[2,3]"), BodyId{1});
   EXPECT_EQ(words.find("brik[2,3]"), std::nullopt);

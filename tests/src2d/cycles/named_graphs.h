@@ -76,6 +76,42 @@ inline const std::vector<NamedGraph>& namedGraphs() {
        "A B C D E", "A B C"},
       // The same triangle of bodies, held by a fourth contact that is not on the line.
       {"collinear-but-doubled", "A B 2 0,0 0,1\nB C 1 1,0\nC A 1 2,0\n", "A B C", "A B C"},
+      {"four-all-touching", "A B 1\nA C 1\nA D 1\nB C 1\nB D 1\nC D 1\n", "A B C D", "A B C D"},
+      // 14 doubled edges would do for five bodies, were not twelve of them between four.
+      {"four-all-touching-and-a-fifth", "A B 1\nA C 1\nA D 1\nB C 1\nB D 1\nC D 1\nA E 1\n",
+       "A B C D", "A B C D"},
+      // Rings of four that share two bodies which do not touch: three of them hold these.
+      {"two-rings-sharing-opposite-bodies",
+       "H P 1\nP K 1\nH Q 1\nQ K 1\nH R 1\nR K 1\nH S 1\nS K 1\n", "", "H K P Q R S"},
+      {"rings-of-four-in-a-chain", "A B 1\nB C 1\nC D 1\nD A 1\nC E 1\nE F 1\nF G 1\nG C 1\n", "",
+       ""},
+      {"wheel",
+       "H A 1\nH B 1\nH C 1\nH D 1\nH E 1\nH F 1\nA B 1\nB C 1\nC D 1\nD E 1\nE F 1\nF A 1\n",
+       "A B C D E F H", "A B C D E F H"},
+      {"pinned-groups", "pinned P Q\nP A 2\nQ B 2\nA B 1\nA C 1\nC B 1\nB D 1\n", "A B C P Q",
+       "A B C P Q"},
+      {"ring-of-four-two-pinned-across", "pinned A C\nA B 1\nB C 1\nC D 1\nD A 1\n", "A B C D",
+       "A B C D"},
+      {"ring-of-five-one-pinned", "pinned A\nA B 1\nB C 1\nC D 1\nD E 1\nE A 1\n", "", ""},
+      {"rigid-only-through-what-is-pinned", "pinned P Q\nP A 1\nA B 1\nB Q 1\nC D 1\nD E 1\n",
+       "A B P Q", "A B P Q"},
+      // Two firm groups, A with B and C with D.
+      {"groups-by-two-contacts", "A B 2 0,0 1,0\nC D 2 0,5 1,5\nA C 1 0,2\nB D 1 4,2\n", "A B C D",
+       "A B C D"},
+      {"groups-by-two-contacts-in-one-spot", "A B 2 0,0 1,0\nC D 2 0,5 1,5\nA C 1 2,2\nB D 1 2,2\n",
+       "A B C D", "A B, C D"},
+      {"groups-by-links-askew",
+       "A B 2 0,0 1,0\nC D 2 0,5 1,5\nA L 1 0,1\nL C 1 0,4\nB M 1 1,1\nM D 1 1.5,4\nA N 1 2,1\n"
+       "N C 1 2,4\n",
+       "A B, C D", "A B C D L M N"},
+      {"groups-by-links-parallel",
+       "A B 2 0,0 1,0\nC D 2 0,5 1,5\nA L 1 0,1\nL C 1 0,4\nB M 1 1,1\nM D 1 1,4\nA N 1 2,1\n"
+       "N C 1 2,4\n",
+       "A B, C D", "A B, C D"},
+      {"groups-by-links-through-one-point",
+       "A B 2 0,0 1,0\nC D 2 0,5 1,5\nA L 1 -1,1\nL C 1 -2,2\nB M 1 0,1\nM D 1 0,2\nA N 1 1,1\n"
+       "N C 1 2,2\n",
+       "A B, C D", "A B, C D"},
   };
   return graphs;
 }

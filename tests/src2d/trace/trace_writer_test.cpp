@@ -255,5 +255,21 @@ TEST(TraceWriter, ARunGivesOneLineForEachStep) {
   EXPECT_EQ(last["collections"][0]["anchor"], 0) << "the box is welded to the ground";
 }
 
+TEST(TraceWriter, DecisionsPointAtTheirGroupsWhichAreListedOnce) {
+  Snapshot snapshot;
+  snapshot.groups = {{BodyId{3}, BodyId{5}, BodyId{4}}};
+  Decision d{.a = BodyId{3}, .b = BodyId{5}, .stage = "Merge", .criterion = "cycle"};
+  d.group = 3;
+  d.members = 0;
+  snapshot.decisions = {d, {.criterion = "sliding"}};
+  const Json line = step(snapshot, {.decisions = true});
+  EXPECT_EQ(line["groups"], Json({{3, 5, 4}}));
+  EXPECT_EQ(line["decisions"][0]["group"], 3);
+  EXPECT_EQ(line["decisions"][0]["members"], 0);
+  EXPECT_FALSE(line["decisions"][1].contains("group"));
+  EXPECT_FALSE(step(snapshot).contains("groups"));
+  EXPECT_FALSE(step({}, {.decisions = true}).contains("groups"));
+}
+
 }  // namespace
 }  // namespace merge2d

@@ -1,0 +1,118 @@
+#include "src2d/merging/pair_test.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "src2d/merging/merge.h"
+#include "src2d/merging/metric.h"
+
+namespace merge2d {
+namespace {
+
+constexpr double kOnEdge = 1.0 - 1e-6;
+
+/// What the contacts of one pair say.
+struct PairContacts {
+  int active = 0;
+  double fastest_slip = 0.0;    ///< of active contacts [m/s]
+  double largest_breath = 0.0;  ///< change of the overlap since the last step [m]
+  int on_edge = 0;              ///< active contacts at the limit of their cone
+};
+
+PairContacts lookAt(const State& state, const BodyPair& pair) {
+  PairContacts seen;
+  const bool bilateral = isBilateral(state, pair.a, pair.b);
+  const double mu = frictionOf(state, pair.a, pair.b);
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& contact = state.contacts[state.contacts.order[i]];
+    for (int k = 0; k < contact.count; ++k) {
+      const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
+      if (p.lambda_n <= 0.0 && !bilateral) continue;
+      ++seen.active;
+      seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
+      seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
+      const bool at_rest = std::abs(p.w_t) < state.settings.sleeping.velocity;
+      seen.on_edge += !bilateral && !at_rest && std::abs(p.lambda_t) >= kOnEdge * mu * p.lambda_n;
+    }
+  }
+  return seen;
+}
+
+/// All active contacts are on the edge of their cones: is there a motion of b against a, keeping
+/// all of them closed, in which every one slips against its friction? A body wedged into a corner
+/// is on the edge too, but goes nowhere.
+bool aboutToSlide(const State& state, const BodyPair& pair) {
+  const Pose pose = state.pose(pair.b);
+  const double size = state[rigidOf(pair.b)].box.half.norm();
+  std::vector<Eigen::Vector3d> tangents;  // rows: slip by a motion (v, size · omega) of b
+  Eigen::Matrix3d closed = Eigen::Matrix3d::Zero();  // sum of the normals' rows, squared
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& contact = state.contacts[state.contacts.order[i]];
+    const Pose a = state.pose(pair.a);
+    const Vec2 n = a.rotation * contact.normal, t = perpendicular(n);
+    for (int k = 0; k < contact.count; ++k) {
+      const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
+      if (p.lambda_n <= 0.0) continue;
+      const Vec2 arm = (a * p.position - pose.position) / size;
+      const Eigen::Vector3d normal(n.x(), n.y(), cross(arm, n));
+      closed += normal * normal.transpose();
+      tangents.push_back(Eigen::Vector3d(t.x(), t.y(), cross(arm, t)) *
+                         (p.lambda_t > 0.0 ? 1.0 : -1.0));
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(closed);
+  constexpr double kRankTolerance = 1e-6;
+  const auto free = (modes.eigenvalues().array() < kRankTolerance).count();
+  if (free != 1) return free > 1;
+  const Eigen::Vector3d motion = modes.eigenvectors().col(0);
+  const auto along = [&](const Eigen::Vector3d& row) { return row.dot(motion); };
+  return std::all_of(tangents.begin(), tangents.end(),
+                     [&](const auto& r) { return along(r) > 0; }) ||
+         std::all_of(tangents.begin(), tangents.end(), [&](const auto& r) { return along(r) < 0; });
+}
+
+}  // namespace
+
+int activePoints(const State& state, const BodyPair& pair) { return lookAt(state, pair).active; }
+
+bool PairTest::ready() {
+  const MergingSettings& m = state_.settings.merging;
+  const PairContacts seen = lookAt(state_, pair_);
+  bool ok = seen.active > 0;
+  if (!ok) return note("pressed", "Section 5.3", seen.active, 1.0, false);
+  if (m.rule == Rule::Default) {
+    const bool slides = seen.on_edge == seen.active && aboutToSlide(state_, pair_);
+    ok &= note("edge", "(20)", seen.on_edge, seen.active, !slides);
+  }
+  if (!ok && !notes_) return false;
+  ok &= below("sliding", "(18)", seen.fastest_slip, m.sliding);
+  ok &= below("breathing", "Section 5.3", seen.largest_breath, m.breathing);
+  if (!ok && !notes_) return false;
+  return below("relative-motion", "(17)", relativeMotion(state_, pair_, notes_), m.velocity) && ok;
+}
+
+void PairTest::noteCount(int before, int now) const {
+  if (!notes_) return;
+  for (std::size_t i = first_; i < notes_->decisions.size(); ++i) {
+    notes_->decisions[i].before = before;
+    notes_->decisions[i].count = now;
+  }
+}
+
+bool PairTest::note(std::string_view criterion, std::string_view equation, double value,
+                    double threshold, bool ok) {
+  if (notes_) {
+    notes_->decisions.push_back({.a = pair_.a,
+                                 .b = pair_.b,
+                                 .stage = "AccumulateRelativeMotion",
+                                 .criterion = criterion,
+                                 .equation = equation,
+                                 .value = value,
+                                 .threshold = threshold,
+                                 .needed = state_.settings.merging.steps,
+                                 .verdict = ok ? "below" : "apart"});
+  }
+  return ok;
+}
+
+}  // namespace merge2d

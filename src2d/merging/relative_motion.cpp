@@ -1,0 +1,97 @@
+/// AccumulateRelativeMotion: for how many steps each pair could have merged, and each rigid thing
+/// could have slept.
+
+#include <algorithm>
+
+#include "src2d/merging/joint_welds.h"
+#include "src2d/merging/merge.h"
+#include "src2d/merging/metric.h"
+#include "src2d/merging/pair_test.h"
+
+namespace merge2d {
+namespace {
+
+VelocityField fieldOf(const Rigid& r) { return {r.x, r.v, r.omega}; }
+
+OrientedBox worldBox(const Rigid& r) {
+  OrientedBox box = r.box;
+  box.frame = r.frame() * box.frame;
+  return box;
+}
+
+/// The corners of a box and how the two move against each other there, for who asks.
+void noteCorners(Notes* notes, const BodyPair& pair, const OrientedBox& box, const Rigid& a,
+                 const Rigid& b) {
+  if (!notes) return;
+  NotedCorners seen{.a = pair.a, .b = pair.b, .at = box.corners()};
+  for (std::size_t i = 0; i < seen.at.size(); ++i) {
+    seen.velocity[i] = fieldOf(a).at(seen.at[i]) - fieldOf(b).at(seen.at[i]);
+  }
+  notes->corners.push_back(seen);
+}
+
+void countQuietPairs(State& state, Scratch& scratch) {
+  for (const BodyPair& pair : scratch.pairs) {
+    const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
+    if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) continue;
+    Contact& first = state.contacts[state.contacts.order[pair.first]];
+    const int count = first.quiet_steps;
+    PairTest test(state, pair, scratch.notes);
+    const int now = test.ready() ? count + 1 : 0;
+    test.noteCount(count, now);
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      state.contacts[state.contacts.order[i]].quiet_steps = now;
+    }
+  }
+}
+
+/// Section 7: each rigid thing against the inertial frame.
+void countQuietRigids(State& state, Notes* notes) {
+  const SleepingSettings& sleeping = state.settings.sleeping;
+  const VelocityField still;
+  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
+    Rigid& r = state.rigids[i];
+    if (!r.present() || r.asleep) continue;
+    const double motion = fastestCorner(worldBox(r), fieldOf(r), still);
+    const int before = r.quiet_steps;
+    const bool quiet = motion < sleeping.velocity;
+    r.quiet_steps = quiet ? r.quiet_steps + 1 : 0;
+    const bool collection = i >= state.bodies.size();
+    if (!notes || !(r.floating() || collection)) continue;
+    const BodyId body = collection ? state.collections[i - state.bodies.size()].members.front()
+                                   : BodyId{static_cast<std::uint32_t>(i)};
+    notes->decisions.push_back({.a = body,
+                                .b = body,
+                                .stage = "AccumulateRelativeMotion",
+                                .criterion = "rest",
+                                .equation = "Section 7",
+                                .value = motion,
+                                .threshold = sleeping.velocity,
+                                .count = r.quiet_steps,
+                                .needed = sleeping.steps,
+                                .verdict = quiet ? "below" : "awake",
+                                .before = before});
+  }
+}
+
+}  // namespace
+
+double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
+  const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
+  double fastest = 0.0;
+  for (const Rigid* r : {&a, &b}) {
+    if (!r->floating()) continue;
+    const OrientedBox box = worldBox(*r);
+    fastest = std::max(fastest, fastestCorner(box, fieldOf(a), fieldOf(b)));
+    noteCorners(notes, pair, box, a, b);
+  }
+  return fastest;
+}
+
+void accumulateRelativeMotion(State& state, Scratch& scratch) {
+  if (merges(state.mode)) countQuietPairs(state, scratch);
+  if (merges(state.mode) && !state.joints.empty()) countQuietJoints(state, scratch);
+  if (sleeps(state.mode)) countQuietRigids(state, scratch.notes);
+}
+
+}  // namespace merge2d

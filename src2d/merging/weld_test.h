@@ -1,0 +1,88 @@
+#pragma once
+/// The tests of the welds of one collection (Sections 6.3 and 6.4): broken, sliding, moving.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Tests the welds of one collection in one step.
+class WeldTest {
+ public:
+  WeldTest(const State& state, Scratch& scratch, Collection& c, bool disturbed)
+      : state_(state),
+        scratch_(scratch),
+        c_(c),
+        turn_(state[c.rigid].rotation),
+        disturbed_(disturbed),
+        whole_(disturbed) {}
+
+  /// Adds this step's evidence to what was summed, and cuts the welds whose sum is too large. Only
+  /// contacts at their limit, or watched since they were, need more than a look at their impulses.
+  void testAll();
+
+  bool contactOpened() const { return opened_; }
+  bool somethingGrows() const { return growing_; }
+
+  /// Looks again after more sweeps. What was summed may have come from a sweep that had not
+  /// converged: it is replaced by today's velocity, as if it had been the same in all those steps.
+  void confirmAll();
+
+ private:
+  /// The result of summing one more velocity.
+  struct Evidence {
+    double sum = 0.0;  ///< its size [m/s]
+    int steps = 0;
+    bool exceeds = false;
+  };
+
+  /// Broken (Section 6.3) and on edge (Eqs. (19), (20)).
+  void testContacts(std::uint32_t b);
+
+  /// Velocity at a point after the sweep.
+  ContactVelocity velocityAt(const ContactBlock& k, int i) const;
+
+  /// Adds to what was summed. Evidence that more sweeps do not confirm is forgotten.
+  Evidence weigh(Drift& drift, double w, double threshold);
+
+  /// True when the contact has opened.
+  bool testBroken(std::uint32_t weld, Drift& opening, double w_n);
+
+  /// A weld all of whose contacts have opened is broken; one that keeps a single contact is a
+  /// pivot.
+  void testLost(Weld& weld);
+
+  /// How much may open. Where something new entered, the sweeps have converged, and less will do.
+  double openingThreshold() const;
+
+  bool hadContact(const Weld& weld) const;
+
+  /// A contact on the edge of its cone.
+  void testSliding(std::uint32_t weld, Drift& slip, double w_t);
+
+  void noteCone(std::uint32_t weld, const ContactBlock& k, int i, bool edge);
+
+  /// Relative motion (Section 6.4): only pairs with fewer than two contacts can turn in 2D.
+  void testMotion(Weld& weld);
+
+  double relativeMotion(const Weld& weld) const;
+
+  /// Writes one test down if somebody asks.
+  void note(const Weld& weld, Decision test) const;
+
+  void cutWeld(Weld& weld, EventReason reason);
+
+  Rule rule() const { return state_.settings.unmerging.rule; }
+
+  const State& state_;
+  Scratch& scratch_;
+  Collection& c_;
+  Rotation turn_;
+  bool confirming_ = false;
+  bool growing_ = false;    ///< some sum grew in this step, and is not too large yet
+  bool opened_ = false;     ///< some contact was lost that held before
+  bool disturbed_ = false;  ///< something new entered in this step: the sweeps have converged
+  bool whole_ = false;      ///< dormant contacts were swept too
+  Vec2 at_ = Vec2::Zero();  ///< the contact point at hand, for the notes
+};
+
+}  // namespace merge2d
