@@ -1,5 +1,9 @@
 #include "src2d/merging/parts.h"
 
+#include <algorithm>
+
+#include "src2d/cycles/tolerance.h"
+#include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/unmerge.h"
@@ -31,7 +35,45 @@ void addPins(const State& state, const Collection& c, const Weld& weld, std::uin
   }
 }
 
+/// Two contacts that hold in different places, or joints worth as much.
+bool isFirm(const Collection& c, const Weld& weld, double resolution) {
+  if (weld.joints > 1) return true;
+  const Vec2* first = nullptr;
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    const InternalContact& inner = c.contacts[i];
+    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.contact.count); ++p) {
+      if (!inner.active[p] || inner.lost[p]) continue;
+      const Vec2& at = inner.contact.points[p].position;
+      if (first && (at - *first).norm() > resolution) return true;
+      if (!first) first = &at;
+    }
+  }
+  return false;
+}
+
 }  // namespace
+
+bool holdsFirmly(const State& state, const Collection& c) {
+  thread_local DisjointSets sets;  // its memory is kept
+  sets.reset(c.members.size());
+  const Aabb& bounds = state[c.rigid].bounds;
+  const double resolution = kPointTolerance * std::max(bounds.lower.cwiseAbs().maxCoeff(),
+                                                       bounds.upper.cwiseAbs().maxCoeff());
+  std::size_t sets_left = c.members.size();
+  bool anchored = false;
+  for (const Weld& weld : c.welds) {
+    if (weld.cut || !isFirm(c, weld, resolution)) continue;
+    const bool a_in = state[weld.a].rigid == c.rigid, b_in = state[weld.b].rigid == c.rigid;
+    anchored |= !(a_in && b_in);
+    if (!(a_in && b_in)) continue;
+    const auto a = static_cast<std::uint32_t>(memberIndex(c, weld.a));
+    const auto b = static_cast<std::uint32_t>(memberIndex(c, weld.b));
+    if (sets.find(a) == sets.find(b)) continue;
+    sets.unite(a, b);
+    --sets_left;
+  }
+  return sets_left == 1 && anchored != state[c.rigid].floating();
+}
 
 Parts partsWithoutCuts(const State& state, const Collection& c) {
   const std::vector<std::uint32_t> node = nodesOf(state, c);
