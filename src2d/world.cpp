@@ -8,10 +8,12 @@
 #include "src2d/dynamics/setup.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/disturbance.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/unmerge.h"
+#include "src2d/merging/warm_start.h"
 #include "src2d/state_file.h"
 #include "src2d/trace/capture.h"
 

@@ -60,9 +60,12 @@ void releaseRows(State& state, Scratch& scratch) {
   scratch.near_candidates.clear();
   scratch.nncg.before.clear();
   scratch.nncg.direction.clear();
+  scratch.nncg.u_before.clear();
+  scratch.nncg.u_direction.clear();
   trim(scratch.blocks, scratch.row_sources, scratch.block_order, scratch.sweep_contacts,
        scratch.candidates, scratch.near_candidates, scratch.nncg.before, scratch.nncg.direction,
-       scratch.pairs, scratch.ready, scratch.u, scratch.sweep_before, state.broadphase.near);
+       scratch.nncg.u_before, scratch.nncg.u_direction, scratch.pairs, scratch.ready, scratch.u,
+       scratch.sweep_before, state.broadphase.near);
 }
 
 }  // namespace

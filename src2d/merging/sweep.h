@@ -1,5 +1,5 @@
 #pragma once
-/// WarmStart and SingleIterationPGS (Section 6.2): one sweep of PGS over the contacts inside
+/// SingleIterationPGS (Section 6.2): one sweep of PGS over the contacts inside
 /// collections, and those around them, keeps the inner forces alive. Its velocities are only looked
 /// at, by Unmerge; its impulses of contacts outside collections are thrown away, so that the full
 /// solve's warm start is untouched.
@@ -7,14 +7,6 @@
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
-
-/// ContactOrdering: the bodies at which something is new: a fresh contact that closes in this step,
-/// or an impulse; and the collections that they belong to. A collection whose frame's acceleration
-/// jumps is disturbed as a whole.
-void orderContacts(State& state, Scratch& scratch);
-
-/// Sets up the velocities that the sweep starts from.
-void warmStartSweep(State& state, Scratch& scratch);
 
 /// Sweeps. Collections that are not disturbed: once, by colours. Disturbed ones: breadth first from
 /// the seeds, `unmerging.disturbed_sweeps` times.

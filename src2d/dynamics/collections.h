@@ -1,0 +1,80 @@
+#pragma once
+/// Collections as data: members, welds, and the contacts inside (Section 4).
+
+#include <cstdint>
+#include <vector>
+
+#include "src2d/dynamics/contact_block.h"
+#include "src2d/dynamics/contact_table.h"
+#include "src2d/dynamics/joint.h"
+#include "src2d/dynamics/rigid.h"
+#include "src2d/trace/snapshot.h"
+
+namespace merge2d {
+
+/// A change of a body's velocity.
+struct Twist {
+  double vx = 0.0, vy = 0.0;  ///< [m/s]
+  double omega = 0.0;         ///< [rad/s]
+};
+
+/// A velocity summed over consecutive steps.
+struct Drift {
+  float sum = 0.0F;  ///< [m/s]
+  int steps = 0;
+};
+
+/// A contact inside a collection: its memory is cold, its block hot.
+struct InternalContact {
+  Contact contact;                  ///< positions and normal in the collection's frame
+  bool active[2] = {false, false};  ///< has carried a force, so that its loss is a break
+  bool lost[2] = {false, false};    ///< has opened since
+  Drift slip[2];           ///< along the tangent, over consecutive steps on the edge of the cone
+  Drift opening[2];        ///< along the normal, over consecutive steps without a force
+  std::int64_t since = 0;  ///< step of the merge that brought it in
+};
+
+/// A pair of bodies held together: by a run of Collection::contacts, joints, or both.
+struct Weld {
+  BodyId a{}, b{};
+  std::uint32_t first = 0, count = 0;
+  int joints = 0;      ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
+  int loud_steps = 0;  ///< consecutive steps above the unmerging threshold
+  bool cut = false;    ///< found broken, sliding or moving in this step
+  EventReason reason = EventReason::None;
+};
+
+/// Bodies simulated as one (Section 4).
+struct Collection {
+  CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
+  RigidId rigid{};
+  BodyId anchor{};              ///< when its rigid is not floating: a body of that frame
+  std::vector<BodyId> members;  ///< ascending; pinned and scripted bodies are never members
+  std::vector<InternalContact> contacts;  ///< ascending by key
+  std::vector<ContactBlock> blocks;       ///< one per contact, in the order of an undisturbed sweep
+  std::vector<std::uint32_t> block_contact;  ///< which contact a block is
+  std::vector<std::uint32_t> block_weld;     ///< which weld it belongs to
+  std::vector<std::uint8_t> watched;         ///< per block: was at its limit in the last step
+  std::vector<std::uint32_t> pivots;         ///< welds with fewer than two contacts that hold
+  std::vector<std::uint32_t> cut_welds;      ///< in the last step
+  bool pivots_stale = true;
+  std::uint32_t active_blocks = 0;  ///< the first ones; the others are swept in disturbed steps
+  std::vector<Weld> welds;          ///< ascending by pair
+  std::vector<JointBlock> joints;   ///< those that act inside; λ is live here
+  std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
+  bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
+  Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
+  int frame_known = 0;                                     ///< steps since it was formed, up to 2
+  bool settled = false;  ///< inner forces did not change in the last sweep
+  bool refuted = false;  ///< more sweeps did not confirm what seemed to part, and nothing is new
+};
+
+/// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.
+struct ReadyPair {
+  BodyPair pair;
+  std::uint32_t node_a = 0, node_b = 0;
+  int contacts = 0;              ///< active ones, or what joints are worth
+  Vec2 joint_at = Vec2::Zero();  ///< where there are no contacts
+};
+
+}  // namespace merge2d

@@ -1,0 +1,83 @@
+#pragma once
+/// Contacts between different rigid things, and what is remembered of them over steps.
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "src2d/core/ids.h"
+#include "src2d/core/vec.h"
+#include "src2d/dynamics/rigid.h"
+
+namespace merge2d {
+
+/// Identifies a pair of shapes; contacts are kept in this order.
+struct ContactKey {
+  BodyId a{}, b{};  ///< a < b
+  std::uint32_t shape_a = 0, shape_b = 0;
+  auto operator<=>(const ContactKey&) const = default;
+};
+
+/// What is remembered of a contact point while it lasts.
+struct ContactPoint {
+  Vec2 position = Vec2::Zero();  ///< in a's frame; inside a collection in the collection's [m]
+  double gap = 0.0;              ///< [m]
+  float breath = 0.0F;           ///< change of the gap since the last step [m]
+  std::uint32_t feature = 0;
+  bool fresh = false;                     ///< was not there, or carried nothing, in the last step
+  float approach = 0.0F;                  ///< fastest approach while it was still open [m/s]
+  double lambda_n = 0.0, lambda_t = 0.0;  ///< impulse of the last step [N s]
+  float w_n = 0.0F, w_t = 0.0F;           ///< velocity after it [m/s]
+};
+
+/// The contact of two convex shapes: persistent over steps, at most two points.
+struct Contact {
+  ContactKey key;
+  Vec2 normal = Vec2::UnitX();  ///< from a to b, in a's frame; inside a collection in its frame
+  int count = 0;
+  int quiet_steps = 0;  ///< consecutive steps in which the pair could have merged
+  std::array<ContactPoint, 2> points;
+};
+
+/// A point of a contact in the table: twice its slot, plus which of the two it is.
+using PointIndex = std::uint32_t;
+
+/// Contacts between different rigid things: slots that stay in place, and their order by key.
+struct ContactTable {
+  struct Entry {
+    ContactKey key;
+    std::uint32_t slot = 0;
+  };
+  std::vector<Contact> slots;
+  std::vector<std::uint32_t> free_slots;
+  std::vector<Entry> order;
+
+  Contact& operator[](const Entry& entry) { return slots[entry.slot]; }
+  const Contact& operator[](const Entry& entry) const { return slots[entry.slot]; }
+
+  const Contact& contactOf(PointIndex i) const { return slots[i / 2]; }
+  ContactPoint& point(PointIndex i) { return slots[i / 2].points[i % 2]; }
+  const ContactPoint& point(PointIndex i) const { return slots[i / 2].points[i % 2]; }
+};
+
+/// A pair of bodies in contact: a run of ContactTable::order.
+struct BodyPair {
+  BodyId a{}, b{};
+  std::uint32_t first = 0, count = 0;
+};
+
+/// Two rigid things near each other of which at least one has several shapes: where the second was
+/// seen from the first when their shapes were last paired.
+struct NearPair {
+  RigidId a{}, b{};
+  std::array<Vec2, 4> corners{};  ///< of b's bounds in a's frame
+  bool fresh = true;
+  auto operator<=>(const NearPair& o) const {
+    if (auto c = a <=> o.a; c != 0) return c;
+    return b <=> o.b;
+  }
+  bool operator==(const NearPair& o) const { return a == o.a && b == o.b; }
+};
+
+}  // namespace merge2d

@@ -1,0 +1,130 @@
+#pragma once
+/// What lives for one step; its memory is kept for the next.
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "src2d/dynamics/collections.h"
+#include "src2d/dynamics/islands.h"
+#include "src2d/trace/notes.h"
+
+namespace merge2d {
+
+/// A force acting through this step: on a body, about its centre of mass.
+struct Load {
+  BodyId body{};
+  Vec2 force = Vec2::Zero();  ///< [N]
+  double torque = 0.0;        ///< [N m]
+};
+
+/// An impulse given at the start of this step.
+struct Kick {
+  BodyId body{};
+  Vec2 at = Vec2::Zero();       ///< world point [m]
+  Vec2 impulse = Vec2::Zero();  ///< [N s]
+};
+
+/// A contact outside collections in the single sweep.
+struct SweepContact {
+  std::uint32_t slot = 0;  ///< of the contact table
+  ContactBlock block;      ///< with the bodies' own masses
+};
+
+/// What a block of the full solve is made from, and where its impulses go.
+struct RowSource {
+  static constexpr PointIndex kNone = ~PointIndex{0};
+  std::array<PointIndex, 2> points{kNone, kNone};
+  int count() const { return points[1] == kNone ? 1 : 2; }
+};
+
+/// Blocks and bodies of one island of the full solve: ranges of Scratch::blocks, island_bodies.
+struct Island {
+  std::uint32_t root = 0;
+  std::uint32_t first = 0, last = 0;
+  std::uint32_t first_body = 0, last_body = 0;
+  std::uint32_t first_joint = 0, last_joint = 0;  ///< of Scratch::joint_blocks
+};
+
+/// Where a block stands: `source` is its RowSource.
+struct BlockOrder {
+  std::uint32_t island = 0, colour = 0, source = 0;
+  auto operator<=>(const BlockOrder&) const = default;
+};
+
+/// Where a joint stands: `joint` is its index.
+struct JointOrder {
+  std::uint32_t island = 0, joint = 0;
+  auto operator<=>(const JointOrder&) const = default;
+};
+
+/// Normal and tangential impulses of a block's two points.
+using Impulses = std::array<double, 4>;
+
+/// Memory of the conjugate gradient (dynamics/nncg.h), kept between calls.
+struct NncgBuffers {
+  std::vector<Impulses> before, direction;   ///< per block
+  std::vector<Twist> u_before, u_direction;  ///< per body
+};
+
+/// Lives for one step; its memory is kept.
+struct Scratch {
+  std::vector<Load> loads;
+  std::vector<Kick> kicks;
+  std::vector<SpringView> springs;
+  std::vector<BodyPair> pairs;  ///< body pairs in contact, ascending
+  std::vector<Event> events;
+  Notes* notes = nullptr;  ///< null: nobody asks
+  Stats stats;
+
+  // ContactDetection
+  std::vector<RigidId> moved;
+  std::vector<std::uint8_t> moved_flag;
+  std::vector<ContactKey> candidates;
+  std::vector<NearPair> near_candidates;
+  std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
+
+  // ContactOrdering: where something new enters
+  std::vector<std::uint32_t> seeds;  ///< bodies
+
+  /// Bodies for which something is new in this step that is no contact and no impulse: a force
+  /// begins or ends, a magnet is switched, a pin is drawn.
+  std::vector<BodyId> stirred;
+
+  // SleepAndWake
+  std::vector<std::uint8_t> restless, island_awake;  ///< per rigid
+
+  // SingleIterationPGS
+  bool sweeping = false;                ///< some collection is swept
+  std::int64_t last_sweep = -1;         ///< step whose velocities are in sweep_u
+  std::vector<SolverVelocity> sweep_u;  ///< per body
+  std::vector<Twist> sweep_before;      ///< per member
+  std::vector<SweepContact> sweep_contacts;
+  std::vector<JointBlock> sweep_joints;       ///< outside collections
+  std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
+  std::vector<std::uint8_t> disturbed;        ///< per collection slot
+
+  // Unmerge
+  bool split = false;                      ///< some collection was taken apart
+  std::vector<std::uint32_t> cuts_before;  ///< welds of the collection at hand
+
+  // Merge
+  std::vector<ReadyPair> ready;  ///< ascending by bodies
+
+  // SolveLCP
+  std::vector<SolverVelocity> u;       ///< per rigid, and the world's
+  std::vector<ContactBlock> blocks;    ///< by island, then by colour
+  std::vector<RowSource> row_sources;  ///< in the order of the pairs
+  std::vector<Island> islands;
+  std::vector<std::uint32_t> island_bodies;
+  std::vector<std::int32_t> island_of;  ///< per rigid; −1: touches nothing
+  DisjointSets sets;
+  std::vector<std::uint64_t> colours;  ///< per rigid: those of its blocks, as bits
+  std::vector<JointOrder> joint_order;
+  std::vector<JointBlock> joint_blocks;  ///< by island
+  std::vector<BlockOrder> block_order;
+  NncgBuffers nncg;
+};
+
+}  // namespace merge2d

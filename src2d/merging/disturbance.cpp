@@ -1,0 +1,138 @@
+#include "src2d/merging/disturbance.h"
+
+#include <algorithm>
+
+#include "src2d/merging/sweep.h"
+
+namespace merge2d {
+namespace {
+
+/// A contact that closes slower than this disturbs nobody [m/s].
+constexpr double kGentle = 1e-3;
+
+/// How fast a contact closes that was open in the last step and meets in this one [m/s]; 0 for any
+/// other.
+double closingSpeed(const State& state, const Contact& contact) {
+  const Pose pose_a = state.pose(contact.key.a);
+  const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
+  double fastest = 0.0;
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
+    if (!point.fresh) continue;
+    const Vec2 p = pose_a * point.position;
+    const double w_n = (pose_a.rotation * contact.normal).dot(b.velocityAt(p) - a.velocityAt(p));
+    if (w_n + std::max(0.0, point.gap) / state.h >= -kGentle) continue;
+    fastest = std::max(fastest, -w_n);
+  }
+  return fastest;
+}
+
+/// Pairs that meet faster than this are an impact: gravity alone does not do it within two steps,
+/// so a resting body that lost its contact for a moment is none [m/s].
+double impactSpeed(const State& state) {
+  return std::max(2.0 * state.h * state.gravity.norm(), state.settings.unmerging.velocity);
+}
+
+/// True when the frame gains another velocity in this step than in the last one, by more than a
+/// hundredth of gravity: then one sweep cannot follow the load.
+bool frameJumps(const State& state, Collection& c) {
+  constexpr double kPart = 1e-2;
+  const Rigid& r = state[c.rigid];
+  const bool scripted = !r.floating() && r.anchor != kWorldFrame;
+  const Vec2 v = scripted ? state[rigidOf(c.anchor)].v : r.v;
+  const Vec2 gain = v - c.frame_v;
+  const double jump = (gain - c.frame_gain).norm();
+  const bool known = c.frame_known >= 2;
+  c.frame_v = v;
+  c.frame_gain = gain;
+  if (!known) ++c.frame_known;
+  return known && jump > kPart * state.h * std::max(state.gravity.norm(), 1.0);
+}
+
+/// An event for each pair that touched nowhere in the last step and hits in this one.
+void reportImpacts(const State& state, Scratch& scratch) {
+  const double threshold = impactSpeed(state);
+  for (const BodyPair& pair : scratch.pairs) {
+    double fastest = 0.0;
+    bool touched = false;
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count && !touched; ++i) {
+      const Contact& contact = state.contacts[state.contacts.order[i]];
+      const auto held = [](const ContactPoint& p) { return !p.fresh; };
+      touched = std::any_of(contact.points.begin(), contact.points.begin() + contact.count, held);
+      if (!touched) fastest = std::max(fastest, closingSpeed(state, contact));
+    }
+    if (touched || fastest == 0.0) continue;
+    const bool hits = fastest > threshold;
+    if (hits) scratch.events.push_back({EventType::Impact, pair.a, pair.b});
+    if (!scratch.notes) continue;
+    scratch.notes->decisions.push_back({.a = pair.a,
+                                        .b = pair.b,
+                                        .stage = "ContactOrdering",
+                                        .criterion = "impact",
+                                        .equation = "Section 6.2",
+                                        .value = fastest,
+                                        .threshold = threshold,
+                                        .verdict = hits ? "impact" : "touch"});
+  }
+}
+
+}  // namespace
+
+bool closesAnew(const State& state, const Contact& contact) {
+  return closingSpeed(state, contact) > 0.0;
+}
+
+void orderContacts(State& state, Scratch& scratch) {
+  reportImpacts(state, scratch);
+  scratch.seeds.clear();
+  scratch.disturbed.assign(state.collections.size(), 0);
+  if (!state.settings.unmerging.ordering) return;
+  const auto seed = [&](BodyId b) {
+    scratch.seeds.push_back(static_cast<std::uint32_t>(b));
+    const RigidId id = state[b].rigid;
+    if (state.isCollection(id)) {
+      scratch.disturbed[index(id) - state.bodies.size()] = 1;
+    }
+  };
+  for (Collection& c : state.collections) {
+    if (isSwept(state, c) && frameJumps(state, c)) {
+      scratch.disturbed[index(c.rigid) - state.bodies.size()] = 1;
+    }
+  }
+  for (const Kick& kick : scratch.kicks) seed(kick.body);
+  for (const BodyId b : scratch.stirred) seed(b);
+  for (const BodyPair& pair : scratch.pairs) {
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      const Contact& contact = state.contacts[state.contacts.order[i]];
+      if (!closesAnew(state, contact)) continue;
+      seed(pair.a);
+      seed(pair.b);
+      break;
+    }
+  }
+  if (scratch.notes) {
+    for (const std::uint32_t s : scratch.seeds) scratch.notes->seeds.push_back(BodyId{s});
+  }
+}
+
+void spreadDisturbance(const State& state, Scratch& scratch) {
+  const auto slotOf = [&](std::uint32_t b) -> std::uint8_t* {
+    if (b >= state.bodies.size()) return nullptr;  // the world
+    const RigidId id = state.bodies[b].rigid;
+    return state.isCollection(id) ? &scratch.disturbed[index(id) - state.bodies.size()] : nullptr;
+  };
+  bool spread = true;
+  while (spread) {
+    spread = false;
+    const auto pass = [&](std::uint32_t body_a, std::uint32_t body_b) {
+      std::uint8_t *a = slotOf(body_a), *b = slotOf(body_b);
+      if (!a || !b || *a == *b) return;
+      *a = *b = 1;
+      spread = true;
+    };
+    for (const SweepContact& outer : scratch.sweep_contacts) pass(outer.block.a, outer.block.b);
+    for (const JointBlock& k : scratch.sweep_joints) pass(k.a, k.b);
+  }
+}
+
+}  // namespace merge2d

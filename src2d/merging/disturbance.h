@@ -1,0 +1,19 @@
+#pragma once
+/// ContactOrdering: where something new enters in this step (Section 6.2).
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// A contact that was open in the last step and closes in this one.
+bool closesAnew(const State& state, const Contact& contact);
+
+/// ContactOrdering: the bodies at which something is new: a fresh contact that closes in this step,
+/// or an impulse; and the collections that they belong to. A collection whose frame's acceleration
+/// jumps is disturbed as a whole.
+void orderContacts(State& state, Scratch& scratch);
+
+/// What a collection feels, those that touch it feel in the same step.
+void spreadDisturbance(const State& state, Scratch& scratch);
+
+}  // namespace merge2d

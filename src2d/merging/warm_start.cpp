@@ -1,0 +1,179 @@
+#include "src2d/merging/warm_start.h"
+
+#include <algorithm>
+
+#include "src2d/dynamics/solver.h"
+#include "src2d/merging/disturbance.h"
+#include "src2d/merging/joint_sweep.h"
+#include "src2d/merging/sweep.h"
+
+namespace merge2d {
+namespace {
+
+bool isMember(const State& state, BodyId b) { return state.isCollection(state[b].rigid); }
+
+/// Velocity of a member before the last position update: Deviation from the start with today's
+/// velocity, which would miss the force that keeps the member on its circle.
+/// Guarded by Sweep.HoldsASpinningMemberOnItsCircle.
+void startMembers(const State& state, const Collection& c, Scratch& scratch) {
+  const Rigid& r = state[c.rigid];
+  const Rotation before = r.previous_rotation;
+  for (std::size_t i = 0; i < c.members.size(); ++i) {
+    const Body& body = state[c.members[i]];
+    const Vec2 arm = before * (body.local - r.center);
+    const Twist& push = c.push[i];
+    const Vec2 pushed = r.rotation * Vec2(push.vx, push.vy);
+    SolverVelocity& u = scratch.sweep_u[index(c.members[i])];
+    u.vx = r.v.x() - r.omega * arm.y() + state.h * state.gravity.x() + pushed.x();
+    u.vy = r.v.y() + r.omega * arm.x() + state.h * state.gravity.y() + pushed.y();
+    u.omega = r.omega + push.omega;
+    u.inv_mass = 1.0 / body.mass;
+    u.inv_inertia = 1.0 / body.inertia;
+  }
+}
+
+/// Free bodies, and those that do not respond to forces.
+void startOthers(const State& state, Scratch& scratch) {
+  for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
+    const BodyId b{i};
+    if (isMember(state, b) || !state[b].alive) continue;
+    const Rigid& r = state[rigidOf(b)];
+    const bool free = r.floating() && !r.asleep;
+    SolverVelocity& u = scratch.sweep_u[i];
+    u = {r.v.x(), r.v.y(), r.omega, free ? r.inv_mass : 0.0, free ? r.inv_inertia : 0.0};
+    if (!free) continue;
+    u.vx += state.h * state.gravity.x();
+    u.vy += state.h * state.gravity.y();
+  }
+}
+
+void addLoads(const State& state, Scratch& scratch) {
+  for (const Load& load : scratch.loads) {
+    SolverVelocity& u = scratch.sweep_u[index(load.body)];
+    u.vx += state.h * u.inv_mass * load.force.x();
+    u.vy += state.h * u.inv_mass * load.force.y();
+    u.omega += state.h * u.inv_inertia * load.torque;
+  }
+  for (const Kick& kick : scratch.kicks) {
+    SolverVelocity& u = scratch.sweep_u[index(kick.body)];
+    u.vx += u.inv_mass * kick.impulse.x();
+    u.vy += u.inv_mass * kick.impulse.y();
+    u.omega += u.inv_inertia * cross(kick.at - state.pose(kick.body).position, kick.impulse);
+  }
+}
+
+/// The rows of a contact outside collections, with the bodies' own masses.
+void addOuterContact(const State& state, const Contact& contact, std::uint32_t slot,
+                     Scratch& scratch) {
+  const BodyId a = contact.key.a, b = contact.key.b;
+  const SolverVelocity &ua = scratch.sweep_u[index(a)], &ub = scratch.sweep_u[index(b)];
+  if (ua.inv_mass == 0.0 && ub.inv_mass == 0.0) return;
+  const Pose pose_a = state.pose(a);
+  const Vec2 x_b = state.pose(b).position;
+  const SolverSettings& settings = state.settings.solver;
+  BlockGeometry g;
+  g.normal = pose_a.rotation * contact.normal;
+  g.count = contact.count;
+  g.softness = contactSoftness(settings, ua.inv_mass, ub.inv_mass);
+  SweepContact outer{.slot = slot, .block = {}};
+  ContactBlock& k = outer.block;
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
+    const Vec2 p = pose_a * point.position;
+    g.arm_a[i] = p - pose_a.position;
+    g.arm_b[i] = p - x_b;
+    k.lambda_n(i) = point.lambda_n;
+    k.lambda_t(i) = point.lambda_t;
+    k.bias[i] = contactBias(settings, state.h, point.gap);
+  }
+  k.a = static_cast<std::uint32_t>(a);
+  k.b = static_cast<std::uint32_t>(b);
+  k.mu = frictionOf(state, contact.key.a, contact.key.b);
+  k.bilateral = isBilateral(state, a, b);
+  prepareBlock(k, g, ua, ub);
+  scratch.sweep_contacts.push_back(outer);
+}
+
+/// The impulses of the last step, on the velocities.
+void applyWarmStart(const ContactBlock& k, std::vector<SolverVelocity>& u) {
+  for (int i = 0; i < k.count; ++i) {
+    applyImpulse(k, i, k.nx, k.ny, k.lambda_n(i), k.lambda_t(i), u[k.a], u[k.b]);
+  }
+}
+
+/// The same for a contact that is not swept itself: a load on the bodies around a collection.
+void applyAsLoad(const State& state, const Contact& contact, std::vector<SolverVelocity>& u) {
+  const Pose pose_a = state.pose(contact.key.a);
+  const Vec2 x_b = state.pose(contact.key.b).position;
+  const Vec2 n = pose_a.rotation * contact.normal, t = perpendicular(n);
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
+    const Vec2 p = pose_a * point.position, impulse = point.lambda_n * n + point.lambda_t * t;
+    const auto push = [&](BodyId b, const Vec2& arm, double sign) {
+      SolverVelocity& v = u[index(b)];
+      v.vx += sign * v.inv_mass * impulse.x();
+      v.vy += sign * v.inv_mass * impulse.y();
+      v.omega += sign * v.inv_inertia * cross(arm, impulse);
+    };
+    push(contact.key.a, p - pose_a.position, -1.0);
+    push(contact.key.b, p - x_b, 1.0);
+  }
+}
+
+/// Contacts at swept collections, and fresh ones, get rows; the others of the free bodies there
+/// keep pushing with the impulses of the last step.
+void warmStartOuter(const State& state, Scratch& scratch) {
+  scratch.sweep_contacts.clear();
+  auto& near = scratch.near_collection;
+  near.assign(state.bodies.size(), 0);
+  const auto swept = [&](BodyId b) { return isMember(state, b) && !state.rigid(b).asleep; };
+  const auto forEach = [&](auto&& visit) {
+    for (const BodyPair& pair : scratch.pairs) {
+      for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+        const ContactTable::Entry& entry = state.contacts.order[i];
+        if (state.contacts[entry].count > 0) visit(entry, state.contacts[entry]);
+      }
+    }
+  };
+  forEach([&](const ContactTable::Entry& entry, const Contact& contact) {
+    const BodyId a = contact.key.a, b = contact.key.b;
+    if (!swept(a) && !swept(b) && !closesAnew(state, contact)) return;
+    near[index(a)] = near[index(b)] = 1;
+    addOuterContact(state, contact, entry.slot, scratch);
+  });
+  if (!state.joints.empty()) listSweepJoints(state, scratch);
+  std::size_t row = 0;
+  forEach([&](const ContactTable::Entry& entry, const Contact& contact) {
+    const auto& rows = scratch.sweep_contacts;
+    if (row < rows.size() && rows[row].slot == entry.slot) return void(++row);
+    if (near[index(contact.key.a)] || near[index(contact.key.b)]) {
+      applyAsLoad(state, contact, scratch.sweep_u);
+    }
+  });
+  for (const SweepContact& outer : scratch.sweep_contacts) {
+    applyWarmStart(outer.block, scratch.sweep_u);
+  }
+  if (!state.joints.empty()) warmStartSweepJoints(state, scratch);
+}
+
+}  // namespace
+
+void warmStartSweep(State& state, Scratch& scratch) {
+  scratch.sweep_contacts.clear();
+  scratch.sweep_joints.clear();
+  const bool any = std::any_of(state.collections.begin(), state.collections.end(),
+                               [&](const Collection& c) { return isSwept(state, c); });
+  scratch.sweeping = any;
+  if (!any) return;
+  scratch.last_sweep = state.step;
+  scratch.sweep_u.resize(state.bodies.size() + 1);  // the world's stands last
+  scratch.sweep_u.back() = {};
+  startOthers(state, scratch);
+  for (const Collection& c : state.collections) {
+    if (isSwept(state, c)) startMembers(state, c, scratch);
+  }
+  addLoads(state, scratch);
+  warmStartOuter(state, scratch);
+}
+
+}  // namespace merge2d

@@ -1,0 +1,11 @@
+#pragma once
+/// WarmStart: the velocities that the single sweep starts from, and the rows around collections.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Sets up the velocities that the sweep starts from.
+void warmStartSweep(State& state, Scratch& scratch);
+
+}  // namespace merge2d
