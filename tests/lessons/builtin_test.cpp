@@ -11,6 +11,10 @@
 #include "lessons/page.h"
 
 namespace merge2d {
+
+/// Says in a test's output which lesson it is.
+void PrintTo(const BuiltinLesson& lesson, std::ostream* out) { *out << lesson.name; }
+
 namespace {
 
 using ::testing::IsEmpty;
