@@ -30,8 +30,8 @@ void wakeAround(const State& state, Scratch& scratch, BodyId body) {
     if (a == body) scratch.stirred.push_back(b);
     if (b == body) scratch.stirred.push_back(a);
   };
-  for (const ContactTable::Entry& entry : state.contacts.order) {
-    wakeOther(entry.key.a, entry.key.b);
+  for (const ContactTable::Slot slot : state.contacts.order) {
+    wakeOther(state.contacts[slot].key.a, state.contacts[slot].key.b);
   }
   for (const Collection& c : state.collections) {
     for (const Weld& weld : c.welds) wakeOther(weld.a, weld.b);

@@ -48,12 +48,17 @@ void fields(Ar& ar, Some<Drift> auto& d) {
 
 /// Of the leaf only whether there is one: the tree is built anew.
 template <class Ar>
+void fields(Ar& ar, Some<Extent> auto& e) {
+  auto& [bounds, box] = e;
+  ar(bounds, box);
+}
+template <class Ar>
 void fields(Ar& ar, Some<Rigid> auto& r) {
   auto& [x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
-         inv_inertia, bounds, box, anchor, leaf, quiet_steps, asleep, resized] = r;
+         inv_inertia, extent, anchor, leaf, quiet_steps, asleep, resized] = r;
   bool present = r.present();
   ar(x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
-     inv_inertia, bounds, box, anchor, present, quiet_steps, asleep, resized);
+     inv_inertia, extent, anchor, present, quiet_steps, asleep, resized);
   if constexpr (!std::is_const_v<std::remove_reference_t<decltype(r)>>) leaf = present ? 0 : -1;
 }
 template <class Ar>
@@ -78,11 +83,6 @@ template <class Ar>
 void fields(Ar& ar, Some<Contact> auto& c) {
   auto& [key, normal, count, quiet_steps, points] = c;
   ar(key, normal, count, quiet_steps, points);
-}
-template <class Ar>
-void fields(Ar& ar, Some<ContactTable::Entry> auto& e) {
-  auto& [key, slot] = e;
-  ar(key, slot);
 }
 template <class Ar>
 void fields(Ar& ar, Some<ContactTable> auto& t) {
@@ -122,9 +122,14 @@ void fields(Ar& ar, Some<Joint> auto& j) {
 }
 
 template <class Ar>
+void fields(Ar& ar, Some<InternalPoint> auto& p) {
+  auto& [position, gap, lambda_n, lambda_t, feature, slip, opening, active, lost] = p;
+  ar(position, gap, lambda_n, lambda_t, feature, slip, opening, active, lost);
+}
+template <class Ar>
 void fields(Ar& ar, Some<InternalContact> auto& c) {
-  auto& [contact, active, lost, slip, opening, since] = c;
-  ar(contact, active, lost, slip, opening, since);
+  auto& [key, normal, since, count, points] = c;
+  ar(key, normal, since, count, points);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {
@@ -156,10 +161,10 @@ void fields(Ar& ar, Some<ReadyPair> auto& r) {
 template <class Ar>
 void fields(Ar& ar, Some<State> auto& state) {
   auto& [settings, mode, h, gravity, colliders, collider_bounds, shape_collider, shape_body,
-         first_sibling, siblings, step, time, bodies, rigids, collections, next_collection,
+         first_sibling, siblings, step, time, bodies, rigids, extents, collections, next_collection,
          contacts, joints, joined_pairs, broadphase, ready_before] = state;
-  ar(step, time, bodies, rigids, collections, next_collection, contacts, joints, joined_pairs,
-     broadphase.near, ready_before);
+  ar(step, time, bodies, rigids, extents, collections, next_collection, contacts, joints,
+     joined_pairs, broadphase.near, ready_before);
 }
 
 template <class Ar>

@@ -24,7 +24,7 @@ StartMotion startMotion(const State& state, const Scratch& scratch, RigidId id) 
 double approach(const State& state, const Scratch& scratch, RigidId a, RigidId b) {
   const StartMotion of_a = startMotion(state, scratch, a), of_b = startMotion(state, scratch, b);
   const auto turning = [&](RigidId id, double omega) {
-    return std::abs(omega) * radius(state[id].bounds, state[id].center);
+    return std::abs(omega) * radius(state.extent(id).bounds, state[id].center);
   };
   return state.h * ((of_b.v - of_a.v).norm() + turning(a, of_a.omega) + turning(b, of_b.omega));
 }
@@ -39,7 +39,7 @@ double approach(const State& state, const Scratch& scratch, BodyId a, BodyId b) 
     return at_body;
   };
   const auto turning = [&](BodyId body, double omega) {
-    return std::abs(omega) * radius(state[rigidOf(body)].bounds, Vec2::Zero());
+    return std::abs(omega) * radius(state.extent(rigidOf(body)).bounds, Vec2::Zero());
   };
   const StartMotion of_a = motion(a), of_b = motion(b);
   return state.h * ((of_b.v - of_a.v).norm() + turning(a, of_a.omega) + turning(b, of_b.omega));

@@ -12,11 +12,13 @@ namespace {
 /// things have moved by as much against each other [m].
 constexpr double kNear = 0.05;
 
-Aabb worldBounds(const Rigid& r) { return placed(r.frame(), r.bounds); }
+Aabb worldBounds(const State& state, const Rigid& r) {
+  return placed(r.frame(), state.extent(r).bounds);
+}
 
 /// Where a rigid thing is, and where it can be at the end of this step.
-Aabb sweptBounds(const Rigid& r, const Vec2& way) {
-  const Aabb now = worldBounds(r);
+Aabb sweptBounds(const State& state, const Rigid& r, const Vec2& way) {
+  const Aabb now = worldBounds(state, r);
   Aabb swept = now;
   swept.include(Aabb{now.lower + way, now.upper + way});
   return swept;
@@ -78,7 +80,7 @@ void moveLeaves(State& state, Scratch& scratch) {
     if (!r.present() || (!moves(r) && !r.resized)) continue;
     const RigidId id{static_cast<std::uint32_t>(i)};
     const Vec2 way = state.h * startMotion(state, scratch, id).v;
-    const bool left = state.broadphase.tree.move(r.leaf, sweptBounds(r, way), way);
+    const bool left = state.broadphase.tree.move(r.leaf, sweptBounds(state, r, way), way);
     if (!left && !r.resized) continue;
     r.resized = false;
     scratch.moved.push_back(id);
@@ -141,7 +143,7 @@ void pairShapes(State& state, Scratch& scratch, RigidId host, RigidId guest, dou
       scratch.candidates.push_back(keyOf(state, shape_host, shape_guest));
     }
   };
-  const Aabb all = placed(relative, state[guest].bounds).grown(reach);
+  const Aabb all = placed(relative, state.extent(guest).bounds).grown(reach);
   host_tree.query(all, [&](std::uint32_t shape_host) {
     if (!hasShapeTree(state, guest)) return add(shape_host, onlyShape(state, guest));
     const Aabb box = placed(relative.inverse(), shapeBounds(state, host, shape_host)).grown(reach);
@@ -159,8 +161,8 @@ void refineNearPairs(State& state, Scratch& scratch) {
     if (!p.fresh && !canTouch(state, p.a, p.b)) continue;
     const bool a_hosts = hasShapeTree(state, p.a);
     const RigidId host = a_hosts ? p.a : p.b, guest = a_hosts ? p.b : p.a;
-    const auto corners =
-        cornersSeenFrom(state[host].frame().toLocal(state[guest].frame()), state[guest].bounds);
+    const auto corners = cornersSeenFrom(state[host].frame().toLocal(state[guest].frame()),
+                                         state.extent(guest).bounds);
     const double ahead = approach(state, scratch, p.a, p.b);
     bool moved = p.fresh || ahead > kNear;
     for (std::size_t k = 0; k < 4 && !moved; ++k) {
@@ -197,7 +199,7 @@ void dropParted(State& state, Scratch& scratch) {
 
 void insertRigid(State& state, RigidId id) {
   Rigid& r = state[id];
-  r.leaf = state.broadphase.tree.insert(worldBounds(r), static_cast<std::uint32_t>(id));
+  r.leaf = state.broadphase.tree.insert(worldBounds(state, r), static_cast<std::uint32_t>(id));
   r.resized = true;
 }
 
@@ -228,20 +230,38 @@ void removeShapes(State& state, RigidId id, const std::vector<BodyId>& bodies) {
   }
 }
 
+void compactTree(State& state) {
+  auto& tree = state.broadphase.tree;
+  if (!tree.sparse()) return;
+  std::vector<Aabb> boxes;
+  for (const Rigid& r : state.rigids) {
+    if (r.present()) boxes.push_back(tree.fatBox(r.leaf));
+  }
+  tree.clear();
+  auto box = boxes.begin();
+  for (std::uint32_t i = 0; i < state.rigids.size(); ++i) {
+    Rigid& r = state.rigids[i];
+    if (r.present()) r.leaf = tree.insertFat(*box++, i);
+  }
+}
+
 void dropShapeTree(State& state, RigidId id) { state.broadphase.shape_trees[index(id)].reset(); }
 
 void addContacts(State& state, const std::vector<ContactKey>& keys) {
   auto& table = state.contacts;
-  const auto by_key = [](const ContactTable::Entry& x, const ContactTable::Entry& y) {
-    return x.key < y.key;
+  const auto by_key = [&](ContactTable::Slot x, ContactTable::Slot y) {
+    return table[x].key < table[y].key;
+  };
+  const auto before = [&](ContactTable::Slot x, const ContactKey& key) {
+    return table[x].key < key;
   };
   const auto known = table.order.size();
   reserveTightly(table.order, known + keys.size());
   reserveTightly(table.slots, known + keys.size());
   for (const ContactKey& key : keys) {
     const auto end = table.order.begin() + static_cast<std::ptrdiff_t>(known);
-    const auto at = std::lower_bound(table.order.begin(), end, ContactTable::Entry{key, 0}, by_key);
-    if (at != end && at->key == key) continue;
+    const auto at = std::lower_bound(table.order.begin(), end, key, before);
+    if (at != end && table[*at].key == key) continue;
     std::uint32_t slot;
     if (table.free_slots.empty()) {
       slot = static_cast<std::uint32_t>(table.slots.size());
@@ -252,7 +272,7 @@ void addContacts(State& state, const std::vector<ContactKey>& keys) {
     }
     table.slots[slot] = {};
     table.slots[slot].key = key;
-    table.order.push_back({key, slot});
+    table.order.push_back(slot);
   }
   std::inplace_merge(table.order.begin(), table.order.begin() + static_cast<std::ptrdiff_t>(known),
                      table.order.end(), by_key);
@@ -263,9 +283,9 @@ void compactContacts(State& state) {
   if (table.order.size() * 2 > table.slots.size()) return;
   std::vector<Contact> slots;
   slots.reserve(table.order.size());
-  for (ContactTable::Entry& entry : table.order) {
-    slots.push_back(table.slots[entry.slot]);
-    entry.slot = static_cast<std::uint32_t>(slots.size() - 1);
+  for (ContactTable::Slot& slot : table.order) {
+    slots.push_back(table.slots[slot]);
+    slot = static_cast<std::uint32_t>(slots.size() - 1);
   }
   table.slots = std::move(slots);
   table.free_slots.clear();

@@ -17,6 +17,9 @@ void addShapes(State& state, RigidId id, const std::vector<BodyId>& bodies);
 void removeShapes(State& state, RigidId id, const std::vector<BodyId>& bodies);
 void dropShapeTree(State& state, RigidId id);
 
+/// Builds the tree anew when most of its leaves have gone, with the boxes that it had.
+void compactTree(State& state);
+
 /// Follows the motion of all rigid things and brings the contact table up to date with the pairs of
 /// shapes whose boxes meet: contacts of pairs that parted are dropped, new ones start empty.
 void updateBroadphase(State& state, Scratch& scratch);
@@ -30,11 +33,11 @@ template <class Gone>
 void dropContacts(State& state, Gone&& gone) {
   auto& table = state.contacts;
   std::size_t kept = 0;
-  for (const ContactTable::Entry& entry : table.order) {
-    if (gone(table[entry])) {
-      table.free_slots.push_back(entry.slot);
+  for (const ContactTable::Slot slot : table.order) {
+    if (gone(table[slot])) {
+      table.free_slots.push_back(slot);
     } else {
-      table.order[kept++] = entry;
+      table.order[kept++] = slot;
     }
   }
   table.order.resize(kept);

@@ -110,14 +110,15 @@ void collectPairs(const State& state, Scratch& scratch) {
 
 void detectContacts(State& state, Scratch& scratch) {
   updateBroadphase(state, scratch);
-  for (const ContactTable::Entry& entry : state.contacts.order) {
-    const Rigid &a = state.rigid(entry.key.a), &b = state.rigid(entry.key.b);
+  for (const ContactTable::Slot slot : state.contacts.order) {
+    const ContactKey key = state.contacts[slot].key;
+    const Rigid &a = state.rigid(key.a), &b = state.rigid(key.b);
     if (resting(a) && resting(b)) {
-      holdStill(state.contacts[entry], !a.asleep && !b.asleep);
+      holdStill(state.contacts[slot], !a.asleep && !b.asleep);
       continue;
     }
-    const double ahead = approach(state, scratch, entry.key.a, entry.key.b);
-    updateManifold(state, state.contacts[entry], ahead);
+    const double ahead = approach(state, scratch, key.a, key.b);
+    updateManifold(state, state.contacts[slot], ahead);
   }
   collectPairs(state, scratch);
   for (const BodyPair& pair : scratch.pairs) {

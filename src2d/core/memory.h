@@ -6,10 +6,10 @@
 
 namespace merge2d {
 
-/// Makes room for `n` elements, and a thirty-second more when it has to grow.
+/// Makes room for `n` elements, and a sixty-fourth more when it has to grow.
 template <class T>
 void reserveTightly(std::vector<T>& v, std::size_t n) {
-  if (v.capacity() < n) v.reserve(n + n / 32);
+  if (v.capacity() < n) v.reserve(n + n / 64);
 }
 
 /// One more element at the end, likewise.

@@ -24,14 +24,42 @@ struct Drift {
   int steps = 0;
 };
 
+struct InternalPoint {
+  Vec2 position = Vec2::Zero();  ///< in the collection's frame [m]
+  double gap = 0.0;              ///< when the two merged [m]
+  double lambda_n = 0.0,
+         lambda_t = 0.0;  ///< saved from its block when the blocks are laid out [N s]
+  std::uint32_t feature = 0;
+  Drift slip;           ///< along the tangent, over consecutive steps on the edge of the cone
+  Drift opening;        ///< along the normal, over consecutive steps without a force
+  bool active = false;  ///< has carried a force, so that its loss is a break
+  bool lost = false;    ///< has opened since
+};
+
 /// A contact inside a collection: its memory is cold, its block hot.
 struct InternalContact {
-  Contact contact;                  ///< positions and normal in the collection's frame
-  bool active[2] = {false, false};  ///< has carried a force, so that its loss is a break
-  bool lost[2] = {false, false};    ///< has opened since
-  Drift slip[2];           ///< along the tangent, over consecutive steps on the edge of the cone
-  Drift opening[2];        ///< along the normal, over consecutive steps without a force
-  std::int64_t since = 0;  ///< step of the merge that brought it in
+  ContactKey key;
+  Vec2 normal = Vec2::UnitX();  ///< from a to b, in the collection's frame
+  std::int64_t since = 0;       ///< step of the merge that brought it in
+  int count = 0;
+  InternalPoint points[2];
+
+  /// As a contact of the table.
+  Contact released() const {
+    Contact contact;
+    contact.key = key;
+    contact.normal = normal;
+    contact.count = count;
+    for (std::size_t i = 0; i < 2; ++i) {
+      ContactPoint& point = contact.points[i];
+      point.position = points[i].position;
+      point.gap = points[i].gap;
+      point.feature = points[i].feature;
+      point.lambda_n = points[i].lambda_n;
+      point.lambda_t = points[i].lambda_t;
+    }
+    return contact;
+  }
 };
 
 /// A pair of bodies held together: by a run of Collection::contacts, joints, or both.

@@ -45,16 +45,13 @@ using PointIndex = std::uint32_t;
 
 /// Contacts between different rigid things: slots that stay in place, and their order by key.
 struct ContactTable {
-  struct Entry {
-    ContactKey key;
-    std::uint32_t slot = 0;
-  };
+  using Slot = std::uint32_t;
   std::vector<Contact> slots;
-  std::vector<std::uint32_t> free_slots;
-  std::vector<Entry> order;
+  std::vector<Slot> free_slots;
+  std::vector<Slot> order;  ///< ascending by key
 
-  Contact& operator[](const Entry& entry) { return slots[entry.slot]; }
-  const Contact& operator[](const Entry& entry) const { return slots[entry.slot]; }
+  Contact& operator[](Slot slot) { return slots[slot]; }
+  const Contact& operator[](Slot slot) const { return slots[slot]; }
 
   const Contact& contactOf(PointIndex i) const { return slots[i / 2]; }
   ContactPoint& point(PointIndex i) { return slots[i / 2].points[i % 2]; }

@@ -20,6 +20,12 @@ using FrameId = std::int32_t;
 inline constexpr FrameId kFloating = -1;
 inline constexpr FrameId kWorldFrame = 0;
 
+/// How far a rigid thing reaches, in its frame. Bodies of one shape share theirs.
+struct Extent {
+  Aabb bounds;      ///< [m]
+  OrientedBox box;  ///< [m]
+};
+
 /// One rigid thing. Its frame is fixed to the matter; for a collection the centre of mass moves in
 /// it as members come and go.
 struct Rigid {
@@ -33,8 +39,7 @@ struct Rigid {
   Rotation previous_rotation;  ///< before the last position update
   double mass = 0.0, inertia = 0.0;
   double inv_mass = 0.0, inv_inertia = 0.0;  ///< 0 unless floating
-  Aabb bounds;                               ///< in the frame [m]
-  OrientedBox box;                           ///< in the frame [m]
+  std::uint32_t extent = 0;                  ///< into State::extents
   FrameId anchor = kFloating;                ///< the frame it is fixed to
   int leaf = -1;                             ///< in the broadphase; −1: not simulated as its own
   int quiet_steps = 0;                       ///< consecutive steps below the sleeping threshold

@@ -82,10 +82,10 @@ void listSources(const State& state, const BodyPair& pair, Scratch& scratch) {
   auto& sources = scratch.row_sources;
   const std::size_t first = sources.size();
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-    const ContactTable::Entry& entry = state.contacts.order[i];
-    const Contact& contact = state.contacts[entry];
+    const ContactTable::Slot slot = state.contacts.order[i];
+    const Contact& contact = state.contacts[slot];
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(contact.count); ++k) {
-      const PointIndex point = 2 * entry.slot + k;
+      const PointIndex point = 2 * slot + k;
       const bool joins =
           sources.size() > first && sources.back().count() == 1 &&
           state.contacts.contactOf(sources.back().points[0]).normal == contact.normal;
@@ -132,7 +132,7 @@ void orderBlocks(const State& state, Scratch& scratch) {
     if (a_moves) a |= std::uint64_t{1} << colour;
     if (b_moves) b |= std::uint64_t{1} << colour;
     const auto body = static_cast<std::uint32_t>(a_moves ? ends.a : ends.b);
-    scratch.block_order[i] = {sets.find(body), colour, i};
+    scratch.block_order[i] = BlockOrder::of(sets.find(body), colour, i);
   }
   std::sort(scratch.block_order.begin(), scratch.block_order.end());
 }
@@ -186,9 +186,9 @@ void buildBlocks(State& state, Scratch& scratch) {
   reserveTightly(scratch.blocks, scratch.block_order.size());
   for (std::uint32_t i = 0; i < scratch.block_order.size(); ++i) {
     const BlockOrder& order = scratch.block_order[i];
-    scratch.blocks.push_back(makeBlock(state, scratch, scratch.row_sources[order.source]));
-    if (scratch.islands.empty() || scratch.islands.back().root != order.island) {
-      scratch.islands.push_back({.root = order.island, .first = i, .last = i});
+    scratch.blocks.push_back(makeBlock(state, scratch, scratch.row_sources[order.source()]));
+    if (scratch.islands.empty() || scratch.islands.back().root != order.island()) {
+      scratch.islands.push_back({.root = order.island(), .first = i, .last = i});
     }
     scratch.islands.back().last = i + 1;
   }

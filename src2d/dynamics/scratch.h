@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "src2d/core/assert.h"
 #include "src2d/dynamics/collections.h"
 #include "src2d/dynamics/islands.h"
 #include "src2d/trace/notes.h"
@@ -47,9 +48,21 @@ struct Island {
   std::uint32_t first_joint = 0, last_joint = 0;  ///< of Scratch::joint_blocks
 };
 
-/// Where a block stands: `source` is its RowSource.
+/// Where a block stands: by island, then by colour, then by its RowSource; as one number, which is
+/// small and quick to sort.
 struct BlockOrder {
-  std::uint32_t island = 0, colour = 0, source = 0;
+  static constexpr int kSourceBits = 26, kIslandShift = 32;
+  std::uint64_t packed = 0;
+
+  static BlockOrder of(std::uint32_t island, std::uint32_t colour, std::uint32_t source) {
+    MERGE2D_ASSERT(colour < 64 && source >> kSourceBits == 0, "colour {}, source {}", colour,
+                   source);
+    return {std::uint64_t{island} << kIslandShift | std::uint64_t{colour} << kSourceBits | source};
+  }
+  std::uint32_t island() const { return static_cast<std::uint32_t>(packed >> kIslandShift); }
+  std::uint32_t source() const {
+    return static_cast<std::uint32_t>(packed & ((std::uint64_t{1} << kSourceBits) - 1));
+  }
   auto operator<=>(const BlockOrder&) const = default;
 };
 

@@ -95,14 +95,31 @@ class Builder {
     body.first_shape = static_cast<std::uint32_t>(s.shape_body.size());
     body.shape_count = static_cast<std::uint32_t>(desc.shapes.size());
     std::vector<Vec2> outline;
+    Extent extent;
     for (const ConvexShape& shape : desc.shapes) {
       const ConvexShape centered = transformed(shape, {-centroid, {}});
       s.shape_collider.push_back(colliderFor(centered));
       s.shape_body.push_back(BodyId{static_cast<std::uint32_t>(body.rigid)});
-      r.bounds.include(s.collider_bounds[s.shape_collider.back()]);
+      extent.bounds.include(s.collider_bounds[s.shape_collider.back()]);
       for (const Vec2& p : outlinePoints(centered)) outline.push_back(p);
     }
-    r.box = tightBox(outline);
+    extent.box = tightBox(outline);
+    r.extent = extentFor(extent);
+  }
+
+  /// Bodies that reach equally far share an extent.
+  std::uint32_t extentFor(const Extent& extent) {
+    const Aabb& bounds = extent.bounds;
+    const OrientedBox& box = extent.box;
+    const std::array<double, 10> numbers{
+        bounds.lower.x(),     bounds.lower.y(),    bounds.upper.x(),       bounds.upper.y(),
+        box.half.x(),         box.half.y(),        box.frame.position.x(), box.frame.position.y(),
+        box.frame.rotation.c, box.frame.rotation.s};
+    State& s = setup_.state;
+    const auto next = static_cast<std::uint32_t>(s.extents.size());
+    const auto [at, is_new] = extents_.try_emplace(numbers, next);
+    if (is_new) s.extents.push_back(extent);
+    return at->second;
   }
 
   /// Bodies of one shape share its collider.
@@ -218,6 +235,7 @@ class Builder {
   const Scene& scene_;
   Setup& setup_;
   std::vector<Vec2> centers_;
+  std::map<std::array<double, 10>, std::uint32_t> extents_;
   std::map<std::vector<double>, std::uint32_t> known_;  ///< colliders by their outline
   std::vector<Actions::Launch> launch_;
 };

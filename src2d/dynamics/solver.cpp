@@ -58,7 +58,7 @@ SweepChange solveIsland(const SolverSettings& settings, Scratch& scratch, const 
 void storeImpulses(State& state, const Scratch& scratch) {
   for (std::size_t i = 0; i < scratch.blocks.size(); ++i) {
     const ContactBlock& k = scratch.blocks[i];
-    const RowSource& source = scratch.row_sources[scratch.block_order[i].source];
+    const RowSource& source = scratch.row_sources[scratch.block_order[i].source()];
     for (int p = 0; p < k.count; ++p) {
       ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(p)]);
       const ContactVelocity w = contactVelocity(k, p, k.nx, k.ny, scratch.u[k.a], scratch.u[k.b]);

@@ -13,7 +13,7 @@ namespace {
 void aimAtGaps(const State& state, Scratch& scratch) {
   for (std::size_t i = 0; i < scratch.blocks.size(); ++i) {
     ContactBlock& k = scratch.blocks[i];
-    const RowSource& source = scratch.row_sources[scratch.block_order[i].source];
+    const RowSource& source = scratch.row_sources[scratch.block_order[i].source()];
     for (int p = 0; p < k.count; ++p) {
       const double w = contactVelocity(k, p, k.nx, k.ny, scratch.u[k.a], scratch.u[k.b]).n;
       const ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(p)]);

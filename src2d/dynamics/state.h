@@ -50,6 +50,7 @@ struct State {
   double time = 0.0;
   std::vector<Body> bodies;
   std::vector<Rigid> rigids;            ///< bodies, then collections
+  std::vector<Extent> extents;          ///< of the different bodies, then one per collection
   std::vector<Collection> collections;  ///< slot i is rigid bodies.size() + i
   std::int32_t next_collection = 0;
   ContactTable contacts;
@@ -65,6 +66,8 @@ struct State {
   const Body& operator[](BodyId id) const { return bodies[index(id)]; }
   Rigid& operator[](RigidId id) { return rigids[index(id)]; }
   const Rigid& operator[](RigidId id) const { return rigids[index(id)]; }
+  const Extent& extent(RigidId id) const { return extents[rigids[index(id)].extent]; }
+  const Extent& extent(const Rigid& r) const { return extents[r.extent]; }
   /// The rigid thing that a body moves with: itself or its collection.
   Rigid& rigid(BodyId id) { return rigids[index(bodies[index(id)].rigid)]; }
   const Rigid& rigid(BodyId id) const { return rigids[index(bodies[index(id)].rigid)]; }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 
 #include "src2d/geometry/box.h"
 
@@ -75,6 +76,14 @@ class AabbTree {
   std::size_t memoryBytes() const {
     const std::size_t nodes = 2 * most_leaves_;
     return std::bit_ceil(std::max<std::size_t>(nodes, 16)) * sizeof(b2TreeNode);
+  }
+
+  /// Holds a small part of the leaves that it once had.
+  bool sparse() const { return most_leaves_ > 64 && 4 * leaves_ < most_leaves_; }
+  void clear() {
+    std::destroy_at(&tree_);
+    std::construct_at(&tree_);
+    leaves_ = most_leaves_ = 0;
   }
 
  private:

@@ -25,7 +25,10 @@ RigidId collectionOf(State& state, BodyId b) {
   const RigidId id = newCollection(state);
   const Rigid single = state[own];
   Rigid& r = state[id];
+  const std::uint32_t extent = r.extent;
   r = single;
+  r.extent = extent;
+  state.extents[extent] = state.extent(single);
   r.leaf = -1;
   r.center = Vec2::Zero();
   removeRigid(state, own);
@@ -49,15 +52,15 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   saveForces(source);
   for (const BodyId b : source.members) enlist(state, to, b, state.pose(b), state.angle(b));
   for (InternalContact& inner : source.contacts) {
-    inner.contact.normal = relative.rotation * inner.contact.normal;
-    for (ContactPoint& p : inner.contact.points) p.position = relative * p.position;
+    inner.normal = relative.rotation * inner.normal;
+    for (InternalPoint& p : inner.points) p.position = relative * p.position;
     target.contacts.push_back(inner);
   }
   addShapes(state, to, source.members);
   const auto middle = static_cast<std::ptrdiff_t>(target.members.size());
   target.members.insert(target.members.end(), source.members.begin(), source.members.end());
   std::inplace_merge(target.members.begin(), target.members.begin() + middle, target.members.end());
-  state[to].bounds.include(placed(relative, state[from].bounds));
+  state.extents[state[to].extent].bounds.include(placed(relative, state.extent(from).bounds));
   state[to].resized = true;
   target.stale = true;
   removeRigid(state, from);
@@ -90,8 +93,8 @@ void fix(State& state, RigidId id, FrameId frame, const Rigid& anchor) {
     enlist(state, id, b, old * local, old_angle + state[b].local_angle);
   }
   for (InternalContact& inner : c.contacts) {
-    inner.contact.normal = relative.rotation * inner.contact.normal;
-    for (ContactPoint& p : inner.contact.points) p.position = relative * p.position;
+    inner.normal = relative.rotation * inner.normal;
+    for (InternalPoint& p : inner.points) p.position = relative * p.position;
   }
   addShapes(state, id, c.members);
   r.resized = true;
@@ -106,6 +109,7 @@ RigidId newCollection(State& state) {
   if (slot == state.collections.size()) {
     appendTightly(state.collections);
     appendTightly(state.rigids);
+    appendTightly(state.extents);
     appendTightly(state.broadphase.shape_trees);
   }
   const RigidId id{static_cast<std::uint32_t>(state.bodies.size() + slot)};
@@ -114,6 +118,9 @@ RigidId newCollection(State& state) {
   c.id = CollectionId{state.next_collection++};
   c.rigid = id;
   state[id] = {};
+  // One per collection, after those of the bodies.
+  const std::size_t of_bodies = state.extents.size() - state.collections.size();
+  state[id].extent = static_cast<std::uint32_t>(of_bodies + slot);
   return id;
 }
 
@@ -196,14 +203,20 @@ void absorbContacts(State& state) {
     c.stale = true;
 
     InternalContact inner;
-    inner.contact = contact;
+    inner.key = contact.key;
+    inner.count = contact.count;
     inner.since = state.step;
     const Pose from_a = state[id].frame().toLocal(state.pose(contact.key.a));
-    inner.contact.normal = from_a.rotation * contact.normal;
+    inner.normal = from_a.rotation * contact.normal;
     for (int i = 0; i < contact.count; ++i) {
-      ContactPoint& p = inner.contact.points[static_cast<std::size_t>(i)];
-      p.position = from_a * p.position;
-      inner.active[i] = p.lambda_n > 0.0 || isBilateral(state, contact.key.a, contact.key.b);
+      const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];
+      InternalPoint& point = inner.points[i];
+      point.position = from_a * p.position;
+      point.gap = p.gap;
+      point.lambda_n = p.lambda_n;
+      point.lambda_t = p.lambda_t;
+      point.feature = p.feature;
+      point.active = p.lambda_n > 0.0 || isBilateral(state, contact.key.a, contact.key.b);
     }
     c.contacts.push_back(inner);
     return true;
@@ -213,10 +226,10 @@ void absorbContacts(State& state) {
 void saveForces(Collection& c) {
   for (std::size_t i = 0; i < c.blocks.size(); ++i) {
     const ContactBlock& k = c.blocks[i];
-    Contact& contact = c.contacts[c.block_contact[i]].contact;
+    InternalContact& contact = c.contacts[c.block_contact[i]];
     for (int p = 0; p < k.count; ++p) {
-      contact.points[static_cast<std::size_t>(p)].lambda_n = k.lambda_n(p);
-      contact.points[static_cast<std::size_t>(p)].lambda_t = k.lambda_t(p);
+      contact.points[p].lambda_n = k.lambda_n(p);
+      contact.points[p].lambda_t = k.lambda_t(p);
     }
   }
 }

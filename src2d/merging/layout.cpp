@@ -12,7 +12,7 @@ namespace {
 
 /// A member's own box, seen in its collection's frame.
 Aabb memberBounds(const State& state, BodyId b) {
-  return placed({state[b].local, state[b].local_rotation}, state[rigidOf(b)].bounds);
+  return placed({state[b].local, state[b].local_rotation}, state.extent(rigidOf(b)).bounds);
 }
 
 }  // namespace
@@ -24,12 +24,13 @@ void gatherMass(State& state, RigidId id) {
   const Vec2 origin = state[c.members.front()].local;
   r.mass = 0.0;
   Vec2 first = Vec2::Zero();
-  r.bounds = {};
+  Aabb bounds;
   for (const BodyId b : c.members) {
     r.mass += state[b].mass;
     first += state[b].mass * (state[b].local - origin);
-    r.bounds.include(memberBounds(state, b));
+    bounds.include(memberBounds(state, b));
   }
+  state.extents[r.extent].bounds = bounds;
   const Vec2 center = origin + first / r.mass;
   r.inertia = 0.0;
   for (const BodyId b : c.members) {
@@ -51,11 +52,11 @@ void fitBox(State& state, RigidId id) {
   points.clear();
   for (const BodyId b : state.collection(id).members) {
     const Body& body = state[b];
-    for (const Vec2& corner : state[rigidOf(b)].box.corners()) {
+    for (const Vec2& corner : state.extent(rigidOf(b)).box.corners()) {
       points.push_back(Pose{body.local, body.local_rotation}.exactly(corner));
     }
   }
-  state[id].box = tightBox(points);
+  state.extents[state[id].extent].box = tightBox(points);
 }
 
 /// Contacts of one pair of bodies in a row form a weld, and so do its joints.
@@ -63,7 +64,7 @@ void layOutWelds(const State& state, Collection& c) {
   const std::vector<Weld> old = std::move(c.welds);
   c.welds.clear();
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
-    const ContactKey& key = c.contacts[i].contact.key;
+    const ContactKey& key = c.contacts[i].key;
     if (c.welds.empty() || c.welds.back().a != key.a || c.welds.back().b != key.b) {
       c.welds.push_back({.a = key.a, .b = key.b, .first = i});
     }
@@ -92,8 +93,7 @@ SolverVelocity memberMasses(const State& state, const Collection& c, BodyId b) {
 /// Deviation: contacts inside a collection are rigid rows, without bias and softness: their overlap
 /// is frozen, and would ask for a ghost velocity whenever the load changes.
 /// Guarded by Sweep.HoldsAColumnsWeightExactly.
-ContactBlock makeBlock(const State& state, const Collection& c, const InternalContact& inner) {
-  const Contact& contact = inner.contact;
+ContactBlock makeBlock(const State& state, const Collection& c, const InternalContact& contact) {
   const auto origin = [&](BodyId b) {
     return state[b].rigid == c.rigid ? state[b].local : Vec2(Vec2::Zero());
   };
@@ -110,10 +110,10 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
   k.bilateral = isBilateral(state, contact.key.a, contact.key.b);
   for (int i = 0; i < contact.count; ++i) {
-    const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];
+    const InternalPoint& p = contact.points[i];
     k.lambda_n(i) = p.lambda_n;
     k.lambda_t(i) = p.lambda_t;
-    k.bias[i] = inner.active[i] ? 0.0 : std::max(0.0, p.gap) / state.h;  // may not have met yet
+    k.bias[i] = p.active ? 0.0 : std::max(0.0, p.gap) / state.h;  // may not have met yet
   }
   prepareBlock(k, g, memberMasses(state, c, contact.key.a), memberMasses(state, c, contact.key.b));
   return k;
@@ -134,12 +134,12 @@ void layOutBlocks(const State& state, Collection& c) {
   };
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
     const InternalContact& inner = c.contacts[i];
-    std::uint64_t *a = colours(inner.contact.key.a), *b = colours(inner.contact.key.b);
+    std::uint64_t *a = colours(inner.key.a), *b = colours(inner.key.b);
     const std::uint64_t taken = (a ? *a : 0) | (b ? *b : 0);
     const auto colour = static_cast<std::uint32_t>(std::min(std::countr_one(taken), 63));
     if (a) *a |= std::uint64_t{1} << colour;
     if (b) *b |= std::uint64_t{1} << colour;
-    items.push_back({!inner.active[0] && !inner.active[1], colour, i});
+    items.push_back({!inner.points[0].active && !inner.points[1].active, colour, i});
   }
   std::sort(items.begin(), items.end());
 
@@ -159,7 +159,7 @@ void layOutBlocks(const State& state, Collection& c) {
   for (const Item& item : items) {
     InternalContact& inner = c.contacts[item.contact];
     c.blocks.push_back(makeBlock(state, c, inner));
-    inner.contact.count = c.blocks.back().count;  // points too close to each other count as one
+    inner.count = c.blocks.back().count;  // points too close to each other count as one
     c.block_contact.push_back(item.contact);
     c.block_weld.push_back(weld_of[item.contact]);
     if (!item.dormant) ++c.active_blocks;
@@ -196,9 +196,7 @@ void layOutCollections(State& state) {
   for (Collection& c : state.collections) {
     if (c.id == kNoCollection || !c.stale) continue;
     std::sort(c.contacts.begin(), c.contacts.end(),
-              [](const InternalContact& x, const InternalContact& y) {
-                return x.contact.key < y.contact.key;
-              });
+              [](const InternalContact& x, const InternalContact& y) { return x.key < y.key; });
     c.contacts.shrink_to_fit();
     if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
     fitBox(state, c.rigid);

@@ -52,6 +52,7 @@ bool weld(State& state, const BodyPair& pair) {
 
 /// The full solve has become smaller: its memory goes back.
 void releaseRows(State& state, Scratch& scratch) {
+  compactTree(state);
   scratch.blocks.clear();
   scratch.row_sources.clear();
   scratch.block_order.clear();

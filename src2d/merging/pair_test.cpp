@@ -43,7 +43,7 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
 /// is on the edge too, but goes nowhere.
 bool aboutToSlide(const State& state, const BodyPair& pair) {
   const Pose pose = state.pose(pair.b);
-  const double size = state[rigidOf(pair.b)].box.half.norm();
+  const double size = state.extent(rigidOf(pair.b)).box.half.norm();
   std::vector<Eigen::Vector3d> tangents;  // rows: slip by a motion (v, size · omega) of b
   Eigen::Matrix3d closed = Eigen::Matrix3d::Zero();  // sum of the normals' rows, squared
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {

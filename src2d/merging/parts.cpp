@@ -23,9 +23,9 @@ void addPins(const State& state, const Collection& c, const Weld& weld, std::uin
              std::uint32_t b, std::vector<Pin>& pins) {
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const InternalContact& inner = c.contacts[i];
-    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.contact.count); ++p) {
-      if (!inner.active[p] || inner.lost[p]) continue;
-      pins.push_back({.a = a, .b = b, .at = inner.contact.points[p].position, .placed = true});
+    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.count); ++p) {
+      if (!inner.points[p].active || inner.points[p].lost) continue;
+      pins.push_back({.a = a, .b = b, .at = inner.points[p].position, .placed = true});
     }
   }
   if (weld.joints == 0) return;
@@ -41,9 +41,9 @@ bool isFirm(const Collection& c, const Weld& weld, double resolution) {
   const Vec2* first = nullptr;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const InternalContact& inner = c.contacts[i];
-    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.contact.count); ++p) {
-      if (!inner.active[p] || inner.lost[p]) continue;
-      const Vec2& at = inner.contact.points[p].position;
+    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.count); ++p) {
+      if (!inner.points[p].active || inner.points[p].lost) continue;
+      const Vec2& at = inner.points[p].position;
       if (first && (at - *first).norm() > resolution) return true;
       if (!first) first = &at;
     }
@@ -56,7 +56,7 @@ bool isFirm(const Collection& c, const Weld& weld, double resolution) {
 bool holdsFirmly(const State& state, const Collection& c) {
   thread_local DisjointSets sets;  // its memory is kept
   sets.reset(c.members.size());
-  const Aabb& bounds = state[c.rigid].bounds;
+  const Aabb& bounds = state.extent(c.rigid).bounds;
   const double resolution = kPointTolerance * std::max(bounds.lower.cwiseAbs().maxCoeff(),
                                                        bounds.upper.cwiseAbs().maxCoeff());
   std::size_t sets_left = c.members.size();

@@ -13,8 +13,8 @@ namespace {
 
 VelocityField fieldOf(const Rigid& r) { return {r.x, r.v, r.omega}; }
 
-OrientedBox worldBox(const Rigid& r) {
-  OrientedBox box = r.box;
+OrientedBox worldBox(const State& state, const Rigid& r) {
+  OrientedBox box = state.extent(r).box;
   box.frame = r.frame() * box.frame;
   return box;
 }
@@ -52,7 +52,7 @@ void countQuietRigids(State& state, Notes* notes) {
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
     Rigid& r = state.rigids[i];
     if (!r.present() || r.asleep) continue;
-    const double motion = fastestCorner(worldBox(r), fieldOf(r), still);
+    const double motion = fastestCorner(worldBox(state, r), fieldOf(r), still);
     const int before = r.quiet_steps;
     const bool quiet = motion < sleeping.velocity;
     r.quiet_steps = quiet ? r.quiet_steps + 1 : 0;
@@ -81,7 +81,7 @@ double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
   double fastest = 0.0;
   for (const Rigid* r : {&a, &b}) {
     if (!r->floating()) continue;
-    const OrientedBox box = worldBox(*r);
+    const OrientedBox box = worldBox(state, *r);
     fastest = std::max(fastest, fastestCorner(box, fieldOf(a), fieldOf(b)));
     noteCorners(notes, pair, box, a, b);
   }

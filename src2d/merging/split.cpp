@@ -45,7 +45,7 @@ void leaveWorldFrame(State& state, RigidId id) {
   state[id].x += offset;
   for (const BodyId b : c.members) state[b].local -= offset;
   for (InternalContact& inner : c.contacts) {
-    for (ContactPoint& point : inner.contact.points) point.position -= offset;
+    for (InternalPoint& point : inner.points) point.position -= offset;
   }
 }
 
@@ -71,7 +71,10 @@ RigidId newPart(State& state, const std::vector<BodyId>& members,
   c.anchor = anchor;
   c.stale = true;
   Rigid& r = state[id];
+  const std::uint32_t extent = r.extent;
   r = whole;
+  r.extent = extent;
+  state.extents[extent] = state.extent(whole);
   r.leaf = -1;
   r.quiet_steps = 0;
   r.asleep = false;
@@ -85,17 +88,17 @@ RigidId newPart(State& state, const std::vector<BodyId>& members,
 /// Contacts between the parts return to the table with their impulses and today's geometry.
 void releaseContacts(State& state, std::vector<InternalContact>& released) {
   std::vector<ContactKey> keys;
-  for (const InternalContact& inner : released) keys.push_back(inner.contact.key);
+  for (const InternalContact& inner : released) keys.push_back(inner.key);
   std::sort(keys.begin(), keys.end());
   addContacts(state, keys);
   for (const InternalContact& inner : released) {
     const auto& order = state.contacts.order;
-    const auto at = std::lower_bound(
-        order.begin(), order.end(), inner.contact.key,
-        [](const ContactTable::Entry& e, const ContactKey& key) { return e.key < key; });
+    const auto at = std::lower_bound(order.begin(), order.end(), inner.key,
+                                     [&](ContactTable::Slot slot, const ContactKey& key) {
+                                       return state.contacts[slot].key < key;
+                                     });
     Contact& contact = state.contacts[*at];
-    contact = inner.contact;
-    contact.quiet_steps = 0;
+    contact = inner.released();
     updateManifold(state, contact, 0.0);
   }
 }
@@ -121,7 +124,7 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
     const Collection& c = state.collection(id);
     const auto partOf = [&](BodyId b) { return part[memberIndex(c, b)]; };
     for (const InternalContact& inner : c.contacts) {
-      const BodyId a = inner.contact.key.a, b = inner.contact.key.b;
+      const BodyId a = inner.key.a, b = inner.key.b;
       const bool a_in = state[a].rigid == id, b_in = state[b].rigid == id;
       const std::uint32_t p = partOf(a_in ? a : b), q = partOf(b_in ? b : a);
       const bool on_frame = frameOf(state, a_in ? b : a) == whole.anchor;

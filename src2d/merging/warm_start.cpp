@@ -130,22 +130,22 @@ void warmStartOuter(const State& state, Scratch& scratch) {
   const auto forEach = [&](auto&& visit) {
     for (const BodyPair& pair : scratch.pairs) {
       for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-        const ContactTable::Entry& entry = state.contacts.order[i];
-        if (state.contacts[entry].count > 0) visit(entry, state.contacts[entry]);
+        const ContactTable::Slot slot = state.contacts.order[i];
+        if (state.contacts[slot].count > 0) visit(slot, state.contacts[slot]);
       }
     }
   };
-  forEach([&](const ContactTable::Entry& entry, const Contact& contact) {
+  forEach([&](ContactTable::Slot slot, const Contact& contact) {
     const BodyId a = contact.key.a, b = contact.key.b;
     if (!swept(a) && !swept(b) && !closesAnew(state, contact)) return;
     near[index(a)] = near[index(b)] = 1;
-    addOuterContact(state, contact, entry.slot, scratch);
+    addOuterContact(state, contact, slot, scratch);
   });
   if (!state.joints.empty()) listSweepJoints(state, scratch);
   std::size_t row = 0;
-  forEach([&](const ContactTable::Entry& entry, const Contact& contact) {
+  forEach([&](ContactTable::Slot slot, const Contact& contact) {
     const auto& rows = scratch.sweep_contacts;
-    if (row < rows.size() && rows[row].slot == entry.slot) return void(++row);
+    if (row < rows.size() && rows[row].slot == slot) return void(++row);
     if (near[index(contact.key.a)] || near[index(contact.key.b)]) {
       applyAsLoad(state, contact, scratch.sweep_u);
     }

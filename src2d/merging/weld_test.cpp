@@ -55,27 +55,28 @@ void WeldTest::testContacts(std::uint32_t b) {
   const std::uint32_t weld = c_.block_weld[b];
   c_.watched[b] = 0;
   for (int i = 0; i < k.count; ++i) {
+    InternalPoint& point = inner.points[i];
     const bool pressed = !broken(k, i), edge = pressed && onEdge(k, i);
-    const bool was_lost = inner.lost[i], was_active = inner.active[i];
+    const bool was_lost = point.lost, was_active = point.active;
     if (pressed) {
-      inner.active[i] = true;
+      point.active = true;
       k.bias[i] = 0.0;
-      inner.lost[i] = false;
-      inner.opening[i] = {};
+      point.lost = false;
+      point.opening = {};
     }
-    if (!edge) inner.slip[i] = {};
+    if (!edge) point.slip = {};
     if (scratch_.notes) {
-      at_ = state_[c_.rigid].frame() * inner.contact.points[static_cast<std::size_t>(i)].position;
+      at_ = state_[c_.rigid].frame() * point.position;
     }
     if (edge || !pressed) {
       const ContactVelocity w = velocityAt(k, i);
-      if (!pressed && inner.active[i]) inner.lost[i] = testBroken(weld, inner.opening[i], w.n);
-      if (edge) testSliding(weld, inner.slip[i], w.t);
+      if (!pressed && point.active) point.lost = testBroken(weld, point.opening, w.n);
+      if (edge) testSliding(weld, point.slip, w.t);
     }
     if (pressed) noteCone(weld, k, i, edge);
     c_.watched[b] |= edge || !pressed;
-    opened_ |= inner.lost[i] && !was_lost;
-    c_.pivots_stale |= was_lost != inner.lost[i] || was_active != inner.active[i];
+    opened_ |= point.lost && !was_lost;
+    c_.pivots_stale |= was_lost != point.lost || was_active != point.active;
   }
 }
 
@@ -137,7 +138,8 @@ double WeldTest::openingThreshold() const {
 bool WeldTest::hadContact(const Weld& weld) const {
   if (weld.joints > 0) return true;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    if (c_.contacts[i].active[0] || c_.contacts[i].active[1]) return true;
+    const InternalContact& inner = c_.contacts[i];
+    if (inner.points[0].active || inner.points[1].active) return true;
   }
   return false;
 }
@@ -194,7 +196,7 @@ double WeldTest::relativeMotion(const Weld& weld) const {
   double fastest = 0.0;
   for (const BodyId id : {weld.a, weld.b}) {
     if (state_[id].rigid != c_.rigid) continue;  // only the box of the body that can move
-    OrientedBox box = state_[rigidOf(id)].box;
+    OrientedBox box = state_.extent(rigidOf(id)).box;
     box.frame = state_.pose(id) * box.frame;
     fastest = std::max(fastest, fastestCorner(box, a, b));
   }
@@ -220,7 +222,7 @@ int activeContacts(const Collection& c, const Weld& weld) {
   int active = weld.joints;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const InternalContact& inner = c.contacts[i];
-    for (int p = 0; p < inner.contact.count; ++p) active += inner.active[p] && !inner.lost[p];
+    for (int p = 0; p < inner.count; ++p) active += inner.points[p].active && !inner.points[p].lost;
   }
   return active;
 }

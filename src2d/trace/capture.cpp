@@ -81,8 +81,8 @@ void showInternalVelocity(const State& state, const Scratch& scratch, const Coll
 
 void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) {
   out.contacts.clear();
-  for (const ContactTable::Entry& entry : state.contacts.order) {
-    const Contact& contact = state.contacts[entry];
+  for (const ContactTable::Slot slot : state.contacts.order) {
+    const Contact& contact = state.contacts[slot];
     for (int i = 0; i < contact.count; ++i) {
       out.contacts.push_back(view(state, contact, contact.points[static_cast<std::size_t>(i)],
                                   state.pose(contact.key.a)));
@@ -93,7 +93,7 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
     const Pose frame = state[c.rigid].frame();
     for (std::size_t b = 0; b < c.blocks.size(); ++b) {
       const ContactBlock& k = c.blocks[b];
-      const Contact& contact = c.contacts[c.block_contact[b]].contact;
+      const Contact contact = c.contacts[c.block_contact[b]].released();
       for (int i = 0; i < k.count; ++i) {
         ContactPoint p = contact.points[static_cast<std::size_t>(i)];
         p.lambda_n = k.lambda_n(i);
@@ -132,8 +132,8 @@ CollectionView view(const State& state, const Collection& c) {
   }
   seen.v = r.velocityAt(seen.x);
   seen.omega = r.omega;
-  seen.box = r.box;
-  seen.box.frame = r.frame() * r.box.frame;
+  seen.box = state.extent(r).box;
+  seen.box.frame = r.frame() * seen.box.frame;
   seen.asleep = r.asleep;
   return seen;
 }
@@ -147,7 +147,7 @@ void captureCollections(const State& state, Snapshot& out) {
     for (const Weld& weld : c.welds) {
       int contacts = 0;
       for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-        contacts += c.contacts[i].contact.count;
+        contacts += c.contacts[i].count;
       }
       out.welds.push_back({weld.a, weld.b, contacts});
     }

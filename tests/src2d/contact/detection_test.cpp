@@ -214,8 +214,9 @@ TEST(Detection, NothingBreathesOrSlidesBetweenTwoThingsFixedToTheWorld) {
   State& state = setup.state;
   detectContacts(state, scratch);
   const auto between = [&]() -> Contact& {
-    for (const auto& entry : state.contacts.order) {
-      if (entry.key.a == BodyId{1} && entry.key.b == BodyId{2}) return state.contacts[entry];
+    for (const ContactTable::Slot slot : state.contacts.order) {
+      const ContactKey& key = state.contacts[slot].key;
+      if (key.a == BodyId{1} && key.b == BodyId{2}) return state.contacts[slot];
     }
     throw std::runtime_error("the boxes do not touch");
   };

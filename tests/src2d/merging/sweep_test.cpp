@@ -153,7 +153,7 @@ class WarmStartGuard : public Observer {
  private:
   static std::vector<double> impulses(const State& state) {
     std::vector<double> all;
-    for (const ContactTable::Entry& entry : state.contacts.order) {
+    for (const ContactTable::Slot entry : state.contacts.order) {
       const Contact& contact = state.contacts[entry];
       for (int i = 0; i < contact.count; ++i) {
         const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];
