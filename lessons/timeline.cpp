@@ -13,7 +13,11 @@ constexpr std::int64_t kBefore = 24;
 }  // namespace
 
 Timeline::Timeline(const Scene& scene, Mode mode, std::int64_t last)
-    : scene_(scene), last_(last), recorder_(scene, mode), initial_(recorder_.world().capture()) {}
+    : scene_(scene),
+      last_(last),
+      recorder_(scene, mode),
+      bodies_(recorder_.world().bodies()),
+      initial_(recorder_.world().capture()) {}
 
 void Timeline::restart() { recorder_ = Recorder(scene_, mode()); }
 

@@ -20,7 +20,8 @@ class Timeline {
 
   const Scene& scene() const { return recorder_.world().scene(); }
   Mode mode() const { return recorder_.world().mode(); }
-  const std::vector<BodyInfo>& bodies() const { return recorder_.world().bodies(); }
+  /// The same also after going back.
+  const std::vector<BodyInfo>& bodies() const { return bodies_; }
   std::int64_t last() const { return last_; }
 
   /// The state before the first step.
@@ -45,6 +46,7 @@ class Timeline {
   Scene scene_;
   std::int64_t last_;
   Recorder recorder_;
+  std::vector<BodyInfo> bodies_;  ///< a copy: going back begins with another world
   Snapshot initial_;
   std::map<std::int64_t, StepRecord> kept_;
   std::vector<std::vector<Event>> events_;  ///< of each step simulated so far, from step 1 on

@@ -55,13 +55,9 @@ void prune(State& state, const BodyPair& pair, Notes* notes) {
   }
 }
 
-/// Between two things at rest nothing changes, and so nothing breathes. What holds them is no
-/// friction of this contact when both are fixed to the world: nobody solves for it.
-void holdStill(Contact& contact, bool fixed) {
-  for (ContactPoint& point : contact.points) {
-    point.breath = 0.0F;
-    if (fixed) point.lambda_t = 0.0;
-  }
+/// Between two things at rest nothing changes, and so nothing breathes.
+void holdBreath(Contact& contact) {
+  for (ContactPoint& point : contact.points) point.breath = 0.0F;
 }
 
 bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
@@ -114,7 +110,7 @@ void detectContacts(State& state, Scratch& scratch) {
     const ContactKey key = state.contacts[slot].key;
     const Rigid &a = state.rigid(key.a), &b = state.rigid(key.b);
     if (resting(a) && resting(b)) {
-      holdStill(state.contacts[slot], !a.asleep && !b.asleep);
+      holdBreath(state.contacts[slot]);
       continue;
     }
     const double ahead = approach(state, scratch, key.a, key.b);

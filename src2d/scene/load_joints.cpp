@@ -108,7 +108,7 @@ class JointReader {
                         bool angles) {
     auto motor = table.table("motor");
     if (!motor) return;
-    joint.motor.emplace();
+    joint.motor = JointDesc::Motor{};
     if (motor->require("speed")) motor->read("speed", joint.motor->speed);
     if (motor->require(strength)) motor->read(strength, joint.motor->strength, kPositive);
     motor->done();
