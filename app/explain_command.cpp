@@ -20,9 +20,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kExamples = R"(Examples:
   merge2d explain tower-platform --at 118
-  merge2d explain books --at 60 --pair "book[0]" "book[1]"
+  merge2d explain books --at 3 --pair diary notebook
   merge2d explain tower-platform --weld "brick[2,3]" "brick[2,4]"
-  merge2d explain books --at 60 --json
+  merge2d explain books --at 3 --json
 
 Each sentence comes from the tests that the time step made, with value, threshold, equation of the
 paper, and count. docs/records.md lists the tests. Without --all, at most a dozen of a kind are
@@ -208,6 +208,10 @@ void explainOneStep(const ExplainOptions& options, const Console& console) {
   World world(loadScene(options, console), {.mode = options.mode, .timings = false});
   const Words words(world.bodies());
   if (!options.pair.empty()) bodiesOf(words, options.pair);  // better now than after a long run
+  if (const std::int64_t last = stepCount(world.scene()); *options.at > last) {
+    throw UsageError(fmt::format("--at {}: the run of '{}' ends at step {}", *options.at,
+                                 world.scene().name, last));
+  }
   Progress progress(console, "step", *options.at);
   while (world.steps() < *options.at) {
     stopIfInterrupted();

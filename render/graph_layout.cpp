@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "src2d/dynamics/islands.h"
+
 namespace merge2d {
 namespace {
 
@@ -77,7 +79,7 @@ void relax(const ContactGraph& graph, std::vector<Vec2>& at, double step) {
       force[i] += push;
       force[j] -= push;
     }
-    force[i] -= 0.02 * at[i];  // parts that do not touch stay together
+    force[i] -= 0.02 * at[i];
   }
   for (const GraphPair& pair : graph.pairs) {
     const Vec2 d = at[pair.a] - at[pair.b];
@@ -90,14 +92,87 @@ void relax(const ContactGraph& graph, std::vector<Vec2>& at, double step) {
   }
 }
 
-GraphLayout relaxed(const ContactGraph& graph) {
+/// Bodies that hang together, with the pairs between them.
+struct Component {
+  std::vector<std::uint32_t> bodies;  ///< of the whole graph, ascending
+  ContactGraph graph;                 ///< the same, numbered from 0
+  std::vector<Vec2> at;
+  Aabb extent;
+};
+
+std::vector<Component> componentsOf(const ContactGraph& graph) {
+  const auto bodies = static_cast<std::uint32_t>(graph.bodies.size());
+  DisjointSets sets;
+  sets.reset(bodies);
+  for (const GraphPair& pair : graph.pairs) sets.unite(pair.a, pair.b);
+  std::vector<Component> components;
+  std::vector<std::uint32_t> component(bodies), number(bodies);
+  for (std::uint32_t i = 0; i < bodies; ++i) {
+    const std::uint32_t first = sets.find(i);  // of a set the smallest
+    if (first == i) {
+      component[i] = static_cast<std::uint32_t>(components.size());
+      components.emplace_back();
+    }
+    Component& c = components[component[first]];
+    component[i] = component[first];
+    number[i] = static_cast<std::uint32_t>(c.bodies.size());
+    c.bodies.push_back(i);
+    c.graph.bodies.push_back(graph.bodies[i]);
+  }
+  for (GraphPair pair : graph.pairs) {
+    Component& c = components[component[pair.a]];
+    pair.a = number[pair.a];
+    pair.b = number[pair.b];
+    c.graph.pairs.push_back(pair);
+  }
+  return components;
+}
+
+void layOut(Component& c, double all_bodies) {
   constexpr double kWork = 1e8;  // pairs of bodies in all rounds
   constexpr int kMostRounds = 500;
+  c.at = spiral(c.bodies.size());
+  const auto n = static_cast<double>(c.bodies.size());
+  const int rounds = static_cast<int>(std::min<double>(kMostRounds, kWork / (n * all_bodies)));
+  for (int i = 0; i < rounds; ++i) relax(c.graph, c.at, 0.5 * (1.0 - i / (rounds + 1.0)));
+  for (const Vec2& p : c.at) c.extent.include(p);
+}
+
+/// Puts the components beside each other, the highest first, in rows about as wide as all are high.
+void pack(std::vector<Component>& components) {
+  constexpr double kSpace = 1.0;
+  std::stable_sort(components.begin(), components.end(), [](const auto& a, const auto& b) {
+    return a.extent.extent().y() > b.extent.extent().y();
+  });
+  double area = 0.0;
+  for (const Component& c : components) {
+    area += (c.extent.extent() + Vec2(kSpace, kSpace)).prod();
+  }
+  const double width = 1.2 * std::sqrt(area);
+  Vec2 corner = Vec2::Zero();  // upper left of the next one
+  double row = 0.0;
+  for (Component& c : components) {
+    const Vec2 size = c.extent.extent();
+    if (corner.x() > 0.0 && corner.x() + size.x() > width) {
+      corner = {0.0, corner.y() - row - kSpace};
+      row = 0.0;
+    }
+    const Vec2 way = corner - Vec2(c.extent.lower.x(), c.extent.upper.y());
+    for (Vec2& p : c.at) p += way;
+    corner.x() += size.x() + kSpace;
+    row = std::max(row, size.y());
+  }
+}
+
+GraphLayout relaxed(const ContactGraph& graph) {
   GraphLayout layout;
-  layout.bodies = spiral(graph.bodies.size());
-  const auto n = static_cast<double>(std::max<std::size_t>(1, graph.bodies.size()));
-  const int rounds = static_cast<int>(std::min<double>(kMostRounds, kWork / (n * n)));
-  for (int i = 0; i < rounds; ++i) relax(graph, layout.bodies, 0.5 * (1.0 - i / (rounds + 1.0)));
+  layout.bodies.resize(graph.bodies.size());
+  std::vector<Component> components = componentsOf(graph);
+  for (Component& c : components) layOut(c, static_cast<double>(graph.bodies.size()));
+  pack(components);
+  for (const Component& c : components) {
+    for (std::size_t i = 0; i < c.bodies.size(); ++i) layout.bodies[c.bodies[i]] = c.at[i];
+  }
   return layout;
 }
 

@@ -16,7 +16,8 @@ struct GraphLayout {
 };
 
 /// Bodies amid their contact points when all of these are known; otherwise where springs between
-/// those in contact, and repulsion between all, put them (Fruchterman and Reingold, 1991).
+/// those in contact, and repulsion between all, put them (Fruchterman and Reingold, 1991), and what
+/// does not hang together side by side.
 GraphLayout layOutGraph(const ContactGraph& graph);
 
 }  // namespace merge2d

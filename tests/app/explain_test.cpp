@@ -76,6 +76,7 @@ TEST_F(ExplainCommand, SuggestsWhatWasMeant) {
 
 TEST_F(ExplainCommand, NeedsAStepOrAWeldAndNotBoth) {
   expectError({"explain", "stack.toml"}, kWrongUsage, "--at STEP");
+  expectError({"explain", "stack.toml", "--at", "51"}, kWrongUsage, "ends at step 50");
   expectError({"explain", "stack.toml", "--at", "0"}, kWrongUsage, "--at must be a whole number");
   expectError({"explain", "stack.toml", "--at", "1", "--weld", "ground", "box[0,0]"}, kWrongUsage,
               "--weld tells of a whole run");

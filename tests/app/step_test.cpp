@@ -34,6 +34,22 @@ TEST_F(Step, FollowsAScriptAndRepeatsItsLines) {
   EXPECT_THAT(outcome.err, IsEmpty());
 }
 
+/// Going back begins with another world; names, tables and pictures must not ask the first one.
+TEST_F(Step, EverythingCanBeAskedAfterGoingBack) {
+  for (const std::string back : {"back 2", "jump 2"}) {
+    for (const std::string question : {"table", "why", "body box[0,1]", "pair box[0,0] box[0,1]",
+                                       "picture then.png", "stages"}) {
+      const Outcome outcome = follow("step 5\n" + back + "\n" + question + "\n");
+      EXPECT_EQ(outcome.code, 0) << back << ", " << question << ": " << outcome.err;
+      EXPECT_THAT(outcome.err, IsEmpty());
+      std::filesystem::remove(folder() / "then.png");
+    }
+  }
+  const std::string forward = follow("step 2\nwhy\n").out,
+                    again = follow("step 5\nback 3\nwhy\n").out;
+  EXPECT_EQ(forward.substr(forward.find("> why")), again.substr(again.find("> why")));
+}
+
 TEST_F(Step, TheSameScriptGivesTheSameText) {
   const std::string script = "event\ntable\nwhy\nstages\n";
   EXPECT_EQ(follow(script).out, follow(script).out);

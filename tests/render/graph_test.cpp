@@ -1,5 +1,6 @@
 #include "render/graph.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "render/graph_layout.h"
@@ -54,6 +55,30 @@ TEST(GraphLayout, PutsBodiesAmidTheirPoints) {
   const GraphLayout layout = layOutGraph(parse("A B 2 0,0 2,0\n"));
   EXPECT_TRUE(layout.placed);
   EXPECT_EQ(layout.bodies[0], Vec2(1, 0));
+}
+
+TEST(GraphLayout, PutsWhatDoesNotHangTogetherSideBySide) {
+  std::string text;
+  for (int i = 0; i < 12; ++i) {
+    text += fmt::format("a{0} b{0} 1\nb{0} c{0} 1\nc{0} a{0} 1\n", i);
+  }
+  const ContactGraph graph = parse(text + "lonely other 0\n");
+  const GraphLayout layout = layOutGraph(graph);
+  double shortest = 1e300, longest = 0.0;  // edges
+  for (const GraphPair& pair : graph.pairs) {
+    const double length = (layout.bodies[pair.a] - layout.bodies[pair.b]).norm();
+    shortest = std::min(shortest, length);
+    if (pair.contacts > 0) longest = std::max(longest, length);
+  }
+  double nearest = 1e300;  // bodies
+  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      nearest = std::min(nearest, (layout.bodies[i] - layout.bodies[j]).norm());
+    }
+  }
+  EXPECT_GT(nearest, 0.6 * longest) << "no two bodies nearer than an edge is long, or so";
+  const Vec2 size = layout.extent.upper - layout.extent.lower;
+  EXPECT_LT(size.maxCoeff(), 14.0 * longest) << "and not much emptiness between them";
 }
 
 TEST(GraphLayout, KeepsBodiesApart) {
