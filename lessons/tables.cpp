@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 
 namespace merge2d {
 namespace {
@@ -202,21 +204,32 @@ class StageTables {
   const RowFilter& filter_;
 };
 
+/// Pairs of which some test cut the weld, whether or not others hold them together.
+std::size_t cutWelds(const Snapshot& s) {
+  std::set<std::pair<BodyId, BodyId>> pairs;
+  for (const Decision& d : s.decisions) {
+    const bool cut = d.verdict == "cut" || d.verdict == "unmerge";
+    if (d.stage == "Unmerge" && cut) pairs.insert(std::minmax(d.a, d.b));
+  }
+  return pairs.size();
+}
+
 std::size_t countVerdict(const Snapshot& s, std::string_view verdict) {
   return static_cast<std::size_t>(std::ranges::count(s.decisions, verdict, &Decision::verdict));
 }
 
 std::string solveSummary(const StepRecord& record) {
-  std::size_t sticking = 0, sliding = 0;
+  std::size_t sticking = 0, sliding = 0, open = 0;
   for (const ContactView& c : record[Stage::SolveLCP].after.contacts) {
     if (c.internal) continue;
     sticking += c.state == ContactState::Sticking;
     sliding += c.state == ContactState::Sliding;
+    open += c.state == ContactState::Broken;
   }
   const Stats& stats = record.after.stats;
-  return fmt::format("{} solved: {} stick, {} slide; residual {}",
+  return fmt::format("{} solved: {} stick, {} slide, {} carry nothing; residual {}",
                      counted(static_cast<std::size_t>(stats.contacts), "contact", "contacts"),
-                     sticking, sliding, shortNumber(stats.residual));
+                     sticking, sliding, open, shortNumber(stats.residual));
 }
 
 /// How many bodies moved, and how far at most.
@@ -342,9 +355,10 @@ std::string summary(const StepRecord& record, Stage stage) {
     }
     case Stage::Unmerge: {
       const auto ended = std::ranges::count(after.events, EventType::Unmerge, &Event::type);
-      return fmt::format(
-          "{} ended; {} → {}", count(static_cast<std::size_t>(ended), "weld", "welds"),
-          count(before.collections.size(), "collection", "collections"), after.collections.size());
+      return fmt::format("{} cut, {} came apart; {} → {}", count(cutWelds(after), "weld", "welds"),
+                         count(static_cast<std::size_t>(ended), "pair", "pairs"),
+                         count(before.collections.size(), "collection", "collections"),
+                         after.collections.size());
     }
     case Stage::SolveLCP:
       return solveSummary(record);

@@ -60,12 +60,15 @@ void drawStageCaption(Painter& painter, const FrameScene& scene, const StepRecor
                                        static_cast<std::size_t>(stage) + 1, name(stage));
   painter.write(painter.text().elided(head, title, ribbon - gap - margin), title, {margin, first},
                 theme.ink);
-  const std::string clock =
-      fmt::format("{}  ·  t = {:.2f} s", scene.style.title, record.after.time);
-  const std::string shown = painter.text().elided(clock, small, 0.35F * scene.layout.caption.width);
+  // What the stage did comes first: where it is long, the scene's title goes.
+  const std::string said = caption.purpose + "  " + sentence(caption.summary);
+  const std::string time = fmt::format("t = {:.2f} s", record.after.time);
+  std::string shown = painter.text().elided(fmt::format("{}  ·  {}", scene.style.title, time),
+                                            small, 0.35F * scene.layout.caption.width);
+  const float room = right - gap - margin - painter.text().width(said, small);
+  if (painter.text().width(shown, small) > room) shown = time;
   const float clock_left = right - painter.text().width(shown, small);
   painter.write(shown, small, {clock_left, second}, theme.ink_soft);
-  const std::string said = caption.purpose + "  " + sentence(caption.summary);
   painter.write(painter.text().elided(said, small, clock_left - gap - margin), small,
                 {margin, second}, theme.ink);
 }
