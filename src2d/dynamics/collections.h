@@ -1,6 +1,7 @@
 #pragma once
 /// Collections as data: members, welds, and the contacts inside (Section 4).
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -42,7 +43,7 @@ struct InternalContact {
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in the collection's frame
   std::int64_t since = 0;       ///< step of the merge that brought it in
   int count = 0;
-  InternalPoint points[2];
+  std::array<InternalPoint, 2> points;
 
   /// As a contact of the table.
   Contact released() const {
