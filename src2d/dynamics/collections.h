@@ -45,6 +45,9 @@ struct InternalContact {
   int count = 0;
   std::array<InternalPoint, 2> points;
 
+  InternalPoint& point(int i) { return points[static_cast<std::size_t>(i)]; }
+  const InternalPoint& point(int i) const { return points[static_cast<std::size_t>(i)]; }
+
   /// As a contact of the table.
   Contact released() const {
     Contact contact;

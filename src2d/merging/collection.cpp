@@ -210,7 +210,7 @@ void absorbContacts(State& state) {
     inner.normal = from_a.rotation * contact.normal;
     for (int i = 0; i < contact.count; ++i) {
       const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];
-      InternalPoint& point = inner.points[i];
+      InternalPoint& point = inner.point(i);
       point.position = from_a * p.position;
       point.gap = p.gap;
       point.lambda_n = p.lambda_n;
@@ -228,8 +228,8 @@ void saveForces(Collection& c) {
     const ContactBlock& k = c.blocks[i];
     InternalContact& contact = c.contacts[c.block_contact[i]];
     for (int p = 0; p < k.count; ++p) {
-      contact.points[p].lambda_n = k.lambda_n(p);
-      contact.points[p].lambda_t = k.lambda_t(p);
+      contact.point(p).lambda_n = k.lambda_n(p);
+      contact.point(p).lambda_t = k.lambda_t(p);
     }
   }
 }

@@ -110,7 +110,7 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
   k.bilateral = isBilateral(state, contact.key.a, contact.key.b);
   for (int i = 0; i < contact.count; ++i) {
-    const InternalPoint& p = contact.points[i];
+    const InternalPoint& p = contact.point(i);
     k.lambda_n(i) = p.lambda_n;
     k.lambda_t(i) = p.lambda_t;
     k.bias[i] = p.active ? 0.0 : std::max(0.0, p.gap) / state.h;  // may not have met yet

@@ -55,7 +55,7 @@ void WeldTest::testContacts(std::uint32_t b) {
   const std::uint32_t weld = c_.block_weld[b];
   c_.watched[b] = 0;
   for (int i = 0; i < k.count; ++i) {
-    InternalPoint& point = inner.points[i];
+    InternalPoint& point = inner.point(i);
     const bool pressed = !broken(k, i), edge = pressed && onEdge(k, i);
     const bool was_lost = point.lost, was_active = point.active;
     if (pressed) {
@@ -222,7 +222,7 @@ int activeContacts(const Collection& c, const Weld& weld) {
   int active = weld.joints;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const InternalContact& inner = c.contacts[i];
-    for (int p = 0; p < inner.count; ++p) active += inner.points[p].active && !inner.points[p].lost;
+    for (int p = 0; p < inner.count; ++p) active += inner.point(p).active && !inner.point(p).lost;
   }
   return active;
 }
