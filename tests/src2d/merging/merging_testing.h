@@ -100,4 +100,14 @@ inline Pose seenFrom(const BodyState& frame, const BodyState& body) {
   return frame.pose().inverse() * body.pose();
 }
 
+/// Both rules as the paper has them.
+inline const Overrides kPaper{{"merging.rule", "\"paper\""}, {"unmerging.rule", "\"paper\""}};
+
+/// How many events of this type and reason the last step had.
+inline int events(const Simulation& run, EventType type, EventReason reason) {
+  int count = 0;
+  for (const Event& e : run.world().events()) count += e.type == type && e.reason == reason;
+  return count;
+}
+
 }  // namespace merge2d

@@ -9,14 +9,6 @@
 namespace merge2d {
 namespace {
 
-const Overrides kPaper{{"merging.rule", "\"paper\""}, {"unmerging.rule", "\"paper\""}};
-
-int events(const Simulation& run, EventType type, EventReason reason) {
-  int count = 0;
-  for (const Event& e : run.world().events()) count += e.type == type && e.reason == reason;
-  return count;
-}
-
 const std::string kColumn = kGround + R"(
 [[body]]
 name = "box"
@@ -196,118 +188,6 @@ TEST_P(RowHit, MovesAsInTheReference) {
   EXPECT_NEAR(merged.second, reference.second, 0.05 * scale);
 }
 INSTANTIATE_TEST_SUITE_P(Impulses, RowHit, testing::Values(1.0, 3.0, 10.0));
-
-// ---- pivots ----
-
-const std::string kSeeSaw = kGround + R"(
-[[body]]
-name = "pivot"
-motion = "pinned"
-polygon = [[-0.4, 0], [0.4, 0], [0, 0.5]]
-[[body]]
-name = "beam"
-at = [0.02, 0.6]
-box = [4, 0.2]
-)";
-
-TEST(Unmerge, ASeeSawOutOfBalanceTips) {
-  for (const char* let_go : {"", "pinned_until = 2\n"}) {
-    Simulation reference(kSeeSaw + let_go, Mode::Reference);
-    Simulation merged(kSeeSaw + let_go, Mode::MergeSleep);
-    reference.until(15.0);
-    merged.until(15.0);
-    EXPECT_LT(reference.body("beam").angle, -0.2);
-    EXPECT_NEAR(merged.body("beam").angle, reference.body("beam").angle, 0.02);
-  }
-}
-
-TEST(Unmerge, UnderThePapersRuleTheSeeSawIsStuck) {
-  Overrides paper = kPaper;
-  Simulation run(kSeeSaw, Mode::Merge, paper);
-  run.until(15.0);
-  EXPECT_TRUE(run.merged("beam"));
-  EXPECT_NEAR(run.body("beam").angle, 0.0, 0.05);
-}
-
-TEST(Unmerge, AWeldThatTurnsBreaksAfterTheGivenSteps) {  // Figure 4, Section 6.4
-  for (const int steps : {3, 6}) {
-    Overrides overrides{{"merging.cycles", "\"off\""}, {"unmerging.steps", std::to_string(steps)}};
-    std::string balanced = kSeeSaw;
-    balanced.replace(balanced.find("[0.02, 0.6]"), 11, "[0.00, 0.6]");
-    Simulation run(balanced + R"(
-[[force]]
-body = "beam"
-at = [1.9, 0]
-force = [0, -8]
-from = 4
-)",
-                   Mode::Merge, overrides);
-    run.until(4.0);
-    ASSERT_TRUE(run.merged("beam"));
-    run.steps(steps - 1, [&] { ASSERT_TRUE(run.merged("beam")) << steps; });
-    run.steps(1);
-    EXPECT_FALSE(run.merged("beam"));
-    EXPECT_EQ(events(run, EventType::Unmerge, EventReason::RelativeMotion), 1);
-    run.until(6.0);
-    EXPECT_LT(run.body("beam").angle, -0.2);
-  }
-}
-
-TEST(Unmerge, APlankWhoseSupportIsKnockedAwayFalls) {
-  const std::string scene = kGround + R"(
-[[body]]
-name = "left"
-at = [-2, 0.5]
-box = [0.4, 1]
-[[body]]
-name = "right"
-at = [2, 0.5]
-box = [0.4, 1]
-[[body]]
-name = "plank"
-at = [0, 1.1]
-box = [5, 0.2]
-friction = 0.05
-)";
-  const auto end = [&](Mode mode) {
-    Simulation run(scene, mode);
-    run.until(4.0);
-    EXPECT_EQ(run.merged("plank"), merges(mode));
-    run.kick("right", {4.0, 0.0}, {0.0, -0.2});
-    run.until(7.0);
-    return run.body("plank");
-  };
-  const BodyState reference = end(Mode::Reference), merged = end(Mode::MergeSleep);
-  EXPECT_LT(reference.x.y(), 0.9);
-  EXPECT_NEAR(merged.x.y(), reference.x.y(), 0.1);
-  EXPECT_NEAR(merged.angle, reference.angle, 0.1);
-}
-
-TEST(Unmerge, APlankFallsWhenItsMagnetLetsGo) {
-  for (const Mode mode : {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {
-    SCOPED_TRACE(name(mode));
-    Simulation run(R"(
-format = 1
-[[body]]
-name = "crane"
-motion = "pinned"
-at = [0, 10.5]
-box = [2, 1]
-[[body]]
-name = "plank"
-at = [0, 9.9]
-box = [1.5, 0.2]
-[[magnet]]
-body = "crane"
-on = [[0, 3]]
-)",
-                   mode);
-    run.until(3.0);
-    EXPECT_NEAR(run.body("plank").x.y(), 9.9, 0.02);
-    run.until(4.0);
-    EXPECT_NEAR(run.body("plank").x.y(), 9.9 - 0.5 * 9.81, 0.1);
-  }
-}
 
 // ---- forces ----
 
