@@ -55,10 +55,10 @@ void fields(Ar& ar, Some<Extent> auto& e) {
 template <class Ar>
 void fields(Ar& ar, Some<Rigid> auto& r) {
   auto& [x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
-         inv_inertia, extent, anchor, leaf, quiet_steps, asleep, resized] = r;
+         inv_inertia, extent, anchor, leaf, quiet_steps, asleep, resized, member] = r;
   bool present = r.present();
   ar(x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
-     inv_inertia, extent, anchor, present, quiet_steps, asleep, resized);
+     inv_inertia, extent, anchor, present, quiet_steps, asleep, resized, member);
   if constexpr (!std::is_const_v<std::remove_reference_t<decltype(r)>>) leaf = present ? 0 : -1;
 }
 template <class Ar>
@@ -133,17 +133,17 @@ void fields(Ar& ar, Some<InternalContact> auto& c) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {
-  auto& [a, b, first, count, joints, loud_steps, cut, reason] = w;
-  ar(a, b, first, count, joints, loud_steps, cut, reason);
+  auto& [a, b, first, count, turning, joints, cut, reason] = w;
+  ar(a, b, first, count, turning, joints, cut, reason);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
          cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v, frame_gain,
-         frame_known, settled, refuted] = c;
+         frame_known, residual, settled, unfinished, refuted] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
      cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v, frame_gain,
-     frame_known, settled, refuted);
+     frame_known, residual, settled, unfinished, refuted);
 }
 
 template <class Ar>

@@ -70,9 +70,9 @@ struct InternalContact {
 struct Weld {
   BodyId a{}, b{};
   std::uint32_t first = 0, count = 0;
-  int joints = 0;      ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
-  int loud_steps = 0;  ///< consecutive steps above the unmerging threshold
-  bool cut = false;    ///< found broken, sliding or moving in this step
+  Drift turning{};          ///< of a pivot, over consecutive steps
+  std::int16_t joints = 0;  ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
+  bool cut = false;         ///< found broken, sliding or moving in this step
   EventReason reason = EventReason::None;
 };
 
@@ -97,8 +97,10 @@ struct Collection {
   bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
   Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
   int frame_known = 0;                                     ///< steps since it was formed, up to 2
-  bool settled = false;  ///< inner forces did not change in the last sweep
-  bool refuted = false;  ///< more sweeps did not confirm what seemed to part, and nothing is new
+  float residual = 0.0F;    ///< largest change of a member's velocity in the last sweep [m/s]
+  bool settled = false;     ///< inner forces did not change in the last sweep
+  bool unfinished = false;  ///< the sweeps of the last step were spent before they converged
+  bool refuted = false;     ///< more sweeps did not confirm what seemed to part, and nothing is new
 };
 
 /// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.

@@ -36,7 +36,8 @@ struct Contact {
   ContactKey key;
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in a's frame; inside a collection in its frame
   int count = 0;
-  int quiet_steps = 0;  ///< consecutive steps in which the pair could have merged
+  /// Consecutive steps in which the pair could have merged; below 0 it may not yet.
+  int quiet_steps = 0;
   std::array<ContactPoint, 2> points;
 };
 

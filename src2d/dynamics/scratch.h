@@ -112,14 +112,15 @@ struct Scratch {
   bool sweeping = false;                ///< some collection is swept
   std::int64_t last_sweep = -1;         ///< step whose velocities are in sweep_u
   std::vector<SolverVelocity> sweep_u;  ///< per body
-  std::vector<Twist> sweep_before;      ///< per member
   std::vector<SweepContact> sweep_contacts;
   std::vector<JointBlock> sweep_joints;       ///< outside collections
   std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
   std::vector<std::uint8_t> disturbed;        ///< per collection slot
+  std::vector<std::uint8_t> restless_bodies;  ///< per body: a sweep still changes it
 
   // Unmerge
   bool split = false;                      ///< some collection was taken apart
+  std::vector<std::uint32_t> doubted;      ///< bodies at welds that may part
   std::vector<std::uint32_t> cuts_before;  ///< welds of the collection at hand
 
   // Merge

@@ -182,11 +182,6 @@ RigidId anchorRigid(State& state, RigidId id, BodyId anchor) {
 
 FrameId frameOf(const State& state, BodyId body) { return state[rigidOf(body)].anchor; }
 
-std::size_t memberIndex(const Collection& collection, BodyId body) {
-  const auto at = std::lower_bound(collection.members.begin(), collection.members.end(), body);
-  return static_cast<std::size_t>(at - collection.members.begin());
-}
-
 void absorbContacts(State& state) {
   std::vector<RigidId> touched;
   dropContacts(state, [&](const Contact& contact) {

@@ -55,7 +55,4 @@ void freeCollection(State& state, RigidId id);
 /// The frame that a pinned or scripted body belongs to.
 FrameId frameOf(const State& state, BodyId body);
 
-/// The i-th member's index in `members`.
-std::size_t memberIndex(const Collection& collection, BodyId body);
-
 }  // namespace merge2d

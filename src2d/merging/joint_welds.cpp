@@ -4,7 +4,7 @@
 
 #include "src2d/merging/collection.h"
 #include "src2d/merging/merge.h"
-#include "src2d/merging/sweep.h"
+#include "src2d/merging/refine.h"
 
 namespace merge2d {
 namespace {
@@ -65,7 +65,7 @@ bool updateWelds(const State& state, Collection& c) {
     const int contacts = holdOf(state, c, weld).contacts();
     c.pivots_stale |= contacts != weld.joints;
     less |= contacts < weld.joints;
-    weld.joints = contacts;
+    weld.joints = static_cast<std::int16_t>(contacts);
   }
   return less;
 }
@@ -153,7 +153,7 @@ void breakJointsInside(State& state, Collection& c) {
   std::erase_if(c.joints, [&](const JointBlock& k) { return state.joints[k.joint].broken; });
   for (Weld& weld : c.welds) {
     const bool held = weld.joints > 0;
-    weld.joints = holdOf(state, c, weld).contacts();
+    weld.joints = static_cast<std::int16_t>(holdOf(state, c, weld).contacts());
     if (!held || weld.joints > 0 || weld.count > 0) continue;
     weld.cut = true;
     weld.reason = EventReason::Broken;

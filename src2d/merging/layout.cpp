@@ -1,7 +1,9 @@
 /// The derived data of a collection: mass, boxes, welds and the blocks of its sweep.
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <numeric>
 
 #include "src2d/merging/collection.h"
 #include "src2d/merging/joint_sweep.h"
@@ -46,8 +48,14 @@ void gatherMass(State& state, RigidId id) {
 
 namespace {
 
-/// The oriented box of all members (Section 5.2).
+/// The oriented box of all members (Section 5.2). What is fixed to a frame is never asked for its
+/// motion, and any box will do.
 void fitBox(State& state, RigidId id) {
+  if (!state[id].floating()) {
+    Extent& extent = state.extents[state[id].extent];
+    extent.box = {{extent.bounds.center(), {}}, 0.5 * extent.bounds.extent()};
+    return;
+  }
   thread_local std::vector<Vec2> points;
   points.clear();
   for (const BodyId b : state.collection(id).members) {
@@ -76,7 +84,7 @@ void layOutWelds(const State& state, Collection& c) {
   for (Weld& weld : c.welds) {
     while (o < old.size() && std::pair(old[o].a, old[o].b) < std::pair(weld.a, weld.b)) ++o;
     if (o == old.size()) break;
-    if (old[o].a == weld.a && old[o].b == weld.b) weld.loud_steps = old[o].loud_steps;
+    if (old[o].a == weld.a && old[o].b == weld.b) weld.turning = old[o].turning;
   }
 }
 
@@ -122,26 +130,28 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
 /// The order of an undisturbed sweep: active contacts first, by colour, so that blocks in a row
 /// share no body and need not wait for each other.
 void layOutBlocks(const State& state, Collection& c) {
-  struct Item {
-    bool dormant;
-    std::uint32_t colour, contact;
-    auto operator<=>(const Item&) const = default;
-  };
-  std::vector<Item> items;
+  constexpr std::uint32_t kColours = 64;
+  std::vector<std::uint32_t> colour_of;  // dormant contacts follow after all others
+  std::array<std::uint32_t, 2 * kColours + 1> first{};
   std::vector<std::uint64_t> used(c.members.size(), 0);
   const auto colours = [&](BodyId b) -> std::uint64_t* {
-    return state[b].rigid == c.rigid ? &used[memberIndex(c, b)] : nullptr;
+    return state[b].rigid == c.rigid ? &used[state[rigidOf(b)].member] : nullptr;
   };
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
     const InternalContact& inner = c.contacts[i];
     std::uint64_t *a = colours(inner.key.a), *b = colours(inner.key.b);
     const std::uint64_t taken = (a ? *a : 0) | (b ? *b : 0);
-    const auto colour = static_cast<std::uint32_t>(std::min(std::countr_one(taken), 63));
+    const auto colour = std::min<std::uint32_t>(std::countr_one(taken), kColours - 1);
     if (a) *a |= std::uint64_t{1} << colour;
     if (b) *b |= std::uint64_t{1} << colour;
-    items.push_back({!inner.points[0].active && !inner.points[1].active, colour, i});
+    const bool dormant = !inner.points[0].active && !inner.points[1].active;
+    colour_of.push_back(colour + (dormant ? kColours : 0));
+    ++first[colour_of.back() + 1];
   }
-  std::sort(items.begin(), items.end());
+  c.active_blocks = std::accumulate(first.begin(), first.begin() + kColours + 1, 0u);
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  c.block_contact.resize(colour_of.size());
+  for (std::uint32_t i = 0; i < colour_of.size(); ++i) c.block_contact[first[colour_of[i]]++] = i;
 
   std::vector<std::uint32_t> weld_of(c.contacts.size());
   for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
@@ -149,20 +159,16 @@ void layOutBlocks(const State& state, Collection& c) {
   }
   c.blocks.clear();
   c.blocks.shrink_to_fit();
-  c.blocks.reserve(items.size());
-  c.block_contact.clear();
+  c.blocks.reserve(c.contacts.size());
   c.block_weld.clear();
   c.watched.assign(c.contacts.size(), 1);
   c.cut_welds.clear();
   c.pivots_stale = true;
-  c.active_blocks = 0;
-  for (const Item& item : items) {
-    InternalContact& inner = c.contacts[item.contact];
+  for (const std::uint32_t contact : c.block_contact) {
+    InternalContact& inner = c.contacts[contact];
     c.blocks.push_back(makeBlock(state, c, inner));
     inner.count = c.blocks.back().count;  // points too close to each other count as one
-    c.block_contact.push_back(item.contact);
-    c.block_weld.push_back(weld_of[item.contact]);
-    if (!item.dormant) ++c.active_blocks;
+    c.block_weld.push_back(weld_of[contact]);
   }
 }
 
@@ -174,7 +180,7 @@ void layOutPush(const State& state, Collection& c) {
   c.push.assign(c.members.size(), {});
   const auto add = [&](BodyId b, double sign, const Vec2& impulse, double moment) {
     if (state[b].rigid != c.rigid) return;
-    Twist& push = c.push[memberIndex(c, b)];
+    Twist& push = c.push[state[rigidOf(b)].member];
     push.vx += sign * impulse.x() / state[b].mass;
     push.vy += sign * impulse.y() / state[b].mass;
     push.omega += sign * moment / state[b].inertia;
@@ -198,6 +204,7 @@ void layOutCollections(State& state) {
     std::sort(c.contacts.begin(), c.contacts.end(),
               [](const InternalContact& x, const InternalContact& y) { return x.key < y.key; });
     c.contacts.shrink_to_fit();
+    for (std::uint32_t i = 0; i < c.members.size(); ++i) state[rigidOf(c.members[i])].member = i;
     if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
     fitBox(state, c.rigid);
     layOutJoints(state, c);

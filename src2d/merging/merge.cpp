@@ -50,25 +50,6 @@ bool weld(State& state, const BodyPair& pair) {
   return true;
 }
 
-/// The full solve has become smaller: its memory goes back.
-void releaseRows(State& state, Scratch& scratch) {
-  compactTree(state);
-  scratch.blocks.clear();
-  scratch.row_sources.clear();
-  scratch.block_order.clear();
-  scratch.sweep_contacts.clear();
-  scratch.candidates.clear();
-  scratch.near_candidates.clear();
-  scratch.nncg.before.clear();
-  scratch.nncg.direction.clear();
-  scratch.nncg.u_before.clear();
-  scratch.nncg.u_direction.clear();
-  trim(scratch.blocks, scratch.row_sources, scratch.block_order, scratch.sweep_contacts,
-       scratch.candidates, scratch.near_candidates, scratch.nncg.before, scratch.nncg.direction,
-       scratch.nncg.u_before, scratch.nncg.u_direction, scratch.pairs, scratch.ready, scratch.u,
-       scratch.sweep_before, state.broadphase.near);
-}
-
 }  // namespace
 
 void merge(State& state, Scratch& scratch) {
@@ -87,6 +68,24 @@ void merge(State& state, Scratch& scratch) {
   compactContacts(state);
   collectPairs(state, scratch);
   releaseRows(state, scratch);
+}
+
+void releaseRows(State& state, Scratch& scratch) {
+  compactTree(state);
+  scratch.blocks.clear();
+  scratch.row_sources.clear();
+  scratch.block_order.clear();
+  scratch.sweep_contacts.clear();
+  scratch.candidates.clear();
+  scratch.near_candidates.clear();
+  scratch.nncg.before.clear();
+  scratch.nncg.direction.clear();
+  scratch.nncg.u_before.clear();
+  scratch.nncg.u_direction.clear();
+  trim(scratch.blocks, scratch.row_sources, scratch.block_order, scratch.sweep_contacts,
+       scratch.candidates, scratch.near_candidates, scratch.nncg.before, scratch.nncg.direction,
+       scratch.nncg.u_before, scratch.nncg.u_direction, scratch.pairs, scratch.ready, scratch.u,
+       state.broadphase.near);
 }
 
 }  // namespace merge2d

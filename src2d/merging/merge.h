@@ -20,4 +20,7 @@ void accumulateRelativeMotion(State& state, Scratch& scratch);
 /// Welds the pairs that were ready for `merging.steps` steps.
 void merge(State& state, Scratch& scratch);
 
+/// The full solve has become smaller: its memory goes back.
+void releaseRows(State& state, Scratch& scratch);
+
 }  // namespace merge2d

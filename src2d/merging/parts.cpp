@@ -18,18 +18,19 @@ std::vector<std::uint32_t> nodesOf(const State& state, const Collection& c) {
   return node;
 }
 
-/// The contacts of a weld that hold, in the collection's frame, and what its joints are worth.
+/// The contacts of a weld that hold, seen from the first member, and what its joints are worth.
 void addPins(const State& state, const Collection& c, const Weld& weld, std::uint32_t a,
              std::uint32_t b, std::vector<Pin>& pins) {
+  const Vec2& origin = state[c.members.front()].local;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const InternalContact& inner = c.contacts[i];
     for (std::size_t p = 0; p < static_cast<std::size_t>(inner.count); ++p) {
       if (!inner.points[p].active || inner.points[p].lost) continue;
-      pins.push_back({.a = a, .b = b, .at = inner.points[p].position, .placed = true});
+      pins.push_back({.a = a, .b = b, .at = inner.points[p].position - origin, .placed = true});
     }
   }
   if (weld.joints == 0) return;
-  const Vec2 at = jointPoint(state, c, weld);
+  const Vec2 at = jointPoint(state, c, weld) - origin;
   for (int i = 0; i < weld.joints; ++i) {
     pins.push_back({.a = a, .b = b, .at = at + i * Vec2::UnitX(), .placed = true});
   }
@@ -57,8 +58,7 @@ bool holdsFirmly(const State& state, const Collection& c) {
   thread_local DisjointSets sets;  // its memory is kept
   sets.reset(c.members.size());
   const Aabb& bounds = state.extent(c.rigid).bounds;
-  const double resolution = kPointTolerance * std::max(bounds.lower.cwiseAbs().maxCoeff(),
-                                                       bounds.upper.cwiseAbs().maxCoeff());
+  const double resolution = kPointTolerance * (bounds.upper - bounds.lower).maxCoeff();
   std::size_t sets_left = c.members.size();
   bool anchored = false;
   for (const Weld& weld : c.welds) {
@@ -66,8 +66,8 @@ bool holdsFirmly(const State& state, const Collection& c) {
     const bool a_in = state[weld.a].rigid == c.rigid, b_in = state[weld.b].rigid == c.rigid;
     anchored |= !(a_in && b_in);
     if (!(a_in && b_in)) continue;
-    const auto a = static_cast<std::uint32_t>(memberIndex(c, weld.a));
-    const auto b = static_cast<std::uint32_t>(memberIndex(c, weld.b));
+    const auto a = state[rigidOf(weld.a)].member;
+    const auto b = state[rigidOf(weld.b)].member;
     if (sets.find(a) == sets.find(b)) continue;
     sets.unite(a, b);
     --sets_left;

@@ -37,7 +37,7 @@ void countQuietPairs(State& state, Scratch& scratch) {
     Contact& first = state.contacts[state.contacts.order[pair.first]];
     const int count = first.quiet_steps;
     PairTest test(state, pair, scratch.notes);
-    const int now = test.ready() ? count + 1 : 0;
+    const int now = test.ready() || count < 0 ? count + 1 : 0;
     test.noteCount(count, now);
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
       state.contacts[state.contacts.order[i]].quiet_steps = now;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src2d/merging/merge.h"
+
 namespace merge2d {
 namespace {
 
@@ -98,13 +100,17 @@ void noteSleep(const State& state, Notes* notes, std::size_t i, bool restless, b
   notes->decisions.push_back(d);
 }
 
-bool ready(const State& state, std::size_t i, bool restless) {
+/// What keeps an island awake: the strongest reason of its members.
+enum Awake : std::uint8_t { kNothing, kInnerForces, kMotion };
+
+Awake reasonToStay(const State& state, std::size_t i, bool restless) {
   const Rigid& r = state.rigids[i];
-  if (restless) return false;
-  if (r.asleep) return true;
+  if (restless) return kMotion;
+  if (r.asleep) return kNothing;
+  if (r.quiet_steps < state.settings.sleeping.steps) return kMotion;
   const bool collection = i >= state.bodies.size();
-  if (collection && !state.collections[i - state.bodies.size()].settled) return false;
-  return r.quiet_steps >= state.settings.sleeping.steps;
+  const bool settled = !collection || state.collections[i - state.bodies.size()].settled;
+  return settled ? kNothing : kInnerForces;
 }
 
 }  // namespace
@@ -117,6 +123,11 @@ void wakeUp(State& state, Scratch& scratch, RigidId id) {
   const BodyId first = c ? c->members.front() : BodyId{static_cast<std::uint32_t>(id)};
   scratch.events.push_back(
       {EventType::Wake, first, first, c ? c->id : kNoCollection, EventReason::None});
+}
+
+bool awaitsInnerForces(const State& state, Scratch& scratch, RigidId id) {
+  if (!sleeps(state.mode)) return false;
+  return scratch.island_awake[scratch.sets.find(static_cast<std::uint32_t>(id))] == kInnerForces;
 }
 
 void sleepAndWake(State& state, Scratch& scratch) {
@@ -144,9 +155,11 @@ void sleepAndWake(State& state, Scratch& scratch) {
   auto& awake = scratch.island_awake;
   awake.assign(state.rigids.size(), 0);
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
-    if (!canSleep(state.rigids[i], state, i) || ready(state, i, restless[i] != 0)) continue;
-    awake[sets.find(static_cast<std::uint32_t>(i))] = 1;
+    if (!canSleep(state.rigids[i], state, i)) continue;
+    std::uint8_t& island = awake[sets.find(static_cast<std::uint32_t>(i))];
+    island = std::max<std::uint8_t>(island, reasonToStay(state, i, restless[i] != 0));
   }
+  bool any = false;
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
     if (!canSleep(state.rigids[i], state, i)) continue;
     const bool stays_awake = awake[sets.find(static_cast<std::uint32_t>(i))] != 0;
@@ -154,8 +167,11 @@ void sleepAndWake(State& state, Scratch& scratch) {
     if (state.rigids[i].asleep && stays_awake) {
       wakeUp(state, scratch, RigidId{static_cast<std::uint32_t>(i)});
     }
-    if (!state.rigids[i].asleep && !stays_awake) fallAsleep(state, scratch, i);
+    if (state.rigids[i].asleep || stays_awake) continue;
+    fallAsleep(state, scratch, i);
+    any = true;
   }
+  if (any) releaseRows(state, scratch);
 }
 
 }  // namespace merge2d

@@ -86,7 +86,12 @@ RigidId newPart(State& state, const std::vector<BodyId>& members,
 }
 
 /// Contacts between the parts return to the table with their impulses and today's geometry.
+/// Deviation: a weld that broke soon after it had formed waits for the rest of this time before its
+/// contacts are looked at again, or the pair would merge and part in turn while it barely moves.
+/// Guarded by Unmerge.AWeldThatBrokeAtOnceDoesNotFormAtOnce.
 void releaseContacts(State& state, std::vector<InternalContact>& released) {
+  constexpr int kFlicker = 20;  // steps
+  const bool paper = state.settings.unmerging.rule == Rule::Paper;
   std::vector<ContactKey> keys;
   for (const InternalContact& inner : released) keys.push_back(inner.key);
   std::sort(keys.begin(), keys.end());
@@ -99,6 +104,8 @@ void releaseContacts(State& state, std::vector<InternalContact>& released) {
                                      });
     Contact& contact = state.contacts[*at];
     contact = inner.released();
+    const auto lived = static_cast<int>(state.step - inner.since);
+    if (!paper) contact.quiet_steps = std::min(0, lived - kFlicker);
     updateManifold(state, contact, 0.0);
   }
 }
@@ -122,7 +129,7 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
   std::vector<InternalContact> released;
   {
     const Collection& c = state.collection(id);
-    const auto partOf = [&](BodyId b) { return part[memberIndex(c, b)]; };
+    const auto partOf = [&](BodyId b) { return part[state[rigidOf(b)].member]; };
     for (const InternalContact& inner : c.contacts) {
       const BodyId a = inner.key.a, b = inner.key.b;
       const bool a_in = state[a].rigid == id, b_in = state[b].rigid == id;

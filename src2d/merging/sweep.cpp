@@ -3,49 +3,19 @@
 #include <algorithm>
 
 #include "src2d/core/memory.h"
-#include "src2d/dynamics/nncg.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/ordering.h"
+#include "src2d/merging/refine.h"
+#include "src2d/merging/sleep.h"
 
 namespace merge2d {
 namespace {
 
-void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocity>& u,
-                SolverMethod method) {
-  const double nx = turn.c * k.nx - turn.s * k.ny, ny = turn.s * k.nx + turn.c * k.ny;
-  if (method == SolverMethod::Pgs) {
-    solveRows(k, nx, ny, u[k.a], u[k.b]);
-  } else {
-    solveBlock(k, nx, ny, u[k.a], u[k.b]);
-  }
-}
-
-/// Contacts and joints in the order of a disturbed step: outside ones and those inside disturbed
-/// collections.
-struct SweepItem {
-  ContactBlock* block;
-  JointBlock* joint;  ///< when there is no contact
-  Rotation turn;
-
-  std::uint32_t a() const { return block ? block->a : joint->a; }
-  std::uint32_t b() const { return block ? block->b : joint->b; }
-  Impulses& impulses() const { return block ? block->lambda : joint->lambda; }
-};
-
-void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method) {
-  if (item.block) return sweepBlock(*item.block, item.turn, u, method);
-  solveJoint(*item.joint, item.turn, u[item.joint->a], u[item.joint->b]);
-}
-
-std::vector<SweepItem> disturbedOrder(State& state, Scratch& scratch) {
+/// Contacts and joints of a disturbed step: outside ones and those inside disturbed collections.
+std::vector<SweepItem> disturbedItems(State& state, Scratch& scratch) {
   std::vector<SweepItem> items;
-  std::vector<GraphEdge> edges;
-  const auto add = [&](const SweepItem& item) {
-    items.push_back(item);
-    edges.push_back({item.a(), item.b()});
-  };
   // Of the contacts outside, those at disturbed collections and the fresh ones between free bodies.
   const auto concerned = [&](std::uint32_t b) {
     if (b >= state.bodies.size()) return true;  // the world
@@ -53,43 +23,47 @@ std::vector<SweepItem> disturbedOrder(State& state, Scratch& scratch) {
     return !state.isCollection(id) || scratch.disturbed[index(id) - state.bodies.size()];
   };
   for (SweepContact& outer : scratch.sweep_contacts) {
-    if (concerned(outer.block.a) && concerned(outer.block.b)) add({&outer.block, nullptr, {}});
+    const ContactBlock& k = outer.block;
+    if (concerned(k.a) && concerned(k.b)) items.push_back({&outer.block, nullptr, {}});
   }
   for (JointBlock& k : scratch.sweep_joints) {
-    if (concerned(k.a) && concerned(k.b)) add({nullptr, &k, {}});
+    if (concerned(k.a) && concerned(k.b)) items.push_back({nullptr, &k, {}});
   }
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
     const Rotation& turn = state[c.rigid].rotation;
-    for (ContactBlock& k : c.blocks) add({&k, nullptr, turn});
-    for (JointBlock& k : c.joints) add({nullptr, &k, turn});
+    for (ContactBlock& k : c.blocks) items.push_back({&k, nullptr, turn});
+    for (JointBlock& k : c.joints) items.push_back({nullptr, &k, turn});
   }
-  std::vector<std::uint8_t> passable(scratch.sweep_u.size());
-  for (std::size_t i = 0; i < passable.size(); ++i) {
-    passable[i] = scratch.sweep_u[i].inv_mass > 0.0;
-  }
+  return items;
+}
+
+/// For who asks: the whole order of a disturbed step.
+void noteOrder(const State& state, Scratch& scratch, const std::vector<SweepItem>& items) {
+  if (!scratch.notes) return;
   std::vector<std::uint32_t> depth;
-  const auto order = breadthFirst(static_cast<std::uint32_t>(passable.size()), edges, scratch.seeds,
-                                  passable, scratch.notes ? &depth : nullptr);
-  if (scratch.notes) {
-    for (const std::uint32_t i : order) {
-      if (std::max(edges[i].a, edges[i].b) >= state.bodies.size()) continue;  // to the world
-      scratch.notes->order.push_back(
-          {BodyId{edges[i].a}, BodyId{edges[i].b}, static_cast<int>(depth[i])});
-    }
+  const auto ordered = orderedFrom(scratch.seeds, scratch, items, &depth);
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    const std::uint32_t a = ordered[i].a(), b = ordered[i].b();
+    if (std::max(a, b) >= state.bodies.size()) continue;  // to the world
+    scratch.notes->order.push_back({BodyId{a}, BodyId{b}, static_cast<int>(depth[i])});
   }
-  std::vector<SweepItem> ordered;
-  ordered.reserve(order.size());
-  for (const std::uint32_t i : order) ordered.push_back(items[i]);
-  return ordered;
+}
+
+/// Where a sweep changes something by `blow`, sweeps go on until they change a hundredth of it
+/// [m/s].
+double enoughAfter(const State& state, double blow) {
+  constexpr double kPart = 0.01;
+  return std::max(residualVelocity(state), std::min(kPart * blow, refinedVelocity(state)));
 }
 
 /// Sweeps over the active contacts of a collection. What they change is added to each member's
-/// push. Returns the largest change of a member's velocity [m/s].
+/// push. Returns the largest change of a member's velocity [m/s]; those for whom it was not enough
+/// are marked as restless.
 double sweepInside(const State& state, Collection& c, Scratch& scratch, int sweeps) {
   auto& u = scratch.sweep_u;
-  auto& before = scratch.sweep_before;
+  auto& before = scratch.nncg.u_before;  // idle now
   const std::size_t n = c.members.size();
   reserveTightly(before, n);
   before.resize(std::max(before.size(), n));
@@ -112,54 +86,86 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
     c.push[i].vx += change.x();
     c.push[i].vy += change.y();
     c.push[i].omega += m.omega - before[i].omega;
-    largest = std::max(largest, change.squaredNorm());
+    before[i].vx = change.squaredNorm();
+    largest = std::max(largest, before[i].vx);
   }
-  return std::sqrt(largest);
+  largest = std::sqrt(largest);
+  const double enough = enoughAfter(state, largest);
+  for (std::size_t i = 0; i < n; ++i) {
+    scratch.restless_bodies[index(c.members[i])] = before[i].vx > enough * enough;
+  }
+  return largest;
 }
 
-/// A collection that nothing disturbs is swept once; one that could sleep but for its inner forces
-/// a few times more, so that it soon can.
-void sweepUndisturbed(const State& state, Collection& c, Scratch& scratch) {
+/// Sweeps go on where something is new.
+bool refines(const UnmergingSettings& settings) {
+  return settings.rule == Rule::Default && settings.ordering;
+}
+
+/// Sweeps one collection once; one that could sleep but for its inner forces a few times more, so
+/// that it soon can. Returns the largest change [m/s].
+double sweepOnce(const State& state, Collection& c, Scratch& scratch) {
   const UnmergingSettings& settings = state.settings.unmerging;
-  const bool resting =
-      sleeps(state.mode) && state[c.rigid].quiet_steps >= state.settings.sleeping.steps;
-  if (resting && !c.settled) sweepInside(state, c, scratch, settings.disturbed_sweeps);
+  if (awaitsInnerForces(state, scratch, c.rigid)) {
+    sweepInside(state, c, scratch, settings.disturbed_sweeps);
+  }
   const double change = sweepInside(state, c, scratch, settings.sweeps);
+  c.residual = static_cast<float>(change);
   c.settled = change <= residualVelocity(state);
+  const double most = c.unfinished ? residualVelocity(state) : refinedVelocity(state);
+  c.unfinished = false;
+  if (refines(settings) && change > most) {
+    scratch.disturbed[index(c.rigid) - state.bodies.size()] = 1;
+  }
+  return change;
 }
 
-/// Several sweeps in the order given, accelerated as in the full solve.
-void sweepConverging(const State& state, Scratch& scratch, const std::vector<SweepItem>& items) {
-  const UnmergingSettings& settings = state.settings.unmerging;
-  const SolverMethod method = state.settings.solver.method;
-  std::vector<std::uint32_t> bodies;
-  for (const SweepItem& item : items) {
-    for (const std::uint32_t b : {item.a(), item.b()}) {
-      if (scratch.sweep_u[b].inv_mass > 0.0) bodies.push_back(b);
+/// What a refinement of many contacts needed, and the full solve does not.
+void releaseBuffers(Scratch& scratch) {
+  NncgBuffers& m = scratch.nncg;
+  if (m.before.size() <= 2 * scratch.blocks.size()) return;
+  m.before.clear();
+  m.direction.clear();
+  m.u_direction.clear();
+  trim(m.before, m.direction, m.u_direction);
+}
+
+bool anyDisturbed(const Scratch& scratch) {
+  return std::any_of(scratch.disturbed.begin(), scratch.disturbed.end(),
+                     [](std::uint8_t d) { return d != 0; });
+}
+
+/// As in the paper: one sweep over all of a disturbed collection, breadth first from what is new.
+void sweepBreadthFirst(State& state, Scratch& scratch) {
+  spreadDisturbance(state, scratch);
+  const std::vector<SweepItem> items = disturbedItems(state, scratch);
+  noteOrder(state, scratch, items);
+  const std::vector<SweepItem> ordered = orderedFrom(scratch.seeds, scratch, items);
+  for (int s = 0; s < state.settings.unmerging.sweeps; ++s) {
+    for (const SweepItem& item : ordered) {
+      sweepItem(item, scratch.sweep_u, state.settings.solver.method);
     }
   }
-  std::sort(bodies.begin(), bodies.end());
-  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
-  Nncg iteration(
-      items.size(), [&](std::size_t i) -> Impulses& { return items[i].impulses(); }, bodies.size(),
-      [&](std::size_t i) -> SolverVelocity& { return scratch.sweep_u[bodies[i]]; },
-      [&] {
-        for (const SweepItem& item : items) sweepItem(item, scratch.sweep_u, method);
-      },
-      scratch.nncg);
-  const bool paper = settings.rule == Rule::Paper;
-  iteration.run(paper ? settings.sweeps : settings.disturbed_sweeps,
-                method == SolverMethod::Nncg && !paper);
+  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
+    if (scratch.disturbed[slot]) layOutPush(state, state.collections[slot]);
+  }
 }
 
-/// Breadth first from what is new, over contacts inside and outside.
-void sweepDisturbed(State& state, Scratch& scratch) {
-  sweepConverging(state, scratch, disturbedOrder(state, scratch));
+/// Breadth first from what is new, and from what the sweep changed: `blow` at most.
+void refineDisturbed(State& state, Scratch& scratch, double blow) {
+  if (!anyDisturbed(scratch)) return releaseBuffers(scratch);
+  spreadDisturbance(state, scratch);
+  const std::vector<SweepItem> items = disturbedItems(state, scratch);
+  noteOrder(state, scratch, items);
+  const double enough = enoughAfter(state, blow);
+  const double change = sweepUntilQuiet(state, scratch, items, scratch.seeds, enough);
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
     layOutPush(state, c);
     c.settled = false;
+    c.residual = static_cast<float>(change);
+    c.unfinished = change > enough;
   }
 }
 
@@ -188,29 +194,26 @@ bool isSwept(const State& state, const Collection& c) {
   return c.id != kNoCollection && !state[c.rigid].asleep;
 }
 
-double residualVelocity(const State& state) {
-  constexpr double kPart = 1e-3;
-  return std::max(kPart * state.h * state.gravity.norm(), state.settings.sleeping.velocity);
-}
-
 void sweepCollections(State& state, Scratch& scratch) {
   if (!scratch.sweeping) return;
-  const bool disturbed = std::any_of(scratch.disturbed.begin(), scratch.disturbed.end(),
-                                     [](std::uint8_t d) { return d != 0; });
-  if (disturbed) {
-    spreadDisturbance(state, scratch);
-    sweepDisturbed(state, scratch);
-  }
+  const UnmergingSettings& settings = state.settings.unmerging;
+  const bool paper = settings.rule == Rule::Paper;
+  scratch.restless_bodies.assign(scratch.sweep_u.size(), 0);
+  if (paper && anyDisturbed(scratch)) sweepBreadthFirst(state, scratch);
   for (JointBlock& k : scratch.sweep_joints) {
     solveJoint(k, {}, scratch.sweep_u[k.a], scratch.sweep_u[k.b]);
   }
   for (SweepContact& outer : scratch.sweep_contacts) {
     sweepBlock(outer.block, {}, scratch.sweep_u, state.settings.solver.method);
   }
+  double blow = 0.0;
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
-    if (isSwept(state, c) && !scratch.disturbed[slot]) sweepUndisturbed(state, c, scratch);
+    const bool disturbed = scratch.disturbed[slot] != 0;
+    if (!isSwept(state, c) || (paper && disturbed)) continue;
+    blow = std::max(blow, sweepOnce(state, c, scratch));
   }
+  if (refines(settings)) refineDisturbed(state, scratch, blow);
   keepFixedContacts(state, scratch);
   if (!state.joints.empty()) keepJointForces(state, scratch);
 }
@@ -225,7 +228,9 @@ void sweepAgain(State& state, Scratch& scratch, Collection& c) {
   for (JointBlock& k : scratch.sweep_joints) items.push_back({nullptr, &k, {}});
   for (ContactBlock& k : c.blocks) items.push_back({&k, nullptr, state[c.rigid].rotation});
   for (JointBlock& k : c.joints) items.push_back({nullptr, &k, state[c.rigid].rotation});
-  sweepConverging(state, scratch, items);
+  const double change =
+      sweepUntilQuiet(state, scratch, items, scratch.doubted, residualVelocity(state));
+  c.residual = static_cast<float>(change);
   if (!state.joints.empty()) keepJointForces(state, scratch);
   layOutPush(state, c);
 }

@@ -8,17 +8,14 @@
 
 namespace merge2d {
 
-/// Sweeps. Collections that are not disturbed: once, by colours. Disturbed ones: breadth first from
-/// the seeds, `unmerging.disturbed_sweeps` times.
+/// Sweeps the contacts of each collection once, then goes on where something is new or still
+/// changes much (merging/refine.h). `unmerging.rule = "paper"`: disturbed collections once, breadth
+/// first from the seeds, and no more.
 void sweepCollections(State& state, Scratch& scratch);
 
-/// More sweeps over one collection and the contacts outside, before one of its welds is cut:
-/// `unmerging.disturbed_sweeps` of them.
+/// More sweeps in one collection and at the contacts outside, from the bodies in `scratch.doubted`
+/// on, before one of its welds is cut.
 void sweepAgain(State& state, Scratch& scratch, Collection& collection);
-
-/// Velocities below this are what a sweep leaves for the next one: a thousandth of what gravity
-/// adds in a step [m/s].
-double residualVelocity(const State& state);
 
 /// True for a collection whose inner forces are swept in this step.
 bool isSwept(const State& state, const Collection& collection);

@@ -49,8 +49,17 @@ Parts partsOf(const State& state, Scratch& scratch, const Collection& c) {
   return partsWithoutCuts(state, c);
 }
 
+/// Where more sweeps begin for the sake of the joints.
+void doubtJoints(Scratch& scratch, const Collection& c) {
+  for (const JointBlock& k : c.joints) {
+    scratch.doubted.push_back(k.a);
+    scratch.doubted.push_back(k.b);
+  }
+}
+
 /// Breaks the joints that bear too much, also after more sweeps, and parts what they held.
 bool breakInside(State& state, Scratch& scratch, Collection& c) {
+  doubtJoints(scratch, c);
   sweepAgain(state, scratch, c);
   if (!anyJointBreaks(state, c)) return false;
   breakJointsInside(state, c);
@@ -71,11 +80,13 @@ bool newCut(const Collection& c, const Scratch& scratch) {
 /// Tests the welds of one collection, and splits it where it falls apart.
 void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   Collection& c = state.collections[slot];
+  scratch.doubted.clear();
   scratch.cuts_before.assign(c.cut_welds.begin(), c.cut_welds.end());
   for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
   c.cut_welds.clear();
   if (anyJointBreaks(state, c) && breakInside(state, scratch, c)) return;
   const bool loosened = loosenJoints(state, c, scratch.sweep_u);
+  if (loosened) doubtJoints(scratch, c);
   const std::size_t first = scratch.notes ? scratch.notes->decisions.size() : 0;
   WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
   test.testAll();

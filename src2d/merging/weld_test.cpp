@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "src2d/merging/metric.h"
-#include "src2d/merging/sweep.h"
+#include "src2d/merging/refine.h"
 #include "src2d/merging/unmerge.h"
 
 namespace merge2d {
@@ -75,7 +75,10 @@ void WeldTest::testContacts(std::uint32_t b) {
     }
     if (pressed) noteCone(weld, k, i, edge);
     c_.watched[b] |= edge || !pressed;
-    opened_ |= point.lost && !was_lost;
+    if (point.lost && !was_lost) {
+      opened_ = true;
+      doubt(c_.welds[weld]);
+    }
     c_.pivots_stale |= was_lost != point.lost || was_active != point.active;
   }
 }
@@ -132,7 +135,7 @@ void WeldTest::testLost(Weld& weld) {
 double WeldTest::openingThreshold() const {
   constexpr double kBeyondResidual = 5.0;
   const double sliding = state_.settings.unmerging.sliding;
-  return disturbed_ ? std::min(sliding, kBeyondResidual * residualVelocity(state_)) : sliding;
+  return disturbed_ ? std::min(sliding, kBeyondResidual * noise()) : sliding;
 }
 
 bool WeldTest::hadContact(const Weld& weld) const {
@@ -170,37 +173,75 @@ void WeldTest::noteCone(std::uint32_t weld, const ContactBlock& k, int i, bool e
 void WeldTest::testMotion(Weld& weld) {
   if (weld.cut || !hadContact(weld)) return;
   const UnmergingSettings& settings = state_.settings.unmerging;
-  const double value = relativeMotion(weld);
-  const int before = weld.loud_steps;
-  weld.loud_steps = value > settings.velocity ? weld.loud_steps + (confirming_ ? 0 : 1) : 0;
-  const bool cut = weld.loud_steps >= settings.steps;
+  const Drift before = weld.turning;
+  const Turning now = relativeMotion(weld);
+  const bool literal = rule() == Rule::Paper;
+  const bool cut = literal ? moveLoudly(weld, now) : turns(weld, now);
   note(weld, {.criterion = "relative-motion",
               .equation = "(17)",
-              .value = value,
+              .value = literal ? std::abs(now.fastest) : std::abs(weld.turning.sum),
               .threshold = settings.velocity,
-              .count = weld.loud_steps,
-              .needed = settings.steps,
-              .verdict = cut                   ? "unmerge"
-                         : weld.loud_steps > 0 ? "wait"
-                                               : "keep",
-              .before = before});
+              .count = weld.turning.steps,
+              .needed = literal ? settings.steps : 0,
+              .verdict = cut                      ? "unmerge"
+                         : weld.turning.steps > 0 ? "wait"
+                                                  : "keep",
+              .before = before.steps});
   if (cut) cutWeld(weld, EventReason::RelativeMotion);
 }
 
-double WeldTest::relativeMotion(const Weld& weld) const {
+bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {
+  const UnmergingSettings& settings = state_.settings.unmerging;
+  weld.turning.steps = std::abs(now.fastest) > settings.velocity ? weld.turning.steps + 1 : 0;
+  return weld.turning.steps >= settings.steps;
+}
+
+bool WeldTest::turns(Weld& weld, const Turning& now) {
+  // Rigid rows may find a slow motion where soft contacts hold: what is slower is left to them.
+  constexpr double kPart = 0.1;
+  const UnmergingSettings& settings = state_.settings.unmerging;
+  if (now.nearest <= noise() || std::abs(now.fastest) <= kPart * settings.velocity) {
+    weld.turning = {};
+    return false;
+  }
+  return weigh(weld.turning, now.fastest, settings.velocity).exceeds &&
+         weld.turning.steps >= settings.steps;
+}
+
+bool WeldTest::slowerThan(double limit, const Weld& weld, const VelocityField& a,
+                          const VelocityField& b) const {
+  double radius = 0.0;  // of the two boxes, about the centre of one of them
+  for (const BodyId id : {weld.a, weld.b}) {
+    if (state_[id].rigid != c_.rigid) continue;
+    const OrientedBox& box = state_.extent(rigidOf(id)).box;
+    radius = std::max(radius, box.frame.position.norm() + box.half.norm());
+  }
+  const double between = (b.x - a.x).norm();
+  const double linear = (b.v - a.at(b.x)).norm();
+  return linear + std::abs(b.omega - a.omega) * (radius + between) <= limit;
+}
+
+WeldTest::Turning WeldTest::relativeMotion(const Weld& weld) const {
+  // Seen from the first body, so that it does not matter where in the world they are.
+  const Vec2 origin = state_.pose(weld.a).position;
   const auto field = [&](BodyId b) {
     const SolverVelocity& u = scratch_.sweep_u[index(b)];
-    return VelocityField{state_.pose(b).position, {u.vx, u.vy}, u.omega};
+    return VelocityField{state_.pose(b).position - origin, {u.vx, u.vy}, u.omega};
   };
   const VelocityField a = field(weld.a), b = field(weld.b);
-  double fastest = 0.0;
+  Turning motion;
+  if (!scratch_.notes && slowerThan(noise(), weld, a, b)) return motion;
   for (const BodyId id : {weld.a, weld.b}) {
     if (state_[id].rigid != c_.rigid) continue;  // only the box of the body that can move
     OrientedBox box = state_.extent(rigidOf(id)).box;
-    box.frame = state_.pose(id) * box.frame;
-    fastest = std::max(fastest, fastestCorner(box, a, b));
+    const Pose pose = state_.pose(id);
+    box.frame = Pose{pose.position - origin, pose.rotation} * box.frame;
+    const double fastest = fastestCorner(box, a, b);
+    motion.nearest = motion.fastest == 0.0 ? fastest : std::min(motion.nearest, fastest);
+    motion.fastest = std::max(motion.fastest, fastest);
   }
-  return fastest;
+  motion.fastest = std::copysign(motion.fastest, b.omega - a.omega);
+  return motion;
 }
 
 void WeldTest::note(const Weld& weld, Decision test) const {
@@ -211,7 +252,14 @@ void WeldTest::note(const Weld& weld, Decision test) const {
   scratch_.notes->decisions.push_back(test);
 }
 
+double WeldTest::noise() const { return std::max<double>(residualVelocity(state_), c_.residual); }
+
+void WeldTest::doubt(const Weld& weld) {
+  for (const BodyId b : {weld.a, weld.b}) scratch_.doubted.push_back(static_cast<std::uint32_t>(b));
+}
+
 void WeldTest::cutWeld(Weld& weld, EventReason reason) {
+  doubt(weld);
   if (weld.cut) return;
   weld.cut = true;
   weld.reason = reason;
@@ -231,7 +279,11 @@ void listPivots(Collection& c) {
   c.pivots.clear();
   c.pivots_stale = false;
   for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
-    if (activeContacts(c, c.welds[i]) < 2) c.pivots.push_back(i);
+    if (activeContacts(c, c.welds[i]) < 2) {
+      c.pivots.push_back(i);
+    } else {
+      c.welds[i].turning = {};
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 /// The tests of the welds of one collection (Sections 6.3 and 6.4): broken, sliding, moving.
 
 #include "src2d/dynamics/state.h"
+#include "src2d/merging/metric.h"
 
 namespace merge2d {
 
@@ -35,6 +36,12 @@ class WeldTest {
     bool exceeds = false;
   };
 
+  /// How the two bodies of a pivot move against each other.
+  struct Turning {
+    double fastest = 0.0;  ///< corner of both boxes; its sign is that of the rotation [m/s]
+    double nearest = 0.0;  ///< the fastest corner of the box that moves less [m/s]
+  };
+
   /// Broken (Section 6.3) and on edge (Eqs. (19), (20)).
   void testContacts(std::uint32_t b);
 
@@ -64,12 +71,29 @@ class WeldTest {
   /// Relative motion (Section 6.4): only pairs with fewer than two contacts can turn in 2D.
   void testMotion(Weld& weld);
 
-  double relativeMotion(const Weld& weld) const;
+  /// As in the paper: fast enough in several consecutive steps.
+  bool moveLoudly(Weld& weld, const Turning& now) const;
+
+  /// A pivot that turns slowly gathers speed: each step starts from the velocity of the whole, so
+  /// what it would gain is summed, as slip is.
+  bool turns(Weld& weld, const Turning& now);
+
+  Turning relativeMotion(const Weld& weld) const;
+
+  /// True when no corner can be faster: a bound that spares most pivots a look at their corners.
+  bool slowerThan(double limit, const Weld& weld, const VelocityField& a,
+                  const VelocityField& b) const;
 
   /// Writes one test down if somebody asks.
   void note(const Weld& weld, Decision test) const;
 
   void cutWeld(Weld& weld, EventReason reason);
+
+  /// What the last sweep may have left of a velocity [m/s].
+  double noise() const;
+
+  /// Its bodies are where more sweeps begin.
+  void doubt(const Weld& weld);
 
   Rule rule() const { return state_.settings.unmerging.rule; }
 

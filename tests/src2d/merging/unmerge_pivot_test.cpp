@@ -64,6 +64,30 @@ from = 4
   }
 }
 
+TEST(Unmerge, APivotThatGathersSpeedSlowlyBreaksToo) {
+  // No step alone would be fast enough.
+  std::string balanced = kSeeSaw;
+  balanced.replace(balanced.find("[0.02, 0.6]"), 11, "[0.00, 0.6]");
+  const auto parted = [&](Overrides overrides) {
+    overrides.push_back({"merging.cycles", "\"off\""});
+    Simulation run(balanced + R"(
+[[force]]
+body = "beam"
+at = [1.9, 0]
+force = [0, -0.4]
+from = 4
+)",
+                   Mode::Merge, overrides);
+    run.until(4.0);
+    EXPECT_TRUE(run.merged("beam"));
+    int turned = 0;
+    run.steps(100, [&] { turned += events(run, EventType::Unmerge, EventReason::RelativeMotion); });
+    return turned;
+  };
+  EXPECT_GT(parted({}), 0);
+  EXPECT_EQ(parted({{"unmerging.rule", "\"paper\""}}), 0);
+}
+
 TEST(Unmerge, APlankWhoseSupportIsKnockedAwayFalls) {
   const std::string scene = kGround + R"(
 [[body]]

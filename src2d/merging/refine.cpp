@@ -1,0 +1,215 @@
+#include "src2d/merging/refine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src2d/dynamics/nncg.h"
+#include "src2d/merging/ordering.h"
+
+namespace merge2d {
+namespace {
+
+class Refinement {
+ public:
+  Refinement(const State& state, Scratch& scratch, const std::vector<SweepItem>& items,
+             double threshold)
+      : state_(state),
+        scratch_(scratch),
+        items_(items),
+        threshold_(threshold),
+        at_(scratch.sweep_u.size() + 1, 0),
+        place_(scratch.sweep_u.size(), kNowhere) {
+    listItemsOfBodies();
+  }
+
+  double run(std::span<const std::uint32_t> seeds) {
+    constexpr int kRound = 10;  // after so many sweeps the items are chosen anew
+    const int most =
+        std::max(state_.settings.unmerging.disturbed_sweeps, state_.settings.solver.iterations);
+    queue_.assign(seeds.begin(), seeds.end());
+    for (std::uint32_t b = 0; b < scratch_.restless_bodies.size(); ++b) {
+      if (scratch_.restless_bodies[b]) queue_.push_back(b);
+      scratch_.restless_bodies[b] = 0;
+    }
+    for (int done = 0; done < most && !queue_.empty();) {
+      walk();
+      const int more = std::max(1, std::min(kRound, most - done) - 1);
+      converge(more);
+      done += 1 + more;
+      queueRestless();
+    }
+    return std::sqrt(std::max(left_, restless_));
+  }
+
+ private:
+  static constexpr std::uint32_t kNowhere = ~0u;
+
+  /// A body that the round at hand has reached.
+  struct Reached {
+    std::uint32_t body;
+    double vx, vy;  ///< when the round began
+    bool queued;    ///< all its items are swept
+  };
+
+  void listItemsOfBodies() {
+    for (const SweepItem& item : items_) ++at_[item.a() + 1], ++at_[item.b() + 1];
+    for (std::size_t b = 1; b < at_.size(); ++b) at_[b] += at_[b - 1];
+    incident_.resize(at_.back());
+    std::vector<std::uint32_t> next(at_.begin(), at_.end() - 1);
+    for (std::uint32_t i = 0; i < items_.size(); ++i) {
+      incident_[next[items_[i].a()]++] = i;
+      incident_[next[items_[i].b()]++] = i;
+    }
+  }
+
+  Reached& reach(std::uint32_t body) {
+    if (place_[body] == kNowhere) {
+      place_[body] = static_cast<std::uint32_t>(reached_.size());
+      const SolverVelocity& u = scratch_.sweep_u[body];
+      reached_.push_back({body, u.vx, u.vy, false});
+    }
+    return reached_[place_[body]];
+  }
+
+  void enqueue(std::uint32_t body) {
+    if (scratch_.sweep_u[body].inv_mass == 0.0) return;
+    Reached& r = reach(body);
+    if (!r.queued) walk_.push_back(body);
+    r.queued = true;
+  }
+
+  /// One sweep from the queued bodies on, breadth first, over the items of each body that it
+  /// changes by more than the threshold.
+  void walk() {
+    for (const Reached& r : reached_) place_[r.body] = kNowhere;
+    reached_.clear();
+    active_.clear();
+    walk_.clear();
+    swept_.assign(items_.size(), 0);
+    for (const std::uint32_t body : queue_) enqueue(body);
+    for (std::size_t head = 0; head < walk_.size(); ++head) {
+      const std::uint32_t body = walk_[head];
+      for (std::uint32_t k = at_[body]; k < at_[body + 1]; ++k) {
+        const std::uint32_t i = incident_[k];
+        if (swept_[i]) continue;
+        swept_[i] = 1;
+        active_.push_back(items_[i]);
+        const std::uint32_t a = items_[i].a(), b = items_[i].b();
+        reach(a), reach(b);
+        sweepItem(items_[i], scratch_.sweep_u, state_.settings.solver.method);
+        if (changeSinceStart(reach(a)) > threshold_ * threshold_) enqueue(a);
+        if (changeSinceStart(reach(b)) > threshold_ * threshold_) enqueue(b);
+      }
+    }
+    std::erase_if(reached_,
+                  [&](const Reached& r) { return scratch_.sweep_u[r.body].inv_mass == 0.0; });
+  }
+
+  /// Squared [m²/s²].
+  double changeSinceStart(const Reached& r) const {
+    const SolverVelocity& u = scratch_.sweep_u[r.body];
+    return square(u.vx - r.vx) + square(u.vy - r.vy);
+  }
+  double changeInLastSweep(std::size_t i) const {  // the conjugate gradient knows from what
+    const SolverVelocity& u = scratch_.sweep_u[reached_[i].body];
+    const Twist& last = scratch_.nncg.u_before[i];
+    return square(u.vx - last.vx) + square(u.vy - last.vy);
+  }
+  static double square(double x) { return x * x; }
+
+  void converge(int sweeps) {
+    auto& u = scratch_.sweep_u;
+    const SolverMethod method = state_.settings.solver.method;
+    Nncg iteration(
+        active_.size(), [&](std::size_t i) -> Impulses& { return active_[i].impulses(); },
+        reached_.size(), [&](std::size_t i) -> SolverVelocity& { return u[reached_[i].body]; },
+        [&] {
+          for (const SweepItem& item : active_) sweepItem(item, u, method);
+        },
+        scratch_.nncg);
+    iteration.run(sweeps, method == SolverMethod::Nncg);
+  }
+
+  /// Queues the bodies that are not quiet: those that the last sweep still changed, and at the rim,
+  /// where not all items know of it yet, those that moved in this round.
+  void queueRestless() {
+    queue_.clear();
+    restless_ = 0.0;
+    for (std::size_t i = 0; i < reached_.size(); ++i) {
+      const double change =
+          reached_[i].queued ? changeInLastSweep(i) : changeSinceStart(reached_[i]);
+      const bool restless = change > threshold_ * threshold_;
+      if (restless) queue_.push_back(reached_[i].body);
+      double& largest = restless ? restless_ : left_;
+      largest = std::max(largest, change);
+    }
+  }
+
+  const State& state_;
+  Scratch& scratch_;
+  const std::vector<SweepItem>& items_;
+  double threshold_;
+  std::vector<std::uint32_t> at_, incident_;  ///< items of body b: incident_[at_[b] … at_[b + 1]]
+  std::vector<std::uint32_t> place_;          ///< per body: in reached_
+  std::vector<std::uint32_t> queue_;          ///< bodies from which a round begins
+  std::vector<std::uint32_t> walk_;           ///< bodies whose items are swept in this round
+  std::vector<std::uint8_t> swept_;           ///< per item: in this round
+  std::vector<Reached> reached_;              ///< by this round; only those that respond to forces
+  std::vector<SweepItem> active_;             ///< of this round, in the order of the walk
+
+  // Largest changes of a body's velocity, squared [m²/s²].
+  double restless_ = 0.0;  ///< in the last sweep
+  double left_ = 0.0;      ///< of bodies that were left alone after it
+};
+
+}  // namespace
+
+void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocity>& u,
+                SolverMethod method) {
+  const double nx = turn.c * k.nx - turn.s * k.ny, ny = turn.s * k.nx + turn.c * k.ny;
+  if (method == SolverMethod::Pgs) {
+    solveRows(k, nx, ny, u[k.a], u[k.b]);
+  } else {
+    solveBlock(k, nx, ny, u[k.a], u[k.b]);
+  }
+}
+
+void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method) {
+  if (item.block) return sweepBlock(*item.block, item.turn, u, method);
+  solveJoint(*item.joint, item.turn, u[item.joint->a], u[item.joint->b]);
+}
+
+std::vector<SweepItem> orderedFrom(std::span<const std::uint32_t> seeds, const Scratch& scratch,
+                                   const std::vector<SweepItem>& items,
+                                   std::vector<std::uint32_t>* depth) {
+  std::vector<GraphEdge> edges;
+  edges.reserve(items.size());
+  for (const SweepItem& item : items) edges.push_back({item.a(), item.b()});
+  std::vector<std::uint8_t> passable(scratch.sweep_u.size());
+  for (std::size_t i = 0; i < passable.size(); ++i) {
+    passable[i] = scratch.sweep_u[i].inv_mass > 0.0;
+  }
+  const auto order =
+      breadthFirst(static_cast<std::uint32_t>(passable.size()), edges, seeds, passable, depth);
+  std::vector<SweepItem> ordered;
+  ordered.reserve(order.size());
+  for (const std::uint32_t i : order) ordered.push_back(items[i]);
+  return ordered;
+}
+
+double residualVelocity(const State& state) {
+  constexpr double kPart = 1e-3;
+  return std::max(kPart * state.h * state.gravity.norm(), state.settings.sleeping.velocity);
+}
+
+double refinedVelocity(const State& state) {
+  constexpr double kPart = 0.1;
+  return kPart * state.settings.unmerging.sliding;
+}
+
+double sweepUntilQuiet(const State& state, Scratch& scratch, const std::vector<SweepItem>& items,
+                       std::span<const std::uint32_t> seeds, double threshold) {
+  return Refinement(state, scratch, items, threshold).run(seeds);
+}
+
+}  // namespace merge2d

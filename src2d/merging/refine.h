@@ -1,0 +1,51 @@
+#pragma once
+/// A local refinement of the single sweep: where something new has entered, sweeps go on as long
+/// and as far as they still change velocities. Deviation from the single sweep of Section 6.2,
+/// which leaves a blow near where it fell. Guarded by Refine.CarriesABlowAsFarAsItGoes.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// A contact or a joint, inside a collection or outside.
+struct SweepItem {
+  ContactBlock* block;
+  JointBlock* joint;  ///< when there is no contact
+  Rotation turn;      ///< of the collection's frame
+
+  std::uint32_t a() const { return block ? block->a : joint->a; }
+  std::uint32_t b() const { return block ? block->b : joint->b; }
+  Impulses& impulses() const { return block ? block->lambda : joint->lambda; }
+};
+
+/// Solves one block of rows, whose frame is turned by `turn`.
+void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocity>& u,
+                SolverMethod method);
+
+void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method);
+
+/// The items in breadth-first order from the seed bodies (Section 6.2). `depth` as in breadthFirst.
+std::vector<SweepItem> orderedFrom(std::span<const std::uint32_t> seeds, const Scratch& scratch,
+                                   const std::vector<SweepItem>& items,
+                                   std::vector<std::uint32_t>* depth = nullptr);
+
+/// Velocities below this are what a sweep leaves for the next one: a thousandth of what gravity
+/// adds in a step [m/s].
+double residualVelocity(const State& state);
+
+/// A sweep that changes a member's velocity by more than this is to be followed by others: a tenth
+/// of the slip that parts a weld [m/s].
+double refinedVelocity(const State& state);
+
+/// Sweeps the items at the seeds and at the bodies marked in `scratch.restless_bodies`, breadth
+/// first; then those at bodies that the last sweep changed by more than `threshold` [m/s], and so
+/// on, accelerated as in the full solve, until there are none or as many sweeps are spent as the
+/// full solve may take. Returns the largest change that may be left [m/s].
+double sweepUntilQuiet(const State& state, Scratch& scratch, const std::vector<SweepItem>& items,
+                       std::span<const std::uint32_t> seeds, double threshold);
+
+}  // namespace merge2d
