@@ -9,7 +9,8 @@
 
 namespace merge2d {
 
-/// Eq. (15); the box of what is fixed to the world or to a script is not looked at [m/s].
+/// Eq. (15); the box of what is fixed to the world or to a script is not looked at [m/s]. With
+/// `merging.metric = "naive"` only the contacts of a pair are.
 double relativeMotion(const State& state, const BodyPair& pair, Notes* notes);
 
 /// Counts, for each pair in contact, the consecutive steps in which it could merge: relative

@@ -30,6 +30,21 @@ void noteCorners(Notes* notes, const BodyPair& pair, const OrientedBox& box, con
   notes->corners.push_back(seen);
 }
 
+/// The fastest of a pair's contact points: what a beam at its pivot does not show.
+double fastestContact(const State& state, const BodyPair& pair) {
+  const Pose pose = state.pose(pair.a);
+  double fastest = 0.0;
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& contact = state.contacts[state.contacts.order[i]];
+    for (int k = 0; k < contact.count; ++k) {
+      const Vec2 at = pose * contact.points[static_cast<std::size_t>(k)].position;
+      const Vec2 w = fieldOf(state.rigid(pair.a)).at(at) - fieldOf(state.rigid(pair.b)).at(at);
+      fastest = std::max(fastest, w.norm());
+    }
+  }
+  return fastest;
+}
+
 void countQuietPairs(State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
@@ -77,6 +92,8 @@ void countQuietRigids(State& state, Notes* notes) {
 }  // namespace
 
 double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
+  const bool touches = pair.count > 0;  // or is held by joints alone
+  if (touches && state.settings.merging.metric == Metric::Naive) return fastestContact(state, pair);
   const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
   double fastest = 0.0;
   for (const Rigid* r : {&a, &b}) {

@@ -38,6 +38,9 @@ inline constexpr std::array<Named<CycleCriterion>, 3> kNames<CycleCriterion>{
     {{"off", CycleCriterion::Off},
      {"triangle", CycleCriterion::Triangle},
      {"rigid", CycleCriterion::Rigid}}};
+template <>
+inline constexpr std::array<Named<Metric>, 2> kNames<Metric>{
+    {{"corners", Metric::Corners}, {"naive", Metric::Naive}}};
 
 template <>
 inline constexpr std::array<Named<JointKind>, 4> kNames<JointKind>{

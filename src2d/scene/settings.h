@@ -43,6 +43,12 @@ struct SolverSettings {
 /// Which welds of pairs with a single contact are allowed (Section 8.2).
 enum class CycleCriterion { Off, Triangle, Rigid };
 
+/// Where two bodies are looked at for how fast they move against each other (Fig. 2).
+enum class Metric {
+  Corners,  ///< "corners": at the corners of their boxes, Eq. (15)
+  Naive,    ///< "naive": at their contacts alone, which a slow see-saw deceives
+};
+
 /// [merging], Table 1
 struct MergingSettings {
   Rule rule = Rule::Default;
@@ -51,6 +57,7 @@ struct MergingSettings {
   double sliding = 1e-2;    ///< slip threshold, Eq. (18) [m/s]
   int steps = 3;            ///< consecutive steps for which the criteria must hold
   CycleCriterion cycles = CycleCriterion::Rigid;
+  Metric metric = Metric::Corners;
 };
 
 /// [unmerging], Table 1

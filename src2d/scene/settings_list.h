@@ -28,6 +28,7 @@ void forEachSetting(S& settings, F&& f) {
   f("merging", "sliding", merging.sliding, kNotNegative);
   f("merging", "steps", merging.steps, kAtLeastOne);
   f("merging", "cycles", merging.cycles, kAnyNumber);
+  f("merging", "metric", merging.metric, kAnyNumber);
 
   auto& unmerging = settings.unmerging;
   f("unmerging", "rule", unmerging.rule, kAnyNumber);

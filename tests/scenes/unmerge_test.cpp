@@ -71,6 +71,21 @@ TEST(Seesaw, MergesWithItsLoadAndNotWithItsPivot) {
   EXPECT_NEAR(run.body("beam").angle, std::asin(0.2), 0.005) << "1 m high, 5 m long";
 }
 
+/// Under the paper's rule a single contact may hold: the metric alone decides.
+TEST(Seesaw, TheNaiveMetricFreezesItAndTheCornersDoNot) {
+  const Overrides paper = {{"merging.rule", "\"paper\""}, {"unmerging.rule", "\"paper\""}};
+  Overrides naive = paper;
+  naive.emplace_back("merging.metric", "\"naive\"");
+  SceneRun right("seesaw", Mode::Merge, paper), wrong("seesaw", Mode::Merge, naive);
+  right.until(5.0), wrong.until(5.0);
+  EXPECT_FALSE(right.anchored("beam"));
+  EXPECT_GT(right.body("beam").angle, 0.1) << "it turns on";
+  EXPECT_TRUE(wrong.anchored("beam")) << "still at its pivot";
+  EXPECT_LT(wrong.body("beam").angle, 0.01) << "it was stopped in mid-turn";
+  wrong.until(12.0);
+  EXPECT_LT(wrong.body("beam").angle, 0.01) << "for ever";
+}
+
 TEST(TrussArch, ThreeHingesHoldAndFourFall) {
   SceneRun run("truss-arch", Mode::Merge);
   run.until(1.0);

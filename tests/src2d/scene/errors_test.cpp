@@ -88,6 +88,9 @@ TEST(Errors, TheFirstUnknownKeyOfATableIsReported) {
 
 TEST(Errors, WordsMustBeOfTheirList) {
   expectErrors({
+      {"[merging]\nmetric = \"niave\"",
+       "2:10: 'metric' in [merging] must be one of \"corners\", \"naive\", but is \"niave\" "
+       "(did you mean 'naive'?)"},
       {"[merging]\ncycles = \"triangel\"",
        "2:10: 'cycles' in [merging] must be one of \"off\", \"triangle\", \"rigid\", but is "
        "\"triangel\" (did you mean 'triangle'?)"},

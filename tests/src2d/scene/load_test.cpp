@@ -67,6 +67,7 @@ breathing = 1e-6
 sliding = 0.04
 steps = 5
 cycles = "rigid"
+metric = "naive"
 [unmerging]
 rule = "paper"
 velocity = 0.05
@@ -103,6 +104,7 @@ pinned_until = 3
   EXPECT_EQ(s.merging.sliding, 0.04);
   EXPECT_EQ(s.merging.steps, 5);
   EXPECT_EQ(s.merging.cycles, CycleCriterion::Rigid);
+  EXPECT_EQ(s.merging.metric, Metric::Naive);
   EXPECT_EQ(s.unmerging.rule, Rule::Paper);
   EXPECT_EQ(s.unmerging.velocity, 0.05);
   EXPECT_EQ(s.unmerging.sliding, 0.06);

@@ -72,6 +72,7 @@ height = 3
 method = "block"
 [merging]
 cycles = "off"
+metric = "naive"
 velocity = 0.1
 [unmerging]
 ordering = false
@@ -152,6 +153,7 @@ at = [0, 9]
                                            "all.toml"));
   EXPECT_EQ(again.settings.solver.method, SolverMethod::Block);
   EXPECT_EQ(again.settings.merging.cycles, CycleCriterion::Off);
+  EXPECT_EQ(again.settings.merging.metric, Metric::Naive);
   EXPECT_EQ(again.settings.material.density, 3);
   EXPECT_EQ(again.springs[0].rest_length, 0.5);
   EXPECT_EQ(again.springs[1].to_body, 3u);
