@@ -33,6 +33,8 @@ std::string counted(EventType type, bool collection, int number) {
       return counted(number, "impact", "impacts");
     case EventType::Emit:
       return counted(number, "body appears", "bodies appear");
+    case EventType::Break:
+      return counted(number, "joint breaks", "joints break");
   }
   return {};
 }

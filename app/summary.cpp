@@ -21,6 +21,7 @@ void Summary::add(const Snapshot& snapshot) {
   for (const Event& event : snapshot.events) {
     merges_ += event.type == EventType::Merge ? 1 : 0;
     unmerges_ += event.type == EventType::Unmerge ? 1 : 0;
+    broken_joints_ += event.type == EventType::Break ? 1 : 0;
   }
   max_penetration_ = std::max(max_penetration_, snapshot.stats.max_penetration);
 }
@@ -43,6 +44,7 @@ std::string Summary::table(const Simulation& simulation, bool timings) const {
       fmt::format("{}, {} more inside collections", stats.contacts, stats.internal_contacts));
   row("merges", fmt::format("{}", merges_));
   row("unmerges", fmt::format("{}", unmerges_));
+  if (!world.scene().joints.empty()) row("broken joints", fmt::format("{}", broken_joints_));
   row("deepest overlap", fmt::format("{:.3g} mm", 1e3 * max_penetration_));
   if (timings && !simulation.milliseconds().empty()) {
     row("time per step", fmt::format("{:.3g} ms, median {:.3g} ms", mean(simulation.milliseconds()),
@@ -68,6 +70,7 @@ std::string Summary::json(const Simulation& simulation, bool timings) const {
   out["internal_contacts"] = stats.internal_contacts;
   out["merges"] = merges_;
   out["unmerges"] = unmerges_;
+  if (!world.scene().joints.empty()) out["broken_joints"] = broken_joints_;
   out["max_penetration"] = max_penetration_;
   out["ms_per_step"] = {{"mean", nullptr}, {"median", nullptr}};
   out["real_time_factor"] = nullptr;

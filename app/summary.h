@@ -19,7 +19,7 @@ class Summary {
   std::string json(const Simulation& simulation, bool timings) const;
 
  private:
-  std::int64_t merges_ = 0, unmerges_ = 0;
+  std::int64_t merges_ = 0, unmerges_ = 0, broken_joints_ = 0;
   double max_penetration_ = 0.0;  ///< of all steps [m]
 };
 

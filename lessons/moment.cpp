@@ -28,8 +28,8 @@ struct Moment::Event {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kKinds = {"merge",  "unmerge", "sleep", "wake",
-                                                    "impact", "emit",    "union", "parting"};
+constexpr std::array<std::string_view, 9> kKinds = {"merge", "unmerge", "sleep", "wake",   "impact",
+                                                    "emit",  "break",   "union", "parting"};
 constexpr std::array<std::string_view, 5> kReasons = {"broken", "sliding", "relative-motion",
                                                       "cycle", "user"};
 constexpr std::array<std::string_view, 8> kOrdinals = {"last",   "first", "second", "third",

@@ -83,7 +83,8 @@ Stage stageNamed(const std::string& text) {
 const std::vector<std::string_view>& eventNames() {
   static const std::vector<std::string_view> kNames = {
       name(EventType::Merge), name(EventType::Unmerge), name(EventType::Sleep),
-      name(EventType::Wake),  name(EventType::Impact),  name(EventType::Emit)};
+      name(EventType::Wake),  name(EventType::Impact),  name(EventType::Emit),
+      name(EventType::Break)};
   return kNames;
 }
 
@@ -93,7 +94,7 @@ Timeline::EventFilter eventFilter(const std::vector<std::string>& arguments) {
   const auto found = std::ranges::find(names, std::string_view(arguments[0]));
   if (found == names.end()) {
     throw Refusal(
-        fmt::format("there is no event '{}'{}: merge, unmerge, sleep, wake, impact or emit",
+        fmt::format("there is no event '{}'{}: merge, unmerge, sleep, wake, impact, emit or break",
                     arguments[0], didYouMean(arguments[0], names)));
   }
   return [kind = *found](const Event& e) { return kind == name(e.type); };

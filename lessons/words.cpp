@@ -220,6 +220,9 @@ std::string Words::event(const Event& e) const {
       return fmt::format("{} hit each other", pair(e.a, e.b));
     case EventType::Emit:
       return fmt::format("{} appears", name(e.a));
+    case EventType::Break:
+      return e.a == e.b ? fmt::format("the joint of {} breaks", name(e.a))
+                        : fmt::format("the joint of {} breaks", pair(e.a, e.b));
   }
   return {};
 }

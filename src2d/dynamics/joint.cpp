@@ -254,7 +254,8 @@ bool breaks(const State& state, const Joint& joint) {
          (turns && std::abs(load.torque) > joint.break_torque);
 }
 
-void breakJoint(State& state, Joint& joint) {
+void breakJoint(State& state, Scratch& scratch, Joint& joint) {
+  scratch.events.push_back({EventType::Break, joint.a, joint.to_world ? joint.a : joint.b});
   joint.broken = true;
   joint.lambda = {};
   state.rigid(joint.a).resized = true;  // the broadphase is to look again

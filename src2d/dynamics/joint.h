@@ -88,8 +88,8 @@ JointForce jointForce(const State& state, const Joint& joint);
 /// True when the force is more than it bears.
 bool breaks(const State& state, const Joint& joint);
 
-/// Parts the bodies for good; they touch each other from now on.
-void breakJoint(State& state, Joint& joint);
+/// Parts the bodies for good, as an event; they touch each other from now on.
+void breakJoint(State& state, Scratch& scratch, Joint& joint);
 
 /// Relative freedoms that a joint takes away just now: two of a pivot, three of a weld.
 int freedomsTaken(const State& state, const Joint& joint);

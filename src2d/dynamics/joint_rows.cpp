@@ -99,11 +99,11 @@ void sweepJoints(std::span<JointBlock> joints, std::vector<SolverVelocity>& u) {
   for (JointBlock& k : joints) solveJoint(k, {}, u[k.a], u[k.b]);
 }
 
-void storeJointImpulses(State& state, const Scratch& scratch) {
+void storeJointImpulses(State& state, Scratch& scratch) {
   for (const JointBlock& k : scratch.joint_blocks) {
     Joint& joint = state.joints[k.joint];
     joint.lambda = k.lambda;
-    if (breaks(state, joint)) breakJoint(state, joint);
+    if (breaks(state, joint)) breakJoint(state, scratch, joint);
   }
 }
 

@@ -20,6 +20,6 @@ void warmStartJoints(std::span<const JointBlock> joints, std::vector<SolverVeloc
 void sweepJoints(std::span<JointBlock> joints, std::vector<SolverVelocity>& u);
 
 /// Hands the impulses back to the joints, and breaks those that bear too much.
-void storeJointImpulses(State& state, const Scratch& scratch);
+void storeJointImpulses(State& state, Scratch& scratch);
 
 }  // namespace merge2d

@@ -96,12 +96,12 @@ void warmStartSweepJoints(const State& state, Scratch& scratch) {
   }
 }
 
-void keepJointForces(State& state, const Scratch& scratch) {
+void keepJointForces(State& state, Scratch& scratch) {
   for (const JointBlock& k : scratch.sweep_joints) {
     if (floats(state, k.a) || floats(state, k.b)) continue;
     Joint& joint = state.joints[k.joint];
     joint.lambda = k.lambda;
-    if (breaks(state, joint)) breakJoint(state, joint);
+    if (breaks(state, joint)) breakJoint(state, scratch, joint);
   }
   for (const Collection& c : state.collections) {
     if (c.id == kNoCollection || state[c.rigid].asleep) continue;

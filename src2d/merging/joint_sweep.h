@@ -30,6 +30,6 @@ void warmStartSweepJoints(const State& state, Scratch& scratch);
 
 /// Keeps what the sweep found where the full solve has no row: inside collections and between fixed
 /// things.
-void keepJointForces(State& state, const Scratch& scratch);
+void keepJointForces(State& state, Scratch& scratch);
 
 }  // namespace merge2d

@@ -143,12 +143,12 @@ bool anyJointBreaks(const State& state, const Collection& c) {
                      [&](const JointBlock& k) { return breaks(state, state.joints[k.joint]); });
 }
 
-void breakJointsInside(State& state, Collection& c) {
+void breakJointsInside(State& state, Scratch& scratch, Collection& c) {
   saveForces(c);
   c.stale = true;
   for (const JointBlock& k : c.joints) {
     Joint& joint = state.joints[k.joint];
-    if (breaks(state, joint)) breakJoint(state, joint);
+    if (breaks(state, joint)) breakJoint(state, scratch, joint);
   }
   std::erase_if(c.joints, [&](const JointBlock& k) { return state.joints[k.joint].broken; });
   for (Weld& weld : c.welds) {

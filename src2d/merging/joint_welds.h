@@ -27,7 +27,7 @@ void confirmJoints(State& state, Collection& collection, const std::vector<Solve
 bool anyJointBreaks(const State& state, const Collection& collection);
 
 /// Breaks these joints; the collection is to be laid out anew.
-void breakJointsInside(State& state, Collection& collection);
+void breakJointsInside(State& state, Scratch& scratch, Collection& collection);
 
 /// Counts the steps in which the bodies of each joint could have merged: Eqs. (15)-(17), and the
 /// joint must have come to rest.

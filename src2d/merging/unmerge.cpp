@@ -62,7 +62,7 @@ bool breakInside(State& state, Scratch& scratch, Collection& c) {
   doubtJoints(scratch, c);
   sweepAgain(state, scratch, c);
   if (!anyJointBreaks(state, c)) return false;
-  breakJointsInside(state, c);
+  breakJointsInside(state, scratch, c);
   const Parts parts = partsOf(state, scratch, c);
   if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, c.rigid, parts);
   scratch.split = true;  // to be laid out anew

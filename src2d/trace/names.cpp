@@ -11,7 +11,8 @@ const char* name(Stage stage) {
 }
 
 const char* name(EventType type) {
-  static constexpr const char* kNames[] = {"merge", "unmerge", "sleep", "wake", "impact", "emit"};
+  static constexpr const char* kNames[] = {"merge",  "unmerge", "sleep", "wake",
+                                           "impact", "emit",    "break"};
   return kNames[static_cast<std::size_t>(type)];
 }
 

@@ -97,13 +97,14 @@ struct WeldView {
   int contacts = 0;
 };
 
-enum class EventType { Merge, Unmerge, Sleep, Wake, Impact, Emit };
+enum class EventType { Merge, Unmerge, Sleep, Wake, Impact, Emit, Break };
 enum class EventReason { None, Broken, Sliding, RelativeMotion, Cycle, User };
 
 /// What happened. A `Merge` is a join: of two things one was made, so that n bodies need n − 1 of
 /// them, however many contacts hold them together afterwards. An `Unmerge` is the end of one weld,
 /// with its reason: a body that leaves two neighbours gives two of them. An `Impact` is a pair that
-/// meets faster than gravity could have made it in two steps.
+/// meets faster than gravity could have made it in two steps. A `Break` is the end of a joint that
+/// bore too much.
 struct Event {
   EventType type = EventType::Merge;
   BodyId a{}, b{};  ///< the pair; equal where one body is meant

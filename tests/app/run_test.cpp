@@ -52,6 +52,26 @@ TEST_F(Run, GivesTheKeysOfTheContractAsJson) {
   EXPECT_GT(summary["real_time_factor"], 0.0);
 }
 
+TEST_F(Run, CountsBrokenJointsOfASceneThatHasJoints) {
+  write("lamp.toml", R"(
+format = 1
+duration = 0.5
+[[body]]
+name = "lamp"
+circle = 0.1
+mass = 2
+[[joint]]
+kind = "revolute"
+bodies = ["lamp"]
+at = [0, 0]
+break_force = 15
+)");
+  EXPECT_EQ(run({"run", "lamp.toml", "--json"}).json()["broken_joints"], 1);
+  EXPECT_THAT(run({"run", "lamp.toml"}).out, HasSubstr("broken joints       1\n"));
+  const Outcome traced = run({"run", "lamp.toml", "--trace", "-", "--quiet"});
+  EXPECT_THAT(traced.out, HasSubstr(R"({"type":"break")"));
+}
+
 TEST_F(Run, WithoutTimingsTheSummaryIsTheSameEachTime) {
   const std::string first = run({"run", "stack.toml", "--json", "--no-timings"}).out;
   EXPECT_EQ(run({"run", "stack.toml", "--json", "--no-timings"}).out, first);

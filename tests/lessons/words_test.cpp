@@ -127,6 +127,7 @@ TEST_F(WordsTest, TellsEvents) {
             "ground and brick[2,3] come apart (sliding)");
   EXPECT_EQ(said_of(EventType::Impact), "ground and brick[2,3] hit each other");
   EXPECT_EQ(said_of(EventType::Sleep), "C3 falls asleep");
+  EXPECT_EQ(said_of(EventType::Break), "the joint of ground and brick[2,3] breaks");
 }
 
 }  // namespace

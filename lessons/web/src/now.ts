@@ -20,6 +20,7 @@ export function eventText(trace: Trace, row: EventRow): string {
     case 'impact': return `${pair} hit each other`;
     case 'sleep': return `${pair} fell asleep`;
     case 'wake': return `${pair} woke up`;
+    case 'break': return `the joint of ${pair} broke`;
     case 'emit': return `${trace.name(a)} appeared`;
     default: return `${type}: ${pair}`;
   }

@@ -2,6 +2,7 @@
 
 #include "src2d/dynamics/joint.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/src2d/dynamics/joint_testing.h"
@@ -279,9 +280,9 @@ at = [0.45, 0]
   EXPECT_FALSE(touching.capture().contacts.empty());
 }
 
-TEST(Joint, BreaksUnderMoreThanItBears) {
-  const auto scene = [](double bears) {
-    return R"(
+/// A load of 2 kg on a hook, by a joint that bears `bears` newtons.
+std::string loadOnAHook(double bears) {
+  return R"(
 [[body]]
 name = "hook"
 motion = "pinned"
@@ -297,15 +298,53 @@ kind = "revolute"
 bodies = ["hook", "load"]
 at = [0, 0]
 break_force = )" +
-           std::to_string(bears);
-  };
-  World weak = running(scene(15)), strong = running(scene(25));
+         std::to_string(bears);
+}
+
+/// The names of those whose joints broke, and when.
+std::vector<std::string> breaksOf(World& world, double time) {
+  std::vector<std::string> found;
+  while (world.time() < time - 1e-9) {
+    world.step();
+    for (const Event& e : world.events()) {
+      if (e.type != EventType::Break) continue;
+      found.push_back(world.bodies()[index(e.a)].name + " " + world.bodies()[index(e.b)].name);
+    }
+  }
+  return found;
+}
+
+TEST(Joint, BreaksUnderMoreThanItBears) {
+  World weak = running(loadOnAHook(15)), strong = running(loadOnAHook(25));
   run(weak, 1.0);
   run(strong, 1.0);
   EXPECT_TRUE(weak.capture().joints[0].broken);
   EXPECT_LT(body(weak, "load").x.y(), -0.3);
   EXPECT_FALSE(strong.capture().joints[0].broken);
   EXPECT_NEAR(body(strong, "load").x.y(), -0.1, 0.01);
+}
+
+TEST(Joint, TellsOnceThatItBroke) {
+  for (const Mode mode : {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {
+    World weak = running(loadOnAHook(15), mode), strong = running(loadOnAHook(25), mode);
+    EXPECT_THAT(breaksOf(weak, 1.0), testing::ElementsAre("hook load")) << name(mode);
+    EXPECT_THAT(breaksOf(strong, 1.0), testing::IsEmpty()) << name(mode);
+  }
+}
+
+TEST(Joint, OfOneBodyAndTheWorldTellsOfThatBodyAlone) {
+  World world = running(R"(
+[[body]]
+name = "lamp"
+circle = 0.1
+mass = 2
+[[joint]]
+kind = "revolute"
+bodies = ["lamp"]
+at = [0, 0]
+break_force = 15
+)");
+  EXPECT_THAT(breaksOf(world, 1.0), testing::ElementsAre("lamp lamp"));
 }
 
 TEST(Joint, BodiesTouchAgainWhenTheirJointBreaks) {

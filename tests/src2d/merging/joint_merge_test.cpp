@@ -241,6 +241,7 @@ from = 2
   EXPECT_FALSE(run.merged("beam"));
   EXPECT_TRUE(run.now().joints[0].broken);
   EXPECT_EQ(run.count(EventType::Unmerge), 1);
+  EXPECT_EQ(run.count(EventType::Break), 1);
   run.until(2.5);
   EXPECT_LT(run.body("beam").x.y(), -1.0);
 }
