@@ -1,5 +1,6 @@
 /// Scenes of things that ride on what moves.
 
+#include <numbers>
 #include <optional>
 
 #include "tests/scenes/scene_testing.h"
@@ -114,6 +115,35 @@ TEST(LongSpaceStation, NothingHappensInAHundredThousandSteps) {
   EXPECT_EQ(run.eventsAfter(800), 0);
   EXPECT_LT((run.seenFrom("station", "globe-box") - place).norm(), 1e-9);
   EXPECT_LE(run.world().memoryBytes(), memory);
+}
+
+/// The tilt [degrees] at which the block has slid by a millimetre, for which it needs a third of a
+/// second; 36 when it never does.
+double slidingAngle(Mode mode, const Overrides& overrides = {}) {
+  SceneRun run("slope", mode, overrides);
+  run.until(5.0);
+  EXPECT_EQ(run.anchored("block"), merges(mode));
+  const double start = run.seenFrom("slope", "block").x();
+  while (run.world().time() < 36.0) {
+    run.steps(1);
+    if (std::abs(run.seenFrom("slope", "block").x() - start) > 0.001) break;
+  }
+  return run.body("slope").angle * 180.0 / std::numbers::pi;
+}
+
+TEST(Slope, TheMergedBlockSlidesWhereFrictionGivesWay) {
+  const double exact = std::atan(0.6) * 180.0 / std::numbers::pi;  // 30.96°
+  const double reference = slidingAngle(Mode::Reference);
+  EXPECT_NEAR(reference, exact, 0.5);
+  for (const Mode mode : {Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {
+    EXPECT_NEAR(slidingAngle(mode), reference, 0.5) << name(mode);
+    EXPECT_NEAR(slidingAngle(mode), exact, 0.5) << name(mode);
+  }
+}
+
+TEST(Slope, UnderThePapersRuleTheBlockSticksForDegreesMore) {
+  const Overrides paper = {{"merging.rule", "paper"}, {"unmerging.rule", "paper"}};
+  EXPECT_GT(slidingAngle(Mode::Merge, paper), slidingAngle(Mode::Reference) + 3.0);
 }
 
 TEST(Spinner, MergesAtOrdinarySpeedAndNotAtHighSpeed) {
