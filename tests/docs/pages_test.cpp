@@ -44,6 +44,16 @@ TEST(Pages, EveryTestExists) {
   EXPECT_GT(tests, 80);
 }
 
+TEST(Scenarios, EachBuiltInSceneHasAPartWithATableAndAPicture) {
+  const std::string page = read(kRoot / "docs/scenarios.md");
+  for (const BuiltinScene& scene : builtinScenes()) {
+    EXPECT_THAT(page, testing::HasSubstr("## " + scene.name + "\n![")) << scene.name;
+    EXPECT_THAT(page, testing::HasSubstr("(pictures/" + scene.name + ".png)")) << scene.name;
+    EXPECT_THAT(page, testing::HasSubstr("<!-- begin " + scene.name + " -->\n")) << scene.name;
+    EXPECT_THAT(page, testing::HasSubstr("<!-- end " + scene.name + " -->\n")) << scene.name;
+  }
+}
+
 /// "merging.rule", and what it is when nobody says otherwise, as it is written in a scene.
 std::map<std::string, std::string> defaultSettings() {
   std::map<std::string, std::string> found;
