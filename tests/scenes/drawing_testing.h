@@ -1,0 +1,50 @@
+#pragma once
+/// Drawn scenes that run: what is asked of each, whoever drew it.
+
+#include <map>
+#include <utility>
+
+#include "tests/scenes/scene_testing.h"
+
+namespace merge2d {
+
+inline constexpr int kDrawnSteps = 2000;
+
+inline SceneRun runDrawn(const Scene& scene, Mode mode) {
+  SceneRun run(scene, mode);
+  run.steps(kDrawnSteps);
+  return run;
+}
+
+/// Nothing is faster than a free fall, and nothing sinks into another by a pixel.
+inline void expectNoBlowUp(const Scene& scene) {
+  for (const Mode mode : {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {
+    const SceneRun run = runDrawn(scene, mode);
+    const double fall = 9.81 * 0.01 * kDrawnSteps;  // [m/s]; some fall off the picture
+    for (const BodyState& body : run.now().bodies) {
+      EXPECT_TRUE(body.x.allFinite() && body.v.norm() < 1.05 * fall)
+          << scene.name << " in mode " << name(mode) << ": " << run.nameOf(body.id);
+    }
+    EXPECT_LT(run.now().stats.max_penetration, 0.1) << scene.name << ' ' << name(mode);
+  }
+}
+
+/// Pairs with two loaded contacts are rigid by themselves: at rest they are to be one.
+inline void expectMergesWhatRests(const Scene& scene) {
+  const SceneRun sleeping = runDrawn(scene, Mode::Sleep), merged = runDrawn(scene, Mode::Merge);
+  std::map<std::pair<BodyId, BodyId>, int> apart;
+  for (const ContactView& contact : merged.now().contacts) {
+    if (contact.internal || contact.lambda_n <= 0.0) continue;
+    ++apart[{contact.a, contact.b}];
+  }
+  for (const auto& [pair, contacts] : apart) {
+    const auto rests = [&](BodyId id) {
+      return !sleeping.dynamic(id) || sleeping.body(sleeping.nameOf(id)).asleep;
+    };
+    if (contacts < 2 || !rests(pair.first) || !rests(pair.second)) continue;
+    ADD_FAILURE() << scene.name << ": " << merged.nameOf(pair.first) << " and "
+                  << merged.nameOf(pair.second) << " rest on each other and are not merged";
+  }
+}
+
+}  // namespace merge2d
