@@ -44,6 +44,16 @@ TEST(Pages, EveryTestExists) {
   EXPECT_GT(tests, 80);
 }
 
+TEST(Pages, TellOfOpenTargetsThatAreOpen) {
+  const std::string open = read(kRoot / "tests/open_targets.txt");
+  for (const fs::path& page : pages()) {
+    for (const std::string& test :
+         matches(read(page), R"(`([\w./]+)`\s+is\s+an\s+open\s+target)")) {
+      EXPECT_THAT(open, testing::HasSubstr(test + "\n")) << nameOf(page);
+    }
+  }
+}
+
 TEST(Scenarios, EachBuiltInSceneHasAPartWithATableAndAPicture) {
   const std::string page = read(kRoot / "docs/scenarios.md");
   for (const BuiltinScene& scene : builtinScenes()) {

@@ -156,6 +156,7 @@ TEST(Spinner, MergesAtOrdinarySpeedAndNotAtHighSpeed) {
   EXPECT_EQ(merged({}), 4);
   EXPECT_EQ(merged({{"body.tray.script.spin", "120"}}), 0);
   EXPECT_EQ(merged({{"body.tray.script.spin", "120"}, {"step", "0.001"}}), 4);
+  EXPECT_EQ(merged({{"body.tray.script.spin", "120"}, {"solver.stabilisation", "post"}}), 4);
 }
 
 TEST(Wagon, HitsTheBookcaseAndAllMergesWithTheMovingTruck) {
@@ -172,6 +173,14 @@ TEST(Wagon, HitsTheBookcaseAndAllMergesWithTheMovingTruck) {
   run.until(3.3);
   EXPECT_NEAR(static_cast<double>(run.first(EventType::Unmerge, "bookcase")), 300, 20);
   EXPECT_GT(run.count(EventType::Unmerge), 20) << "the blow frees what it moves";
+  int books = 0, toys = 0;
+  for (const auto& event : run.log()) {
+    if (event.type != EventType::Unmerge) continue;
+    books += event.a.starts_with("book[") || event.b.starts_with("book[");
+    toys += event.a.starts_with("block[") || event.b.starts_with("block[");
+  }
+  EXPECT_GT(books, 0);
+  EXPECT_GT(toys, 0);
   run.until(10.0);
   EXPECT_EQ(run.now().stats.active_bodies, 1);
   EXPECT_EQ(run.now().stats.asleep, 0) << "the truck drives on";

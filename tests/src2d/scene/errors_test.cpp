@@ -268,6 +268,8 @@ TEST(Errors, ReferencesMustExistAndMakeSense) {
        "15:11: both ends of the spring are on the same body"},
       {withBodies("[[spring]]\nbody = \"p\"\nto = [0, 0]\nstiffness = 1"),
        "14:8: a spring has no effect on 'p', which is pinned"},
+      {withBodies("[[spring]]\nbody = \"s\"\nto = [0, 0]\nstiffness = 1"),
+       "14:8: a spring has no effect on 's', which is scripted"},
       {withBodies("[[impulse]]\nbody = \"s\"\nat = [0, 0]\nimpulse = [1, 0]"),
        "14:8: an impulse has no effect on 's', which is scripted"},
       {withBodies("[[impulse]]\nbody = \"d\"\nat = [0, 0]"),
