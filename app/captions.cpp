@@ -8,16 +8,12 @@
 #include <vector>
 
 #include "app/web_vtt.h"
+#include "lessons/words.h"
 
 namespace merge2d {
 namespace {
 
-/// "1 merge", "3 merges".
-std::string counted(int number, const std::string& one, const std::string& many) {
-  return fmt::format("{} {}", number, number == 1 ? one : many);
-}
-
-std::string counted(EventType type, bool collection, int number) {
+std::string happened(EventType type, bool collection, std::size_t number) {
   const std::string one = collection ? "collection" : "body";
   const std::string many = collection ? "collections" : "bodies";
   switch (type) {
@@ -60,7 +56,7 @@ std::string Captions::describe(const Second& second) {
   std::vector<std::string> parts;
   for (const auto& [kind, number] : second.events) {
     const auto [type, collection] = kind;
-    parts.push_back(counted(type, collection, number));
+    parts.push_back(happened(type, collection, static_cast<std::size_t>(number)));
     if (type != EventType::Unmerge) continue;
     std::vector<std::string> reasons;
     for (const auto& [reason, times] : second.reasons) {
@@ -68,9 +64,10 @@ std::string Captions::describe(const Second& second) {
     }
     parts.back() += fmt::format(" ({})", fmt::join(reasons, ", "));
   }
-  return fmt::format("{}. Then {}, {} asleep, in {}.", fmt::join(parts, ", "),
-                     counted(second.bodies, "body", "bodies"), second.asleep,
-                     counted(second.collections, "collection", "collections"));
+  return fmt::format(
+      "{}. Then {}, {} asleep, in {}.", fmt::join(parts, ", "),
+      counted(static_cast<std::size_t>(second.bodies), "body", "bodies"), second.asleep,
+      counted(static_cast<std::size_t>(second.collections), "collection", "collections"));
 }
 
 std::string Captions::text(const std::string& title) const {

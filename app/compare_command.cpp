@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kCompareExamples = R"(Examples:
   merge2d compare tower-platform
   merge2d compare dominoes --seconds 5 --json --no-charts
   merge2d compare pile --csv pile.csv -o charts --theme print
@@ -88,7 +88,7 @@ void compare(const CompareOptions& options) {
 void addCompareCommand(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("compare", "Simulate a scene in all four modes, side by side");
-  command->footer(kExamples);
+  command->footer(kCompareExamples);
   const auto options = std::make_shared<CompareOptions>();
   addSceneOptions(*command, *options);
   command->remove_option(command->get_option("--mode"));

@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
+
+#include "app/json.h"
 
 namespace merge2d {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// How many times faster than another mode; null where nothing was measured.
 Json speedup(const ModeRun& run, const ModeRun& other) {

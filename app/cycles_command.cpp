@@ -8,11 +8,11 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/help.h"
+#include "app/json.h"
 #include "app/render_options.h"
 #include "app/usage_error.h"
 #include "render/graph.h"
@@ -24,9 +24,7 @@ namespace merge2d {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kCyclesExamples = R"(Examples:
   printf 'A B 1\nB C 1\nC A 1\n' | merge2d cycles -
   merge2d cycles graph.txt --json
   merge2d cycles graph.txt --render graph.png
@@ -80,8 +78,8 @@ ContactGraph readGraph(const std::string& file) {
   return parseContactGraph(readAll(in, file), file);
 }
 
-std::vector<std::string> namesOf(const ContactGraph& graph,
-                                 const std::vector<std::uint32_t>& bodies) {
+std::vector<std::string> membersNames(const ContactGraph& graph,
+                                      const std::vector<std::uint32_t>& bodies) {
   std::vector<std::string> names;
   for (const std::uint32_t i : bodies) names.push_back(graph.bodies[i]);
   return names;
@@ -99,7 +97,7 @@ std::string json(const ContactGraph& graph, const CycleVerdicts& verdicts) {
   }
   const auto groups = [&](const Groups& of) {
     Json list = Json::array();
-    for (const auto& members : membersOf(of)) list.push_back(namesOf(graph, members));
+    for (const auto& members : membersOf(of)) list.push_back(membersNames(graph, members));
     return list;
   };
   out["groups"]["triangle"] = groups(verdicts.triangle);
@@ -180,7 +178,7 @@ class Report {
     if (all.empty()) return fmt::format("{:<8} groups: none\n", criterion);
     std::string lines = fmt::format("{:<8} groups: {}\n", criterion, all.size());
     for (const auto& members : all) {
-      lines += fmt::format("  {}\n", fmt::join(namesOf(graph_, members), ", "));
+      lines += fmt::format("  {}\n", fmt::join(membersNames(graph_, members), ", "));
     }
     return lines;
   }
@@ -249,7 +247,7 @@ void judgeFile(const CyclesOptions& options) {
 void addCyclesCommand(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand(
       "cycles", "Say which contacts of a contact graph hold bodies together");
-  command->footer(kExamples);
+  command->footer(kCyclesExamples);
   const auto help = std::make_shared<HelpFormatter>();
   help->label("Positionals", "Graph");
   command->formatter(help);

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/interrupt.h"
+#include "app/json.h"
 #include "app/progress.h"
 #include "app/simulation.h"
 #include "app/usage_error.h"
@@ -16,9 +16,7 @@
 namespace merge2d {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kExplainExamples = R"(Examples:
   merge2d explain tower-platform --at 118
   merge2d explain books --at 3 --pair diary notebook
   merge2d explain tower-platform --weld "brick[2,3]" "brick[2,4]"
@@ -283,7 +281,7 @@ void addPairOption(CLI::App& command, const std::string& name, std::vector<std::
 void addExplainCommand(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("explain", "Say why a pair of bodies merged, came apart, or did not");
-  command->footer(kExamples);
+  command->footer(kExplainExamples);
   const auto options = std::make_shared<ExplainOptions>();
   addSceneOptions(*command, *options);
   addOption(

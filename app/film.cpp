@@ -11,8 +11,7 @@
 namespace merge2d {
 namespace {
 
-constexpr double kMostFrames = 1e6;  // their names have six digits
-constexpr double kRounding = 1e-6;   // of counts of frames and steps
+constexpr double kRounding = 1e-6;  // of counts of frames and steps
 
 }  // namespace
 
@@ -25,7 +24,7 @@ std::int64_t Film::stepOf(std::int64_t frame) const {
 Film filmOf(const Scene& scene, const RenderOptions& options) {
   Film film{.fps = options.framesPerSecond(), .step = scene.step, .steps = stepCount(scene)};
   const double frames = std::ceil(scene.duration * film.fps - kRounding);
-  if (frames >= kMostFrames) {
+  if (frames >= static_cast<double>(kMostFrames)) {
     throw UsageError(
         fmt::format("{:.0f} frames are more than a million; lower --fps or --seconds", frames));
   }

@@ -5,12 +5,12 @@
 namespace merge2d {
 namespace {
 
-constexpr std::size_t kNames = 28, kDescriptions = 70;  // columns
+constexpr std::size_t kNamesWidth = 28, kDescriptionsWidth = 70;  // columns
 
 }  // namespace
 
 HelpFormatter::HelpFormatter() {
-  column_width(kNames);
+  column_width(kNamesWidth);
   label("SUBCOMMAND", "COMMAND");
   label("Positionals", "Scene");
 }
@@ -27,7 +27,7 @@ std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
 }
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-  return wrapped(option->get_description(), kDescriptions);
+  return wrapped(option->get_description(), kDescriptionsWidth);
 }
 
 std::string wrapped(const std::string& text, std::size_t width) {

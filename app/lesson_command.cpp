@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kLessonExamples = R"(Examples:
   merge2d lesson what-merging-is
   merge2d lesson tower-platform
   merge2d lesson my-lesson/
@@ -110,7 +110,7 @@ void run(const LessonOptions& options) {
 void addLessonCommand(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand(
       "lesson", "Write a page that plays, steps and explains, for a browser");
-  command->footer(kExamples);
+  command->footer(kLessonExamples);
   const auto options = std::make_shared<LessonOptions>();
   addSceneOptions(*command, *options);
   addOption(

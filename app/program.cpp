@@ -15,7 +15,7 @@
 namespace merge2d {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kProgramExamples = R"(Examples:
   merge2d list                          the built-in scenes
   merge2d run tower-platform            simulate one, and sum it up
   merge2d render tower-platform         draw it to frames/tower-platform/
@@ -36,7 +36,7 @@ void addCommands(CLI::App& program, Action& action) {
   program.set_help_flag("-h,--help", "Print this help and exit");
   program.set_version_flag("--version", "merge2d " MERGE2D_VERSION, "Print the version and exit");
   program.require_subcommand(0, 1);
-  program.footer(kExamples);
+  program.footer(kProgramExamples);
   addListCommand(program, action);
   addValidateCommand(program, action);
   addRunCommand(program, action);

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kRenderExamples = R"(Examples:
   merge2d render tower-platform
   merge2d render pile -q l --seconds 3 --format gif
   merge2d render books --overlay contacts,forces --theme print -s -o figure
@@ -243,7 +243,7 @@ void render(const RenderOptions& options) {
 
 void addRenderCommand(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("render", "Draw a scene as a sequence of PNG files");
-  command->footer(kExamples);
+  command->footer(kRenderExamples);
   const auto options = std::make_shared<RenderOptions>();
   addRenderOptions(*command, *options);
   command->callback([&action, options] { action = [options] { render(*options); }; });

@@ -16,8 +16,7 @@ namespace {
 
 constexpr int kLeastSide = 16;  // [px]
 constexpr int kMostFps = 1000;
-constexpr int kMostCells = 12;                   // of a contact sheet, along each side
-constexpr std::int64_t kMostFrames = 1'000'000;  // as many as their names have numbers
+constexpr int kMostCells = 12;  // of a contact sheet, along each side
 
 constexpr std::array<Quality, 5> kQualities{{{'l', 854, 480, 15},
                                              {'m', 1280, 720, 30},

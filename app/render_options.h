@@ -19,6 +19,8 @@ struct Quality {
   int fps;
 };
 
+constexpr std::int64_t kMostFrames = 1'000'000;  ///< as many as their names have numbers
+
 /// Frames, inclusive; an open end is the last one.
 struct FrameRange {
   std::int64_t from = 0;

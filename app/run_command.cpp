@@ -19,7 +19,7 @@
 namespace merge2d {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kRunExamples = R"(Examples:
   merge2d run tower-platform
   merge2d run pile --seconds 5 --mode reference --json
   merge2d run books --trace books.jsonl --decisions
@@ -182,7 +182,7 @@ void run(const RunOptions& options) {
 
 void addRunCommand(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("run", "Simulate a scene and print a summary");
-  command->footer(kExamples);
+  command->footer(kRunExamples);
   const auto options = std::make_shared<RunOptions>();
   addSceneOptions(*command, *options);
   constexpr const char* kGroup = "Files";

@@ -3,16 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "app/film.h"
+#include "app/json.h"
 #include "src2d/trace/snapshot.h"
 
 namespace merge2d {
-
-using Json = nlohmann::ordered_json;
 
 /// Everything that decides what a frame looks like: program, scene, parameters, picture. Two
 /// renderings of one film give the same frames.

@@ -15,7 +15,7 @@
 namespace merge2d {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kStepExamples = R"(Examples:
   merge2d step books
   printf 'event merge\ntable\nwhy\n' | merge2d step books
   printf 'jump 20 Unmerge\npicture unmerge.png\n' | merge2d step tower-platform
@@ -70,7 +70,7 @@ void step(const SceneOptions& options) {
 void addStepCommand(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand(
       "step", "Walk through a scene: by step, by stage of the algorithm, by event, and back");
-  command->footer(kExamples);
+  command->footer(kStepExamples);
   const auto options = std::make_shared<SceneOptions>();
   addSceneOptions(*command, *options);
   addGeneralOptions(*command, *options);

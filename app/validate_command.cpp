@@ -3,22 +3,21 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/json.h"
 #include "app/output_file.h"
 #include "app/simulation.h"
 #include "app/usage_error.h"
+#include "lessons/words.h"
 #include "src2d/core/error.h"
 #include "src2d/geometry/box.h"
 
 namespace merge2d {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kValidateExamples = R"(Examples:
   merge2d validate tower.toml
   merge2d validate drawing.png --to scene.toml
   merge2d validate pile --json --set step=0.005)";
@@ -31,7 +30,7 @@ struct ValidateOptions : SceneOptions {
 struct Inventory {
   std::map<Motion, int> motions;
   int held = 0;  ///< dynamic, but pinned at first
-  int discs = 0, polygons = 0;
+  std::size_t discs = 0, polygons = 0;
   int emitted = 0;    ///< bodies that appear later
   double mass = 0.0;  ///< of the dynamic bodies [kg]
   Aabb extent;
@@ -75,12 +74,6 @@ void warnOfOverlaps(Scene& scene) {
       overlaps.size() > 1 ? fmt::format(", and {} more pairs by less", overlaps.size() - 1) : ""));
 }
 
-/// "1 disc", "2 discs".
-std::string counted(int number, const std::string& one, const std::string& many = "") {
-  const std::string plural = many.empty() ? one + "s" : many;
-  return fmt::format("{} {}", number, number == 1 ? one : plural);
-}
-
 /// The rows of the report: what, and how much of it.
 std::string table(const Scene& scene, const Inventory& found) {
   std::string out = fmt::format("{}: {}\n", scene.name, scene.title);
@@ -96,11 +89,13 @@ std::string table(const Scene& scene, const Inventory& found) {
   }
   if (found.held > 0) motions += fmt::format(" ({} of them held at first)", found.held);
   row("bodies", std::to_string(scene.bodies.size()) + motions);
-  row("shapes", fmt::format("{}: {}, {}", found.discs + found.polygons,
-                            counted(found.discs, "disc"), counted(found.polygons, "polygon")));
+  row("shapes",
+      fmt::format("{}: {}, {}", found.discs + found.polygons, counted(found.discs, "disc", "discs"),
+                  counted(found.polygons, "polygon", "polygons")));
   if (found.emitted > 0) {
-    row("emitters", fmt::format("{}: {} later", scene.emitters.size(),
-                                counted(found.emitted, "body", "bodies")));
+    row("emitters",
+        fmt::format("{}: {} later", scene.emitters.size(),
+                    counted(static_cast<std::size_t>(found.emitted), "body", "bodies")));
   }
   count("springs", scene.springs.size());
   count("joints", scene.joints.size());
@@ -170,7 +165,7 @@ void validate(const ValidateOptions& options) {
 
 void addValidateCommand(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("validate", "Check a scene and say what is in it");
-  command->footer(kExamples);
+  command->footer(kValidateExamples);
   const auto options = std::make_shared<ValidateOptions>();
   addSceneOptions(*command, *options);
   addOption(

@@ -19,11 +19,6 @@ constexpr std::array<std::string_view, 6> kOfAll = {"collections", "simulated", 
 constexpr std::array<std::string_view, 5> kOfBody = {"x", "y", "angle", "speed", "spin"};
 constexpr std::array<std::string_view, 4> kOfPair = {"force", "friction", "gap", "points"};
 
-template <class Words>
-bool contains(const Words& words, std::string_view word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 BodyId bodyNamed(const Value& place, const Scene& scene, const std::string& wanted) {
   std::vector<std::string_view> names;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -56,11 +51,11 @@ Quantity::Quantity(const Value& place, const Scene& scene) : text_(place.text())
   std::vector<std::string_view> known(kOfAll.begin(), kOfAll.end());
   known.insert(known.end(), kOfBody.begin(), kOfBody.end());
   known.insert(known.end(), kOfPair.begin(), kOfPair.end());
-  if (!contains(known, kind_)) {
+  if (!isAmong(kind_, known)) {
     place.fail(fmt::format("'{}' cannot be measured{}; there are {}", kind_,
                            didYouMean(kind_, known), fmt::join(known, ", ")));
   }
-  const bool all = contains(kOfAll, kind_), body = contains(kOfBody, kind_);
+  const bool all = isAmong(kind_, kOfAll), body = isAmong(kind_, kOfBody);
   const bool fits = all    ? of.empty()
                     : body ? of == "of" && !a.empty() && conjunction.empty()
                            : of == "of" && conjunction == "and" && !b.empty() && rest.empty();
@@ -82,7 +77,7 @@ double Quantity::at(const Recording& r, std::int64_t step) const {
   if (kind_ == "inside") return stats.internal_contacts;
   if (kind_ == "asleep") return stats.asleep;
   if (kind_ == "kinetic-energy") return stats.kinetic_energy;
-  if (contains(kOfBody, kind_)) {
+  if (isAmong(kind_, kOfBody)) {
     const BodyTrack& t = r.tracks[index(a_)];
     if (!r.present(a_, step)) return std::nan("");
     const std::size_t i = r.sample(a_, step);

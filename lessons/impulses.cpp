@@ -12,15 +12,15 @@
 namespace merge2d {
 namespace {
 
-using ContactKey = std::tuple<BodyId, BodyId, std::uint32_t>;
+using TrackKey = std::tuple<BodyId, BodyId, std::uint32_t>;
 
 /// Which track a contact belongs to.
-using TrackIndex = std::map<ContactKey, std::int32_t>;
+using TrackIndex = std::map<TrackKey, std::int32_t>;
 
 TrackIndex tracksOf(const Recording& recording) {
   TrackIndex out;
   for (const ContactTrack& t : recording.contacts) {
-    out.emplace(ContactKey{t.a, t.b, t.feature}, static_cast<std::int32_t>(out.size()));
+    out.emplace(TrackKey{t.a, t.b, t.feature}, static_cast<std::int32_t>(out.size()));
   }
   return out;
 }

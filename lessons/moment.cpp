@@ -35,11 +35,6 @@ constexpr std::array<std::string_view, 5> kReasons = {"broken", "sliding", "rela
 constexpr std::array<std::string_view, 8> kOrdinals = {"last",   "first", "second", "third",
                                                        "fourth", "fifth", "sixth",  "seventh"};
 
-template <class Words>
-bool contains(const Words& words, std::string_view word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 std::optional<double> toNumber(const std::string& word) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -118,7 +113,7 @@ struct Moment::Parser {
       ++next;
     }
     event.kind = take();
-    if (!contains(kKinds, event.kind)) {
+    if (!isAmong(event.kind, kKinds)) {
       fail(event.kind.empty() ? "the name of an event is missing"
                               : fmt::format("'{}' is no moment and no event{}", event.kind,
                                             didYouMean(event.kind, kKinds)));
@@ -132,7 +127,7 @@ struct Moment::Parser {
     }
     if (accept("by")) {
       event.reason = take();
-      if (!contains(kReasons, event.reason)) {
+      if (!isAmong(event.reason, kReasons)) {
         fail(fmt::format("'{}' is no reason{}", event.reason, didYouMean(event.reason, kReasons)));
       }
     }

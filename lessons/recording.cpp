@@ -35,9 +35,9 @@ bool parts(std::string_view verdict) {
 }
 
 /// Feeds snapshots into a recording.
-class Recorder {
+class SnapshotFeed {
  public:
-  explicit Recorder(Recording& out) : out_(out) { out_.tracks.resize(out_.bodies.size()); }
+  explicit SnapshotFeed(Recording& out) : out_(out) { out_.tracks.resize(out_.bodies.size()); }
 
   void add(const Snapshot& seen) {
     addBodies(seen);
@@ -215,16 +215,16 @@ Recording record(const Scene& scene, const RecordOptions& options) {
   out.mode = options.mode;
   out.detail = options.detail;
   out.bodies = world.bodies();
-  Recorder recorder(out);
+  SnapshotFeed feed(out);
   Ledger ledger(out.ledger);
   world.observe(&ledger);
   Snapshot snapshot;
   world.capture(snapshot);
-  recorder.add(snapshot);
+  feed.add(snapshot);
   while (out.steps < options.steps) {
     world.step();
     world.capture(snapshot);
-    recorder.add(snapshot);
+    feed.add(snapshot);
     ++out.steps;
     if (full) keepOrder(world.notes(), out);
     if (options.progress) options.progress(out.steps);

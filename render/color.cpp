@@ -17,7 +17,7 @@ using Matrix = std::array<Triple, 3>;
 constexpr Matrix kXyz = {{{0.4124564, 0.3575761, 0.1804375},
                           {0.2126729, 0.7151522, 0.0721750},
                           {0.0193339, 0.1191920, 0.9503041}}};
-constexpr Triple kWhite = {0.95047, 1.0, 1.08883};
+constexpr Triple kWhitePoint = {0.95047, 1.0, 1.08883};
 
 constexpr std::array<Matrix, 4> kVision = {{
     {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}},
@@ -49,7 +49,7 @@ Triple lab(Triple rgb) {
   for (double& x : rgb) x = std::clamp(x, 0.0, 1.0);
   Triple f = kXyz * rgb;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double t = f[i] / kWhite[i];
+    const double t = f[i] / kWhitePoint[i];
     f[i] = t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0;
   }
   return {116.0 * f[1] - 16.0, 500.0 * (f[0] - f[1]), 200.0 * (f[1] - f[2])};

@@ -1,6 +1,8 @@
 #pragma once
 /// The parts of a frame, from back to front. Internal to the renderer.
 
+#include <utility>
+
 #include "render/camera.h"
 #include "render/painter.h"
 #include "render/palette.h"
@@ -8,6 +10,9 @@
 #include "render/style.h"
 
 namespace merge2d {
+
+using BodyPair = std::pair<BodyId, BodyId>;
+inline BodyPair ordered(BodyId a, BodyId b) { return a < b ? BodyPair{a, b} : BodyPair{b, a}; }
 
 /// Everything the parts look at.
 struct FrameScene {

@@ -13,7 +13,7 @@
 namespace merge2d {
 namespace {
 
-constexpr float kMargin = 20.0F;  // between text and the picture's edge [design px]
+constexpr float kTextMargin = 20.0F;  // between text and the picture's edge [design px]
 
 /// The most a count may become, which says how much room it needs.
 long long largestCount(const FrameScene& scene) {
@@ -32,7 +32,7 @@ void drawCounts(Painter& painter, const FrameScene& scene, float baseline, float
     const bool first = end == 0.0F;
     const std::string number = std::to_string(count.number);
     const float left =
-        first ? scene.px(kMargin) : end + digits - painter.text().width(number, font);
+        first ? scene.px(kTextMargin) : end + digits - painter.text().width(number, font);
     const float meaning = left + painter.text().width(number, font) + gap;
     end = meaning + painter.text().width(count.many, font) + scene.px(12.0F);
     if (end > right) return;
@@ -139,7 +139,7 @@ void drawLegend(Painter& painter, const FrameScene& scene, float right) {
   const Font font = scene.font(13.0F);
   const float y = scene.layout.footer.y + 0.5F * scene.layout.footer.height;
   const float baseline = std::round(y + 0.5F * painter.text().capHeight(font));
-  float x = scene.px(kMargin);
+  float x = scene.px(kTextMargin);
   for (const LegendEntry& entry : legend.entries) {
     const float sample = scene.px(entry.width) + scene.px(6.0F);
     const float width = sample + painter.text().width(entry.meaning, font);
@@ -157,7 +157,7 @@ float drawScale(Painter& painter, const FrameScene& scene) {
   const double length = roundLength(0.12 * double{layout.panel.width} / scene.view.scale);
   const std::string label = lengthLabel(length);
   const Font font = scene.font(13.0F);
-  const float right = layout.footer.right() - scene.px(kMargin);
+  const float right = layout.footer.right() - scene.px(kTextMargin);
   const float left = right - scene.view(length);
   const float y = std::round(layout.footer.y + 0.5F * layout.footer.height);
   const float line = std::max(1.0F, std::round(scene.px(1.6F))), tick = scene.px(4.0F);
@@ -189,8 +189,8 @@ void drawCaption(Painter& painter, const FrameScene& scene) {
   const Theme& theme = scene.theme();
   const bool two_lines = scene.layout.caption.height > scene.px(50.0F);
   const Font title = scene.font(19.0F, Weight::Bold), time = scene.font(19.0F);
-  const float left = scene.px(kMargin), gap = scene.px(24.0F);
-  const float right = scene.layout.caption.right() - scene.px(kMargin);
+  const float left = scene.px(kTextMargin), gap = scene.px(24.0F);
+  const float right = scene.layout.caption.right() - scene.px(kTextMargin);
 
   const float first = std::round(scene.px(two_lines ? 30.0F : 25.0F));
   const std::string clock = fmt::format("t = {:.2f} s", scene.snapshot.time);
@@ -210,7 +210,7 @@ void drawCaption(Painter& painter, const FrameScene& scene) {
 }
 
 void drawFooter(Painter& painter, const FrameScene& scene) {
-  float right = scene.layout.footer.right() - scene.px(kMargin);
+  float right = scene.layout.footer.right() - scene.px(kTextMargin);
   if (scene.shows(Overlay::Scale)) right = drawScale(painter, scene) - scene.px(24.0F);
   if (scene.shows(Overlay::Legend)) drawLegend(painter, scene, right);
 }

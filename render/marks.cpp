@@ -11,20 +11,16 @@
 namespace merge2d {
 namespace {
 
-using Pair = std::pair<BodyId, BodyId>;
-
-Pair ordered(BodyId a, BodyId b) { return a < b ? Pair{a, b} : Pair{b, a}; }
-
 /// The mean contact point of each pair in contact.
-std::map<Pair, Vec2> meetingPoints(const Snapshot& snapshot) {
-  std::map<Pair, std::pair<Vec2, int>> sums;
+std::map<BodyPair, Vec2> meetingPoints(const Snapshot& snapshot) {
+  std::map<BodyPair, std::pair<Vec2, int>> sums;
   for (const ContactView& contact : snapshot.contacts) {
     auto& [sum, count] =
         sums.try_emplace(ordered(contact.a, contact.b), Vec2::Zero(), 0).first->second;
     sum += contact.x;
     ++count;
   }
-  std::map<Pair, Vec2> means;
+  std::map<BodyPair, Vec2> means;
   for (const auto& [pair, entry] : sums) means[pair] = entry.first / entry.second;
   return means;
 }
@@ -56,7 +52,7 @@ Vec2 linkEnd(const FrameScene& scene, BodyId id, const Vec2& meeting) {
   return body == nullptr || isFixed(scene, *body) ? meeting : body->x;
 }
 
-void drawLink(Painter& painter, const FrameScene& scene, const Pair& pair, const Vec2& meeting,
+void drawLink(Painter& painter, const FrameScene& scene, const BodyPair& pair, const Vec2& meeting,
               float width, Color color) {
   const Pixel a = scene.view(linkEnd(scene, pair.first, meeting));
   const Pixel b = scene.view(linkEnd(scene, pair.second, meeting));
@@ -80,7 +76,7 @@ void drawGraph(Painter& painter, const FrameScene& scene) {
 }
 
 void drawWelds(Painter& painter, const FrameScene& scene) {
-  const std::map<Pair, Vec2> meetings = meetingPoints(scene.snapshot);
+  const std::map<BodyPair, Vec2> meetings = meetingPoints(scene.snapshot);
   const float width = std::clamp(0.09F * scene.bodySize(), 1.0F, scene.px(4.0F));
   for (const WeldView& weld : scene.snapshot.welds) {
     const BodyState *a = scene.body(weld.a), *b = scene.body(weld.b);
@@ -109,8 +105,8 @@ float markRadius(const FrameScene& scene) {
 }
 
 /// The pairs that came apart in this step.
-std::set<Pair> partedPairs(const Snapshot& snapshot) {
-  std::set<Pair> pairs;
+std::set<BodyPair> partedPairs(const Snapshot& snapshot) {
+  std::set<BodyPair> pairs;
   for (const Event& event : snapshot.events) {
     if (event.type == EventType::Unmerge) pairs.insert(ordered(event.a, event.b));
   }
@@ -120,7 +116,7 @@ std::set<Pair> partedPairs(const Snapshot& snapshot) {
 /// Contacts that carry no force are shown when they have just broken.
 void drawContacts(Painter& painter, const FrameScene& scene) {
   const float radius = markRadius(scene);
-  const std::set<Pair> parted = partedPairs(scene.snapshot);
+  const std::set<BodyPair> parted = partedPairs(scene.snapshot);
   for (const ContactView& contact : scene.snapshot.contacts) {
     const Pixel at = scene.view(contact.x);
     if (contact.state == ContactState::Broken) {

@@ -9,9 +9,6 @@
 
 namespace merge2d {
 
-using BodyPair = std::pair<BodyId, BodyId>;
-inline BodyPair ordered(BodyId a, BodyId b) { return a < b ? BodyPair{a, b} : BodyPair{b, a}; }
-
 class StagePens {
  public:
   /// `painter` and `scene` must outlive the pens.

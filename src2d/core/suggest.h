@@ -32,6 +32,12 @@ inline std::size_t editDistance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// Whether `word` is one of those known.
+template <class Words>
+bool isAmong(std::string_view word, const Words& known) {
+  return std::find(known.begin(), known.end(), word) != known.end();
+}
+
 /// The candidate nearest to `word`, or nothing when none is near enough to be meant. The first one
 /// wins a tie.
 template <class Words>

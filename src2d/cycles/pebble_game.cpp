@@ -104,11 +104,11 @@ Groups genericGroups(std::uint32_t nodes, std::span<const Pin> pins) {
   for (const Pin& p : pins) game.pin(p.a, p.b);
   // A group that its last pin has made rigid may be larger than what the search reached.
   for (const Pin& p : pins) game.join(p.a, p.b);
-  constexpr std::uint32_t kNone = ~0u;
-  Groups smallest(nodes, kNone), groups(nodes);
+  constexpr std::uint32_t kNoNode = ~0u;
+  Groups smallest(nodes, kNoNode), groups(nodes);
   for (std::uint32_t i = 0; i < nodes; ++i) {
     std::uint32_t& first = smallest[game.find(i)];
-    if (first == kNone) first = i;
+    if (first == kNoNode) first = i;
     groups[i] = first;
   }
   return groups;

@@ -33,13 +33,13 @@ bool segmentsMeet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 
 namespace {
 
-struct Corner {
+struct OutlineVertex {
   Vec2 point;
   std::size_t index;  // in the outline as it was given, for messages
 };
-using Corners = std::vector<Corner>;
+using OutlineVertices = std::vector<OutlineVertex>;
 
-Corners distinct(const std::vector<Vec2>& outline) {
+OutlineVertices distinct(const std::vector<Vec2>& outline) {
   Aabb box;
   for (const Vec2& p : outline) {
     if (!p.allFinite())
@@ -47,7 +47,7 @@ Corners distinct(const std::vector<Vec2>& outline) {
     box.include(p);
   }
   const double near = outline.empty() ? 0.0 : 1e-9 * box.extent().maxCoeff();
-  Corners corners;
+  OutlineVertices corners;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     // Of several vertices at one place the last stays: the edge that leaves it has its number.
     if ((outline[(i + 1) % outline.size()] - outline[i]).norm() > near) {
@@ -58,7 +58,7 @@ Corners distinct(const std::vector<Vec2>& outline) {
   return corners;
 }
 
-void rejectCrossings(const Corners& corners) {
+void rejectCrossings(const OutlineVertices& corners) {
   const std::size_t n = corners.size();
   const auto at = [&](std::size_t i) -> const Vec2& { return corners[i % n].point; };
   for (std::size_t i = 0; i < n; ++i) {
@@ -105,9 +105,9 @@ std::vector<Vec2> withoutStraightVertices(std::vector<Vec2> points) {
 }
 
 std::vector<Vec2> simpleOutline(const std::vector<Vec2>& outline) {
-  const Corners corners = distinct(outline);
+  const OutlineVertices corners = distinct(outline);
   std::vector<Vec2> points;
-  for (const Corner& corner : corners) points.push_back(corner.point);
+  for (const OutlineVertex& corner : corners) points.push_back(corner.point);
   points = withoutStraightVertices(std::move(points));
   if (points.size() < 3) throw InputError("the outline encloses no area");
   rejectCrossings(corners);

@@ -10,11 +10,11 @@ namespace merge2d {
 namespace {
 
 /// A tangential impulse this near to its limit is on the edge of the cone, Eq. (20).
-constexpr double kOnEdge = 1.0 - 1e-9;
+constexpr double kWeldOnEdge = 1.0 - 1e-9;
 
 bool broken(const ContactBlock& k, int i) { return k.lambda_n(i) <= 0.0 && !k.bilateral; }
 bool onEdge(const ContactBlock& k, int i) {
-  return !k.bilateral && std::abs(k.lambda_t(i)) >= kOnEdge * k.mu * k.lambda_n(i);
+  return !k.bilateral && std::abs(k.lambda_t(i)) >= kWeldOnEdge * k.mu * k.lambda_n(i);
 }
 
 bool atLimit(const ContactBlock& k) {

@@ -29,7 +29,7 @@ std::string shown(const toml::node& node) {
 /// " (it belongs in [merging])", for a setting or a key of the whole scene in a wrong table.
 std::string homeOf(std::string_view key) {
   constexpr std::array<std::string_view, 5> kTop{"title", "gravity", "step", "duration", "seed"};
-  if (std::find(kTop.begin(), kTop.end(), key) != kTop.end()) {
+  if (isAmong(key, kTop)) {
     return " (it belongs at the top, before the first [table])";
   }
   std::string homes;
@@ -127,7 +127,7 @@ TableReader Value::table() const {
 // Tables
 
 std::optional<Value> TableReader::get(std::string_view key) {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  if (!isAmong(key, known_)) known_.push_back(key);
   const toml::node* node = table_->get(key);
   if (node == nullptr) return std::nullopt;
   return Value(*source_, *node, std::string(key), title_);
@@ -187,7 +187,7 @@ void TableReader::done() const {
   const toml::key* unknown = nullptr;
   const auto position = [](const toml::key& key) { return key.source().begin; };
   for (const auto& [key, node] : *table_) {
-    if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
+    if (isAmong(key.str(), known_)) continue;
     if (unknown == nullptr || position(key) < position(*unknown)) unknown = &key;
   }
   if (unknown != nullptr) {
