@@ -9,6 +9,9 @@
 #include "app/usage_error.h"
 #include "lessons/lesson.h"
 #include "lessons/page.h"
+#include "src2d/core/error.h"
+#include "src2d/core/suggest.h"
+#include "src2d/scene/load.h"
 
 namespace merge2d {
 namespace {
@@ -39,6 +42,19 @@ std::optional<fs::path> lessonNamed(const std::string& name) {
   }
   if (fs::is_directory(name)) return fs::path(name);
   return std::nullopt;
+}
+
+/// Whoever mistypes a lesson's name is told of lessons too, not of scenes alone.
+void refuseUnknownName(const std::string& name) {
+  const fs::path path(name);
+  if (path.has_parent_path() || path.has_extension() || fs::exists(path)) return;
+  std::vector<std::string> names;
+  for (const BuiltinLesson& lesson : builtinLessons()) names.push_back(lesson.name);
+  for (const BuiltinScene& scene : builtinScenes()) names.push_back(scene.name);
+  if (isAmong(name, names)) return;
+  throw InputError(
+      fmt::format("no built-in lesson or scene is called '{}'{}; `merge2d list` names them all",
+                  name, didYouMean(name, names)));
 }
 
 /// Runs a scene in one mode.
@@ -94,6 +110,7 @@ void run(const LessonOptions& options) {
   const Console console(options);
   catchInterrupts();
   std::string name;
+  refuseUnknownName(options.scene);
   const auto folder = lessonNamed(options.scene);
   const PageContent content =
       folder ? lessonPage(*folder, options, console, name) : scenePage(options, console, name);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "lessons/body_named.h"
 #include "src2d/core/error.h"
 #include "src2d/core/suggest.h"
 
@@ -18,15 +19,6 @@ constexpr std::array<std::string_view, 6> kOfAll = {"collections", "simulated", 
                                                     "inside",      "asleep",    "kinetic-energy"};
 constexpr std::array<std::string_view, 5> kOfBody = {"x", "y", "angle", "speed", "spin"};
 constexpr std::array<std::string_view, 4> kOfPair = {"force", "friction", "gap", "points"};
-
-BodyId bodyNamed(const Value& place, const Scene& scene, const std::string& wanted) {
-  std::vector<std::string_view> names;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].name == wanted) return BodyId{static_cast<std::uint32_t>(i)};
-    names.push_back(scene.bodies[i].name);
-  }
-  place.fail(fmt::format("the scene has no body '{}'{}", wanted, didYouMean(wanted, names)));
-}
 
 double degreesOf(double radians) { return radians * 180.0 / std::numbers::pi; }
 

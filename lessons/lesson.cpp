@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "lessons/body_named.h"
 #include "lessons/folder.h"
 #include "lessons/markdown.h"
 #include "src2d/core/error.h"
@@ -215,15 +216,7 @@ class Loader {
 
   void readSelection(const Value& value, LessonPart& part) const {
     for (const Value& wanted : value.elements("[\"a body\"] or [\"a\", \"b\"]")) {
-      const auto at = std::find_if(scene().bodies.begin(), scene().bodies.end(),
-                                   [&](const BodyDesc& b) { return b.name == wanted.text(); });
-      if (at == scene().bodies.end()) {
-        std::vector<std::string_view> names;
-        for (const BodyDesc& body : scene().bodies) names.push_back(body.name);
-        wanted.fail(fmt::format("the scene has no body '{}'{}", wanted.text(),
-                                didYouMean(wanted.text(), names)));
-      }
-      part.select.push_back(BodyId{static_cast<std::uint32_t>(at - scene().bodies.begin())});
+      part.select.push_back(bodyNamed(wanted, scene(), wanted.text()));
     }
     if (part.select.empty() || part.select.size() > 2) value.fail("it names a body, or a pair");
     std::sort(part.select.begin(), part.select.end());

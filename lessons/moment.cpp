@@ -8,6 +8,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "lessons/body_named.h"
 #include "src2d/core/suggest.h"
 
 namespace merge2d {
@@ -84,15 +85,7 @@ struct Moment::Parser {
     fail(word.empty() ? "a number is missing" : fmt::format("'{}' is no number", word));
   }
 
-  BodyId takeName() {
-    const std::string word = take();
-    std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      if (scene.bodies[i].name == word) return BodyId{static_cast<std::uint32_t>(i)};
-      names.push_back(scene.bodies[i].name);
-    }
-    place.fail(fmt::format("the scene has no body '{}'{}", word, didYouMean(word, names)));
-  }
+  BodyId takeName() { return bodyNamed(place, scene, take()); }
 
   void readShift(Moment& out) {
     if (!toNumber(peek()) || (peek(2) != "before" && peek(2) != "after")) return;

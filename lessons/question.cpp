@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "lessons/body_named.h"
 #include "src2d/core/suggest.h"
 #include "src2d/trace/json_text.h"
 
@@ -60,12 +61,7 @@ Question::Question(TableReader table, const Scene& scene) {
     }
     if (const auto pair = table.require("pair")) {
       for (const Value& name : pair->elements("[\"a\", \"b\"]")) {
-        const auto at = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                     [&](const BodyDesc& b) { return b.name == name.text(); });
-        if (at == scene.bodies.end()) {
-          name.fail(fmt::format("the scene has no body '{}'", name.text()));
-        }
-        pair_.push_back(BodyId{static_cast<std::uint32_t>(at - scene.bodies.begin())});
+        pair_.push_back(bodyNamed(name, scene, name.text()));
       }
       if (pair_.size() != 2) pair->fail("a pair has two bodies");
       std::sort(pair_.begin(), pair_.end());

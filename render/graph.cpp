@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "render/camera.h"
 #include "render/graph_layout.h"
@@ -16,9 +18,31 @@ namespace {
 struct Panel {
   const char* title;
   const Groups& groups;
-  const std::vector<std::uint8_t>& holds;  ///< per pair
-  bool cycles;                             ///< shade those that closed
+  const std::vector<std::uint8_t>& holds;         ///< per pair
+  std::vector<std::vector<std::uint32_t>> rings;  ///< pairs that hold together only
 };
+
+/// Pairs of one contact which hold, a list for each set of bodies that they link.
+std::vector<std::vector<std::uint32_t>> ringsOf(const ContactGraph& graph,
+                                                const std::vector<std::uint8_t>& holds) {
+  const auto ring = [&](std::size_t i) { return holds[i] != 0 && graph.pairs[i].contacts == 1; };
+  Groups linked(graph.bodies.size());
+  std::iota(linked.begin(), linked.end(), 0u);
+  const auto find = [&](std::uint32_t body) {
+    while (linked[body] != body) body = linked[body] = linked[linked[body]];
+    return body;
+  };
+  for (std::uint32_t i = 0; i < graph.pairs.size(); ++i) {
+    if (ring(i)) linked[find(graph.pairs[i].a)] = find(graph.pairs[i].b);
+  }
+  std::map<std::uint32_t, std::vector<std::uint32_t>> rings;
+  for (std::uint32_t i = 0; i < graph.pairs.size(); ++i) {
+    if (ring(i)) rings[find(graph.pairs[i].a)].push_back(i);
+  }
+  std::vector<std::vector<std::uint32_t>> out;
+  for (auto& [first, pairs] : rings) out.push_back(std::move(pairs));
+  return out;
+}
 
 /// The corners of the convex hull, counter-clockwise; fewer than three when all lie on a line.
 std::vector<Pixel> hullOf(std::vector<Pixel> points) {
@@ -43,11 +67,10 @@ std::vector<Pixel> hullOf(std::vector<Pixel> points) {
 
 class GraphPainter {
  public:
-  GraphPainter(Painter& painter, const ContactGraph& graph, const CycleVerdicts& verdicts,
-               const GraphLayout& layout, const Theme& theme, const PixelBox& area)
+  GraphPainter(Painter& painter, const ContactGraph& graph, const GraphLayout& layout,
+               const Theme& theme, const PixelBox& area)
       : painter_(painter),
         graph_(graph),
-        verdicts_(verdicts),
         layout_(layout),
         theme_(theme),
         area_(area),
@@ -60,7 +83,7 @@ class GraphPainter {
 
   void draw(const Panel& panel) {
     findColours(panel.groups);
-    if (panel.cycles) drawCycles();
+    for (const auto& ring : panel.rings) drawRing(ring);
     if (layout_.placed) {
       for (std::uint32_t i = 0; i < graph_.bodies.size(); ++i) drawLink(i);
       for (std::uint32_t i = 0; i < graph_.pairs.size(); ++i) drawPoints(i, panel.holds[i] != 0);
@@ -129,19 +152,17 @@ class GraphPainter {
     return view_(middle);
   }
 
-  void drawCycles() {
+  void drawRing(const std::vector<std::uint32_t>& ring) {
     const Color shade = withAlpha(theme_.collections[Theme::kFaint].fill, 0.55);
-    for (const CycleOfThree& cycle : verdicts_.cycles) {
-      std::vector<Pixel> corners;
-      for (const std::uint32_t i : cycle) {
-        const GraphPair& pair = graph_.pairs[i];
-        corners.push_back(middleOf(pair));
-        if (!layout_.placed) painter_.line(at(pair.a), at(pair.b), 13.0F * unit_, shade);
-      }
-      const std::vector<Pixel> hull = hullOf(corners);
-      if (layout_.placed && hull.size() == 3) {
-        painter_.polygon(hull, 12.0F * unit_, {.fill = shade});
-      }
+    std::vector<Pixel> corners;
+    for (const std::uint32_t i : ring) {
+      const GraphPair& pair = graph_.pairs[i];
+      corners.push_back(middleOf(pair));
+      if (!layout_.placed) painter_.line(at(pair.a), at(pair.b), 13.0F * unit_, shade);
+    }
+    const std::vector<Pixel> hull = hullOf(corners);
+    if (layout_.placed && hull.size() >= 3) {
+      painter_.polygon(hull, 12.0F * unit_, {.fill = shade});
     }
   }
 
@@ -218,7 +239,6 @@ class GraphPainter {
 
   Painter& painter_;
   const ContactGraph& graph_;
-  const CycleVerdicts& verdicts_;
   const GraphLayout& layout_;
   const Theme& theme_;
   PixelBox area_;
@@ -236,14 +256,17 @@ Picture drawGraph(Canvas& canvas, const ContactGraph& graph, const CycleVerdicts
   Drawing drawing;
   drawing.background = theme.background;
   Painter painter(drawing, canvas.text());
-  const Panel panels[] = {{"triangle", verdicts.triangle, verdicts.pair_triangle, true},
-                          {"rigid", verdicts.rigid, verdicts.pair_rigid, false}};
+  std::vector<std::vector<std::uint32_t>> cycles;
+  for (const CycleOfThree& cycle : verdicts.cycles) cycles.emplace_back(cycle.begin(), cycle.end());
+  const Panel panels[] = {
+      {"triangle", verdicts.triangle, verdicts.pair_triangle, std::move(cycles)},
+      {"rigid", verdicts.rigid, verdicts.pair_rigid, ringsOf(graph, verdicts.pair_rigid)}};
   const float half = 0.5F * static_cast<float>(canvas.width());
   const auto height = static_cast<float>(canvas.height());
   float left = 0.0F;
   for (const Panel& panel : panels) {
     painter.beginLayer();
-    GraphPainter(painter, graph, verdicts, layout, theme, {left, 0.0F, half, height}).draw(panel);
+    GraphPainter(painter, graph, layout, theme, {left, 0.0F, half, height}).draw(panel);
     left += half;
   }
   painter.box({std::round(half), 0.0F, 1.0F, height}, 0.0F,

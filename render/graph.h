@@ -7,9 +7,10 @@
 
 namespace merge2d {
 
-/// Draws the graph twice: with the groups of the triangle criterion, whose cycles are shaded, and
-/// with the rigid groups. Bodies are discs, or, where all contact points are known, links between
-/// them. One line is one contact, a double line two or more; red contacts do not hold.
+/// Draws the graph twice: with the groups of the triangle criterion and with the rigid ones. What
+/// holds single contacts together is shaded: cycles of three, or all that are linked. Bodies are
+/// discs, or, where all contact points are known, links between them. One line is one contact, a
+/// double line two or more; red contacts do not hold.
 Picture drawGraph(Canvas& canvas, const ContactGraph& graph, const CycleVerdicts& verdicts,
                   const Theme& theme = lightTheme());
 

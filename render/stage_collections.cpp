@@ -97,11 +97,13 @@ void drawUnmerge(StageSheet& s) {
   const auto meeting = meetings(s.before);
   const std::set<BodyPair> cut = pairsCut(s.after);
   const std::map<BodyPair, double> strain = strainOf(s.after);
+  bool untested = false;
   for (const WeldView& weld : s.before.welds) {
     const BodyPair pair = ordered(weld.a, weld.b);
     const auto found = meeting.find(pair);
     if (found == meeting.end() || cut.contains(pair)) continue;
     const auto at = strain.find(pair);
+    untested = untested || at == strain.end();
     pens.link(pair, found->second, pens.lineWidth(),
               at == strain.end() ? pens.soft() : pens.heat(std::min(at->second, 0.999)));
   }
@@ -116,6 +118,7 @@ void drawUnmerge(StageSheet& s) {
   s.legend.line("weld far from its limit", pens.heat(0.0));
   s.legend.line("near it", pens.heat(0.999));
   s.legend.cross("cut", pens.bad());
+  if (untested) s.legend.line("asleep: not tested", pens.soft());
   s.legend.words("colours: what is one now");
 }
 

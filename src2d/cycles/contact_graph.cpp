@@ -12,6 +12,7 @@
 
 #include "src2d/core/error.h"
 #include "src2d/core/suggest.h"
+#include "src2d/core/utf8.h"
 #include "src2d/scene/source_text.h"
 
 namespace merge2d {
@@ -33,7 +34,6 @@ struct Line {
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20u || c == 0x7F; }
-bool continuesCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
 
 template <class Number>
 std::optional<Number> numberIn(std::string_view text) {
@@ -69,8 +69,13 @@ class GraphReader {
     Line line;
     std::uint32_t column = 0;
     bool inside = false;
-    for (std::size_t i = 0; i < text.size() && text[i] != '#'; ++i) {
-      if (!continuesCharacter(text[i])) ++column;
+    for (std::size_t i = 0, bytes = 0; i < text.size() && text[i] != '#'; i += bytes) {
+      bytes = characterBytes(text, i);
+      ++column;
+      if (bytes == 0) {
+        fail(column, fmt::format("expected text in UTF-8, got the byte 0x{:02x}",
+                                 static_cast<unsigned char>(text[i])));
+      }
       if (isBlank(text[i])) {
         inside = false;
         continue;
@@ -82,7 +87,7 @@ class GraphReader {
       if (!inside) line.words.push_back({text.substr(i, 0), column});
       inside = true;
       std::string_view& word = line.words.back().text;
-      word = {word.data(), word.size() + 1};
+      word = {word.data(), word.size() + bytes};
       line.end = column + 1;
     }
     return line;

@@ -6,19 +6,16 @@
 #include <utility>
 
 #include "src2d/core/error.h"
+#include "src2d/core/utf8.h"
 
 namespace merge2d {
 namespace {
 
-bool continuesCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
-
-/// What a terminal shows as one column per character, and never obeys.
-std::string printable(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (static_cast<unsigned char>(c) < 0x20u || c == 0x7F) c = ' ';
-  }
-  return result;
+/// What a terminal shows in one column, and never obeys.
+std::string_view printable(std::string_view character, bool valid) {
+  const char c = character[0];
+  if (!valid) return "\xEF\xBF\xBD";  // U+FFFD
+  return static_cast<unsigned char>(c) < 0x20u || c == 0x7F ? " " : character;
 }
 
 /// The part of a line around `column` (from 1, in characters) that fits a terminal, and the column
@@ -29,12 +26,12 @@ std::pair<std::string, std::size_t> excerpt(std::string_view line, std::size_t c
   const std::size_t skip = column > kWidth ? column - kBefore : 0;
   std::string part;
   std::size_t character = 0;
-  for (const char c : line) {
-    if (!continuesCharacter(c)) ++character;
-    if (character > skip + kWidth) break;
-    if (character > skip) part += c;
+  for (std::size_t i = 0; i < line.size() && ++character <= skip + kWidth;) {
+    const std::size_t bytes = characterBytes(line, i), taken = std::max<std::size_t>(1, bytes);
+    if (character > skip) part += printable(line.substr(i, taken), bytes > 0);
+    i += taken;
   }
-  return {printable(part), column - std::min(column, skip)};
+  return {part, column - std::min(column, skip)};
 }
 
 }  // namespace

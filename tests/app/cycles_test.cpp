@@ -52,6 +52,19 @@ TEST_F(Cycles, TheJsonIsTheContracts) {
             "\n");
 }
 
+TEST_F(Cycles, NamesAreUtf8) {
+  write("latin1.txt",
+        "K\xe4"
+        "fer B 1\n");
+  for (const char* option : {"--json", "--quiet"}) {
+    const Outcome outcome = run({"cycles", "latin1.txt", option});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.out, IsEmpty());
+    EXPECT_THAT(outcome.err, HasSubstr("latin1.txt:1:2: expected text in UTF-8"));
+    EXPECT_THAT(outcome.err, HasSubstr("1 | K\uFFFDfer B 1\n"));
+  }
+}
+
 TEST_F(Cycles, AnEmptyGraphHasNoPairs) {
   write("empty.txt", "");
   EXPECT_EQ(run({"cycles", "empty.txt", "--json"}).out,

@@ -28,6 +28,18 @@ TEST_F(ProgramTest, LessonReplacesAPageButNoForeignFile) {
   EXPECT_EQ(read("page.html"), "<!DOCTYPE html>\n<p>Mine.</p>\n");
 }
 
+TEST_F(ProgramTest, LessonSuggestsLessonsAndScenes) {
+  const auto refusal = [&](const char* name) {
+    const Outcome outcome = run({"lesson", name});
+    EXPECT_EQ(outcome.code, 3);
+    return outcome.err;
+  };
+  EXPECT_THAT(refusal("cyclos"), HasSubstr("no built-in lesson or scene is called 'cyclos' "
+                                           "(did you mean 'cycles'?)"));
+  EXPECT_THAT(refusal("tower-platfrm"), HasSubstr("(did you mean 'tower-platform'?)"));
+  EXPECT_THAT(refusal("ball.toml"), HasSubstr("there is no file ball.toml"));
+}
+
 TEST_F(ProgramTest, LessonAndFramesShareAFolder) {
   write("ball.toml", "format = 1\n[[body]]\ncircle = 0.5\n");
   EXPECT_EQ(run({"lesson", "ball.toml", "--steps", "5"}).code, 0);

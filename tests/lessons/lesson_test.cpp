@@ -100,6 +100,9 @@ TEST_F(LessonFolder, MistakesAreShownWhereTheyAre) {
       HasSubstr("lesson.toml:8:9: Algorithm 1 has no stage 'Murge' (did you mean 'Merge'?)"));
   EXPECT_THAT(errorOf("select = [\"hih\"]\n"),
               HasSubstr("lesson.toml:8:11: the scene has no body 'hih' (did you mean 'high'?)"));
+  EXPECT_THAT(errorOf("[part.question]\nask = \"?\"\nthreshold = \"relative-motion\"\n"
+                      "pair = [\"low\", \"hih\"]\nreveal = \"end\"\n"),
+              HasSubstr("lesson.toml:11:16: the scene has no body 'hih' (did you mean 'high'?)"));
   EXPECT_THAT(errorOf("layers = [\"force\"]\n"), HasSubstr("(did you mean 'forces'?)"));
   EXPECT_THAT(errorOf("[[expect]]\nat = \"end\"\nmeasure = \"hight of low\"\nbetween = [0, 1]\n"),
               HasSubstr("lesson.toml:10:11: 'hight' cannot be measured"));

@@ -38,6 +38,22 @@ TEST(Graph, GroupsAreColouredPerCriterion) {
   EXPECT_EQ(count(picture, free, true), 0);
 }
 
+TEST(Graph, WhatHoldsSingleContactsIsShadedInBothPanels) {
+  const auto shaded = [](const std::string& text, bool right_half) {
+    const Color shade = lightTheme().collections[Theme::kFaint].fill;
+    return count(drawn(text), mix(lightTheme().background, shade, 0.55), right_half);
+  };
+  for (const char* triangle : {"A B 1\nB C 1\nC A 1\n",                 // laid out
+                               "A B 1 0,0\nB C 1 4,0\nC A 1 2,3\n"}) {  // in their places
+    EXPECT_GT(shaded(triangle, false), 100) << triangle;
+    EXPECT_NEAR(shaded(triangle, true), shaded(triangle, false), 20) << triangle;
+  }
+  const char* links = "A L 1\nL B 1\nA M 1\nM B 1\nA N 1\nN B 1\n";
+  EXPECT_EQ(shaded(links, false), 0);
+  EXPECT_GT(shaded(links, true), 100);
+  EXPECT_EQ(shaded("A B 1\nB C 2\n", true), 0);
+}
+
 TEST(Graph, PivotsAreRed) {
   EXPECT_GT(count(drawn("A B 1\n"), lightTheme().broken_contact, true), 20);
   EXPECT_EQ(count(drawn("A B 2\n"), lightTheme().broken_contact, true), 0);

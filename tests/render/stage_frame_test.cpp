@@ -69,6 +69,21 @@ TEST_F(StageFrame, TheReferencesVelocitiesAreShownWhereThereAreSome) {
             50);
 }
 
+TEST_F(StageFrame, TheLegendOfUnmergeExplainsWeldsThatAreNotTested) {
+  const auto legend = [](const Picture& p) {
+    const auto rows = static_cast<std::ptrdiff_t>(p.height - 30) * p.width * 4;
+    return std::vector<std::uint8_t>(p.rgba.begin() + rows, p.rgba.end());
+  };
+  ASSERT_FALSE(record.before.welds.empty());
+  const auto tested = legend(draw(Stage::Unmerge));
+  record.after.decisions.clear();  // as for what sleeps
+  record.after.events.clear();
+  const auto asleep = legend(draw(Stage::Unmerge));
+  EXPECT_NE(tested, asleep);
+  record.before.welds.clear();
+  EXPECT_EQ(legend(draw(Stage::Unmerge)), tested);
+}
+
 TEST_F(StageFrame, IsDescribedInWords) {
   EXPECT_THAT(describeStage(record, Stage::Unmerge, {"Why?", "because"}, style),
               testing::EndsWith("Step 201, stage 6 of 11, Unmerge: Why? Because."));

@@ -1,5 +1,6 @@
 #include "src2d/cycles/contact_graph.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -141,7 +142,20 @@ TEST(ContactGraphText, IsText) {
   EXPECT_EQ(errorOf(std::string("A B 1\nA\0C 1", 11)),
             "graph.txt:2:2: expected text, got the control character 0x00");
   EXPECT_EQ(errorOf("\x89PNG\r\n\x1a\n"),
-            "graph.txt:1:4: expected a second body, got the end of the line");
+            "graph.txt:1:1: expected text in UTF-8, got the byte 0x89");
+}
+
+TEST(ContactGraphText, IsUtf8) {
+  EXPECT_EQ(parse("K\u00e4fer \u7bb1 1\n").bodies[0], "K\u00e4fer");
+  const auto refused = [](int byte) {
+    return fmt::format("graph.txt:2:3: expected text in UTF-8, got the byte 0x{:02x}", byte);
+  };
+  EXPECT_EQ(errorOf("A B 1\n\u00e4b\xff C 1\n"), refused(0xff));
+  EXPECT_EQ(errorOf("A B 1\nab\x80 C 1\n"), refused(0x80)) << "the second byte of none";
+  EXPECT_EQ(errorOf("A B 1\nab\xe4 C 1\n"), refused(0xe4)) << "a character is cut short";
+  EXPECT_EQ(errorOf("A B 1\nab\xc0\xaf C 1\n"), refused(0xc0)) << "a slash in two bytes";
+  EXPECT_EQ(errorOf("A B 1\nab\xed\xa0\x80 C 1\n"), refused(0xed)) << "half a pair";
+  EXPECT_EQ(errorOf("A B 1 # \xff in a comment is nobody's name\n"), "1 pairs were read");
 }
 
 TEST(ContactGraphText, WarnsOfAPinnedBodyThatTouchesNothing) {
