@@ -2,6 +2,7 @@
 import { contactMarks, focus, forces, graph, heat } from './contacts';
 import { number, svg } from './dom';
 import { lookOf } from './groups';
+import { Labels } from './labels';
 import { boxes, corners, newCollections, springs, velocities, ways } from './motions';
 import { type Sight, sightOf } from './sight';
 import type { State } from './state';
@@ -25,7 +26,7 @@ export class Picture {
   private readonly ghosts: SVGPathElement[] = [];
   private readonly paths = new Map<string, SVGPathElement>();
   private readonly ghostGroup = svg('g', { class: 'ghosts' });
-  private readonly labels = svg('g', { class: 'labels' });
+  private readonly labels = new Labels();
   private readonly numbers = svg('g', { class: 'numbers' });
   private contacts: Contact[] = [];
 
@@ -42,7 +43,7 @@ export class Picture {
       this.paths.set(id, path);
       this.root.append(path);
     }
-    this.root.append(this.numbers, this.labels, this.scaleBar());
+    this.root.append(this.numbers, this.labels.root, this.scaleBar());
     if (interactive) this.root.addEventListener('click', (event) => this.click(event));
   }
 
@@ -153,25 +154,21 @@ export class Picture {
   }
 
   private drawLabels({ state, trace, posed, grouped, view }: Sight): void {
-    this.labels.replaceChildren();
+    this.labels.clear();
     if (!state.layers.has('labels')) return;
     const sums = new Map<number, { x: number; y: number; n: number }>();
     const few = this.bodies.length <= 40;
     for (const [i, body] of trace.head.bodies.entries()) {
       if (!trace.present(i, posed)) continue;
       const pose = trace.pose(i, posed);
-      if (few && body.motion === 'dynamic') this.label(pose.x, pose.y, body.name, 'name');
+      if (few && body.motion === 'dynamic') this.labels.put(view.x(pose.x), view.y(pose.y), body.name, 'name');
       if (grouped[i] < 0) continue;
       const sum = sums.get(grouped[i]) ?? { x: 0, y: 0, n: 0 };
       sums.set(grouped[i], { x: sum.x + pose.x, y: sum.y + pose.y, n: sum.n + 1 });
     }
     for (const [id, sum] of sums) {
-      this.label(sum.x / sum.n, sum.y / sum.n + (few ? 22 / view.scale : 0), `C${id}`, 'collection-name');
+      this.labels.put(view.x(sum.x / sum.n), view.y(sum.y / sum.n), `C${id}`, 'collection-name');
     }
-  }
-
-  private label(x: number, y: number, text: string, kind: string): void {
-    this.labels.append(svg('text', { x: fixed(this.view.x(x)), y: fixed(this.view.y(y) + 5), class: kind }, text));
   }
 
   /** Marks bodies as chosen or right. */

@@ -31,6 +31,17 @@ duration = 0.5
 name = "</script><b>"
 circle = 0.5
 `);
+  const bodies = [-4.4, -4.1, 4.4].map((x, i) => `[[body]]
+name = "a body whose name goes on and on ${i}"
+at = [${x}, 0]
+circle = 0.1
+`);
+  writeFileSync(join(folder, 'long-names.toml'), `format = 1
+duration = 0.1
+gravity = [0, 0]
+camera = { center = [0, 0], height = 6.5 }
+${bodies.join('')}`);
+  make('long-names', 'long-names.toml');
   make('what-merging-is');
   make('contact-forces');
   make('one-sweep');
@@ -268,6 +279,37 @@ test('a narrow window needs no sideways scrolling', async () => {
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
     await close();
   }
+});
+
+test('the words of the ribbon stay whole', async () => {
+  for (const width of [360, 400, 640, 1280]) {
+    const { page, close } = await open('what-merging-is', { viewport: { width, height: 740 } });
+    const broken = await page.locator('.ribbon .name').evaluateAll((names) => names.filter((name) => {
+      const room = name.parentElement.clientWidth;
+      name.style.cssText = 'width: min-content; max-width: none; hyphens: manual; overflow-wrap: normal';
+      return name.offsetWidth > room;
+    }).map((name) => name.textContent));
+    assert.deepEqual(broken, [], `at ${width}`);
+    await close();
+  }
+});
+
+test('no label covers another or leaves the picture', async () => {
+  const { page, close } = await open('long-names');
+  if (!(await page.locator('.picture.interactive .labels text').count())) await page.keyboard.press('8');
+  const [frame, boxes] = await page.evaluate(() => {
+    const box = (node) => node.getBoundingClientRect().toJSON();
+    const picture = document.querySelector('.picture.interactive');
+    return [box(picture), [...picture.querySelectorAll('.labels text')].map(box)];
+  });
+  assert.ok(boxes.length >= 3);
+  for (const [i, a] of boxes.entries()) {
+    assert.ok(a.left >= frame.left && a.right <= frame.right, 'inside');
+    for (const b of boxes.slice(i + 1)) {
+      assert.ok(a.right <= b.left || b.right <= a.left || a.bottom <= b.top + 4 || b.bottom <= a.top + 4, 'apart');
+    }
+  }
+  await close();
 });
 
 test('it prints as a comic strip', async () => {
