@@ -10,6 +10,7 @@
 #include "render/camera.h"
 #include "render/graph_layout.h"
 #include "render/painter.h"
+#include "src2d/core/utf8.h"
 
 namespace merge2d {
 namespace {
@@ -209,15 +210,30 @@ class GraphPainter {
     }
   }
 
+  /// A name that fits the panel: its beginning, when it is longer.
+  std::string shortened(const std::string& name, Font f) const {
+    const float room = 0.98F * (area_.width - 2.0F * kNameMargin);
+    if (painter_.text().width(name, f) <= room) return name;
+    std::string shown;
+    for (std::size_t i = 0, bytes = 0; i < name.size(); i += bytes) {
+      bytes = std::max<std::size_t>(1, characterBytes(name, i));
+      const std::string longer = shown + name.substr(i, bytes);
+      if (painter_.text().width(longer + "…", f) > room) break;
+      shown = longer;
+    }
+    return shown + "…";
+  }
+
   void drawName(std::uint32_t i) {
     const Font f = font(layout_.placed ? 13.0F : 12.0F, Weight::Bold);
-    const std::string& name = graph_.bodies[i];
+    const std::string name = shortened(graph_.bodies[i], f);
     const float width = painter_.text().width(name, f), height = painter_.text().capHeight(f);
     if (radius_ < 0.7F * static_cast<float>(f.size)) return;  // too many to be read
     const Pixel middle = at(i);
     const bool inside = !layout_.placed && width < 1.7F * radius_;
-    const Pixel from =
-        inside ? middle : middle + Pixel{0.0F, layout_.placed ? 0.0F : radius_ + height};
+    Pixel from = inside ? middle : middle + Pixel{0.0F, layout_.placed ? 0.0F : radius_ + height};
+    const float reach = 0.5F * width + kNameMargin;
+    from.x = std::max(area_.x + reach, std::min(from.x, area_.x + area_.width - reach));
     const PixelBox plate{from.x - 0.5F * width - 3.0F, from.y - 0.5F * height - 3.0F, width + 6.0F,
                          height + 6.0F};
     if (!inside) painter_.box(plate, 3.0F, {.fill = withAlpha(theme_.background, 0.85)});
@@ -236,6 +252,8 @@ class GraphPainter {
                                groups, groups == 1 ? "" : "s"),
                    font(12.0F), {left, std::round(area_.y + 44.0F * unit_)}, theme_.ink_soft);
   }
+
+  static constexpr float kNameMargin = 6.0F;  // between names and the panel's edge [px]
 
   Painter& painter_;
   const ContactGraph& graph_;

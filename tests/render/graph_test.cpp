@@ -59,6 +59,16 @@ TEST(Graph, PivotsAreRed) {
   EXPECT_EQ(count(drawn("A B 2\n"), lightTheme().broken_contact, true), 0);
 }
 
+TEST(Graph, LongNamesStayInTheirPanel) {
+  const std::string name = "a-body-whose-name-goes-on-" + std::string(200, 'x');
+  const Picture picture = drawn(name + " B 1\n");
+  for (int y = 60; y < picture.height; ++y) {
+    for (const int x : {0, 1, 317, 318, 322, 323, 638, 639}) {
+      ASSERT_EQ(picture.at(x, y), lightTheme().background) << x << " " << y;
+    }
+  }
+}
+
 TEST(Graph, AnythingCanBeDrawn) {
   for (const char* text :
        {"", "pinned A\n", "A B 0\n", "A B 2 1,1 1,1\n", "A B 1 5,5\nB C 1 5,5\n",

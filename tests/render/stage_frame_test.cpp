@@ -74,14 +74,15 @@ TEST_F(StageFrame, TheLegendOfUnmergeExplainsWeldsThatAreNotTested) {
     const auto rows = static_cast<std::ptrdiff_t>(p.height - 30) * p.width * 4;
     return std::vector<std::uint8_t>(p.rgba.begin() + rows, p.rgba.end());
   };
-  ASSERT_FALSE(record.before.welds.empty());
+  const auto stage = static_cast<std::size_t>(Stage::Unmerge);
+  Snapshot &before = record.stages[stage - 1].after, &after = record.stages[stage].after;
+  ASSERT_FALSE(before.welds.empty());
   const auto tested = legend(draw(Stage::Unmerge));
-  record.after.decisions.clear();  // as for what sleeps
-  record.after.events.clear();
-  const auto asleep = legend(draw(Stage::Unmerge));
-  EXPECT_NE(tested, asleep);
-  record.before.welds.clear();
-  EXPECT_EQ(legend(draw(Stage::Unmerge)), tested);
+  after.decisions.clear();  // as for what sleeps
+  after.events.clear();
+  EXPECT_NE(tested, legend(draw(Stage::Unmerge)));
+  before.welds.clear();
+  EXPECT_EQ(tested, legend(draw(Stage::Unmerge)));
 }
 
 TEST_F(StageFrame, IsDescribedInWords) {
