@@ -11,6 +11,10 @@ target_compile_options(merge2d_warnings INTERFACE -Wall -Wextra -Wpedantic -Wcon
 if(MERGE2D_WERROR)
   target_compile_options(merge2d_warnings INTERFACE -Werror)
 endif()
+if(CMAKE_UNITY_BUILD)
+  # A source that another one includes looks like a header, where such types would be a mistake.
+  target_compile_options(merge2d_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 
 option(MERGE2D_SANITIZE "Build with the address and undefined behaviour sanitizers" OFF)
 if(MERGE2D_SANITIZE)
