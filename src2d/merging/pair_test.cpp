@@ -32,7 +32,8 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
       seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
       seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
       const bool at_rest = std::abs(p.w_t) < state.settings.sleeping.velocity;
-      seen.on_edge += !bilateral && !at_rest && std::abs(p.lambda_t) >= kPairOnEdge * mu * p.lambda_n;
+      seen.on_edge +=
+          !bilateral && !at_rest && std::abs(p.lambda_t) >= kPairOnEdge * mu * p.lambda_n;
     }
   }
   return seen;
