@@ -116,10 +116,11 @@ struct Disturbed {
 };
 
 /// Runs a scene in mode merge up to `time`, and looks at what comes free within half a second of
-/// it: what is no longer in the collection it had been in, or with it leaves the ground.
+/// it: what is no longer in the collection it had been in, or with it leaves the ground. `finer`
+/// changes the reference alone.
 inline Disturbed disturb(const std::string& scene, double time, double size,
-                         const Overrides& overrides = {}) {
-  SceneRun reference(scene, Mode::Reference, overrides), merged(scene, Mode::Merge, overrides);
+                         const Overrides& finer = {}) {
+  SceneRun reference(scene, Mode::Reference, finer), merged(scene, Mode::Merge);
   reference.until(time), merged.until(time);
   std::map<BodyId, Vec2> before;
   std::map<BodyId, std::pair<CollectionId, bool>> belonged;
