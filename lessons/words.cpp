@@ -179,7 +179,10 @@ std::string Words::group(const Group& group) const {
 std::string Words::test(const Decision& d, const std::vector<Group>& groups) const {
   const std::string_view c = d.criterion;
   if (d.stage == "SleepAndWake") return sleeping(d);
-  if (c == "relative-motion") return compared("relative motion", d, "/s");
+  if (c == "relative-motion") {
+    const bool gathered = d.stage == "Unmerge" && d.needed == 0;
+    return compared(gathered ? summed("relative motion", d.count) : "relative motion", d, "/s");
+  }
   if (c == "breathing") return compared("the change of overlap", d, " per step");
   if (c == "rest") return compared("its motion in the world", d, "/s");
   if (c == "impact") return compared("the speed of approach", d, "/s");
@@ -194,6 +197,10 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
     const auto members = static_cast<std::size_t>(d.members);
     if (d.members >= 0 && members < groups.size()) return cycle(d, group(groups[members]));
     return cycle(d, d.group < 0 ? "its own" : name(BodyId{static_cast<std::uint32_t>(d.group)}));
+  }
+  if (c == "patience") {
+    return fmt::format("their weld broke soon after it had formed: {} to wait",
+                       counted(static_cast<std::size_t>(d.value), "step", "steps"));
   }
   if (c == "pressed") return "no contact between them carries a force (Section 5.3)";
   if (c == "broken") {

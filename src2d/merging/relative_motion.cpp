@@ -45,12 +45,26 @@ double fastestContact(const State& state, const BodyPair& pair) {
   return fastest;
 }
 
+/// A pair that parted soon after it had merged may not be looked at yet.
+void notePatience(Notes* notes, const BodyPair& pair, int count) {
+  if (!notes) return;
+  notes->decisions.push_back({.a = pair.a,
+                              .b = pair.b,
+                              .stage = "AccumulateRelativeMotion",
+                              .criterion = "patience",
+                              .equation = "Section 5.1",
+                              .value = static_cast<double>(-count),
+                              .threshold = 0.0,
+                              .verdict = "wait"});
+}
+
 void countQuietPairs(State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
     if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) continue;
     Contact& first = state.contacts[state.contacts.order[pair.first]];
     const int count = first.quiet_steps;
+    if (count < 0) notePatience(scratch.notes, pair, count);
     PairTest test(state, pair, scratch.notes);
     const int now = test.ready() || count < 0 ? count + 1 : 0;
     test.noteCount(count, now);

@@ -79,6 +79,22 @@ TEST_F(WordsTest, TellsOverHowManyStepsSlipWasSummed) {
             "Eq. 19)");
 }
 
+TEST_F(WordsTest, TellsOverHowManyStepsAPivotGatheredSpeed) {
+  EXPECT_EQ(said({.stage = "Unmerge",
+                  .criterion = "relative-motion",
+                  .equation = "(17)",
+                  .value = 0.03,
+                  .threshold = 0.02,
+                  .count = 5}),
+            "relative motion, summed over 5 steps, 0.030 m/s is above 0.020 m/s (1.5 times; "
+            "Eq. 17)");
+}
+
+TEST_F(WordsTest, TellsHowLongAPairThatPartedMustWait) {
+  EXPECT_EQ(said({.stage = "AccumulateRelativeMotion", .criterion = "patience", .value = 7.0}),
+            "their weld broke soon after it had formed: 7 steps to wait");
+}
+
 TEST_F(WordsTest, TellsHowMuchOfTheConeIsUsed) {
   EXPECT_EQ(said({.stage = "Unmerge",
                   .criterion = "cone",
