@@ -141,7 +141,7 @@ void layOutBlocks(const State& state, Collection& c) {
     const InternalContact& inner = c.contacts[i];
     std::uint64_t *a = colours(inner.key.a), *b = colours(inner.key.b);
     const std::uint64_t taken = (a ? *a : 0) | (b ? *b : 0);
-    const auto colour = std::min<std::uint32_t>(std::countr_one(taken), kColours - 1);
+    const auto colour = std::min(static_cast<std::uint32_t>(std::countr_one(taken)), kColours - 1);
     if (a) *a |= std::uint64_t{1} << colour;
     if (b) *b |= std::uint64_t{1} << colour;
     const bool dormant = !inner.points[0].active && !inner.points[1].active;

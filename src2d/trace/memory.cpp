@@ -32,8 +32,8 @@ std::size_t bytesOfScratch(const Scratch& s) {
   return bytesOf(s.loads, s.kicks, s.springs, s.pairs, s.events, s.moved, s.moved_flag,
                  s.candidates, s.near_candidates, s.near_refined, s.seeds, s.stirred, s.restless,
                  s.island_awake) +
-         bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection,
-                 s.disturbed, s.cuts_before, s.ready) +
+         bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
+                 s.cuts_before, s.ready) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order) +
          bytesOf(s.nncg.before, s.nncg.direction, s.nncg.u_before, s.nncg.u_direction) +

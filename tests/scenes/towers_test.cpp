@@ -106,9 +106,8 @@ TEST(TowerImpulse, WithoutOrderingFewerAreFreedAtOnce) {
 /// At a mass ratio of 100 the scene's own reference sways, as its contacts are soft and 150 sweeps
 /// are not many. One that is harder and has converged tells what moves.
 TEST(TowerImpulseHeavy, FreesWhatMoves) {
-  const Disturbed seen =
-      disturb("tower-impulse-heavy", 1.49, 1.0,
-              {{"solver.iterations", "2000"}, {"solver.compliance", "0.00002"}});
+  const Disturbed seen = disturb("tower-impulse-heavy", 1.49, 1.0,
+                                 {{"solver.iterations", "2000"}, {"solver.compliance", "0.00002"}});
   EXPECT_GE(seen.moved, 5);
   EXPECT_EQ(seen.moved_freed, seen.moved);
   EXPECT_LE(seen.others_freed, 0.1 * seen.others);
