@@ -1,6 +1,6 @@
 // The equation of the active stage, its symbols filled with the numbers of this step.
 import { h, number } from './dom';
-import { changeOf, contactsOfStage } from './inside';
+import { changed, changeOf, changesAt, contactsOfStage, type Change } from './inside';
 import { kStages } from './stages';
 import type { State } from './state';
 import type { Contact, Decision } from './trace';
@@ -32,13 +32,25 @@ function block(node: MathMLElement): MathMLElement {
   return root;
 }
 
-/** The contact that is meant: of the selection, else the one that presses most. */
+/** The contact that is meant: of the selection or else of all, the one that the stage changes most, or presses most. */
 function contactMeant(state: State): Contact | null {
   const all = contactsOfStage(state);
   const s = state.selection;
   const wanted = s?.kind === 'pair' ? all.filter((c) => c.a === s.a && c.b === s.b)
     : s?.kind === 'body' ? all.filter((c) => c.a === s.body || c.b === s.body) : all;
+  const most = changesAt(state, wanted)[0];
+  if (most && changed(most)) return most.contact;
   return wanted.reduce<Contact | null>((best, c) => (!best || c.lambdaN > best.lambdaN ? c : best), null);
+}
+
+/** What the stage does to the contact, in words; nothing where it does not work on impulses. */
+function deed(state: State, change: Change | null): string {
+  if (!change) return '';
+  switch (kStages[state.stage].id) {
+    case 'WarmStart': return change.was === 'new' ? ' It is new and begins with nothing.' : ' It begins with the impulse of the last step.';
+    case 'SingleIterationPGS': return changed(change) ? ' The sweep changes it.' : ' The sweep leaves it as it was.';
+    default: return changed(change) ? ' The full solve changes it.' : ' The full solve leaves it as it was.';
+  }
 }
 
 /** The decision that is meant: of the selection, else the one nearest to its limit. */
@@ -83,7 +95,7 @@ function line(state: State): Line | null {
           ? row(sub('λ', 'n'), mo(':'), mn(change.before[0]), mo('→'), mn(change.after[0]), text('\u2009N\u2009s'))
           : row(sub('w', 'n'), mo('='), mn(c.wN), text('\u2009m/s,\u2002'), sub('λ', 'n'), mo('='), mn(c.lambdaN), text('\u2009N\u2009s')),
         more: row(mo('|'), mn(c.lambdaT), mo('|'), mo(Math.abs(c.lambdaT) <= c.mu * c.lambdaN * (1 + 1e-3) ? '≤' : '>'), mn(c.mu), mo('·'), mn(c.lambdaN), mo('='), mn(c.mu * c.lambdaN), text('\u2009N\u2009s')),
-        note: `Eqs. (4)–(7), for ${between(state, c)}${c.internal ? ', inside a collection' : ''}.`,
+        note: `Eqs. (4)–(7), for ${between(state, c)}${c.internal ? ', inside a collection' : ''}.${deed(state, change)}`,
       };
     }
     case 'ContactOrdering': return null;
