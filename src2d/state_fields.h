@@ -140,10 +140,10 @@ template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
          cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v, frame_gain,
-         frame_known, residual, settled, unfinished, refuted] = c;
+         frame_known, residual, settled, follow_up, refuted] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
      cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v, frame_gain,
-     frame_known, residual, settled, unfinished, refuted);
+     frame_known, residual, settled, follow_up, refuted);
 }
 
 template <class Ar>

@@ -102,6 +102,17 @@ bool refines(const UnmergingSettings& settings) {
   return settings.rule == Rule::Default && settings.ordering;
 }
 
+/// Whether a collection is disturbed: something new entered, the sweep changed much, or a
+/// disturbance of the last steps still changes something. For some steps only: a load that changes
+/// for ever, as on a swing, is one that single sweeps follow well.
+void follow(const State& state, Collection& c, Scratch& scratch, double change) {
+  constexpr int kSteps = 10;
+  std::uint8_t& disturbed = scratch.disturbed[index(c.rigid) - state.bodies.size()];
+  const bool anew = disturbed != 0 || change > refinedVelocity(state);
+  c.follow_up = anew ? kSteps : std::max(0, c.follow_up - 1);
+  disturbed = anew || (c.follow_up > 0 && change > residualVelocity(state)) ? 1 : 0;
+}
+
 /// Sweeps one collection once; one that could sleep but for its inner forces a few times more, so
 /// that it soon can. Returns the largest change [m/s].
 double sweepOnce(const State& state, Collection& c, Scratch& scratch) {
@@ -112,11 +123,7 @@ double sweepOnce(const State& state, Collection& c, Scratch& scratch) {
   const double change = sweepInside(state, c, scratch, settings.sweeps);
   c.residual = static_cast<float>(change);
   c.settled = change <= residualVelocity(state);
-  const double most = c.unfinished ? residualVelocity(state) : refinedVelocity(state);
-  c.unfinished = false;
-  if (refines(settings) && change > most) {
-    scratch.disturbed[index(c.rigid) - state.bodies.size()] = 1;
-  }
+  if (refines(settings)) follow(state, c, scratch, change);
   return change;
 }
 
@@ -165,7 +172,7 @@ void refineDisturbed(State& state, Scratch& scratch, double blow) {
     layOutPush(state, c);
     c.settled = false;
     c.residual = static_cast<float>(change);
-    c.unfinished = change > enough;
+    if (change <= enough) c.follow_up = 0;
   }
 }
 
