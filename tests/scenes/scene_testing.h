@@ -107,19 +107,16 @@ inline std::string cell(const std::string& name, int column, int row) {
   return name + "[" + std::to_string(column) + "," + std::to_string(row) + "]";
 }
 
-/// What a disturbance does in a mode, beside what it does in the reference.
-struct Disturbed {
-  int moved = 0;         ///< bodies that move in the reference by more than 1% of their size
-  int moved_freed = 0;   ///< those of them that came free
-  int others = 0;        ///< bodies that do not
-  int others_freed = 0;  ///< those of them that came free all the same
+/// What a disturbance does to a body.
+struct Reaction {
+  double way = 0.0;    ///< the farthest it gets in the reference within half a second, in sizes
+  bool freed = false;  ///< in mode merge: left the collection that it had been in, or the ground
 };
 
-/// Runs a scene in mode merge up to `time`, and looks at what comes free within half a second of
-/// it: what is no longer in the collection it had been in, or with it leaves the ground. `finer`
-/// changes the reference alone.
-inline Disturbed disturb(const std::string& scene, double time, double size,
-                         const Overrides& finer = {}) {
+/// Runs a scene up to `time` [s], and looks at what moves and what comes free within half a second
+/// of it. `finer` changes the reference alone.
+inline std::vector<Reaction> disturb(const std::string& scene, double time, double size,
+                                     const Overrides& finer = {}) {
   SceneRun reference(scene, Mode::Reference, finer), merged(scene, Mode::Merge);
   reference.until(time), merged.until(time);
   std::map<BodyId, Vec2> before;
@@ -129,21 +126,32 @@ inline Disturbed disturb(const std::string& scene, double time, double size,
   };
   for (const BodyState& b : reference.now().bodies) before[b.id] = b.x;
   for (const BodyState& b : merged.now().bodies) belonged[b.id] = place(b);
-  std::map<BodyId, bool> moved, freed;
-  for (double t = time; t < time + 0.5; t += 0.05) {
-    reference.until(t + 0.05), merged.until(t + 0.05);
+  std::map<BodyId, Reaction> seen;
+  const double end = time + 0.5;
+  while (merged.world().time() < end - 1e-9) {
+    merged.steps(1), reference.until(merged.world().time());
     for (const BodyState& b : reference.now().bodies) {
-      if ((b.x - before[b.id]).norm() > 0.01 * size) moved[b.id] = true;
+      double& way = seen[b.id].way;
+      way = std::max(way, (b.x - before[b.id]).norm() / size);
     }
-    for (const BodyState& b : merged.now().bodies) {
-      if (place(b) != belonged[b.id]) freed[b.id] = true;
-    }
+    for (const BodyState& b : merged.now().bodies) seen[b.id].freed |= place(b) != belonged[b.id];
   }
-  Disturbed out;
-  for (const BodyState& b : merged.now().bodies) {
-    if (!merged.dynamic(b.id)) continue;
-    (moved[b.id] ? out.moved : out.others)++;
-    if (freed[b.id]) (moved[b.id] ? out.moved_freed : out.others_freed)++;
+  std::vector<Reaction> out;
+  for (const auto& [id, reaction] : seen) {
+    if (merged.dynamic(id)) out.push_back(reaction);
+  }
+  return out;
+}
+
+/// How many of them moved farther than `least` and no farther than `most` [sizes], and how many of
+/// those came free.
+inline std::pair<int, int> movedAndFreed(const std::vector<Reaction>& seen, double least,
+                                         double most = 1e9) {
+  std::pair<int, int> out{0, 0};
+  for (const Reaction& r : seen) {
+    if (r.way <= least || r.way > most) continue;
+    ++out.first;
+    out.second += r.freed;
   }
   return out;
 }
