@@ -41,6 +41,7 @@ class SceneRun {
   }
 
   const World& world() const { return world_; }
+  World& world() { return world_; }
   const Snapshot& now() const { return now_; }
   const std::vector<Logged>& log() const { return log_; }
 

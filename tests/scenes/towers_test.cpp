@@ -1,3 +1,4 @@
+#include "src2d/dynamics/state.h"
 #include "tests/scenes/scene_testing.h"
 
 namespace merge2d {
@@ -23,6 +24,25 @@ TEST(TowerPlatform, SwingsAsOneBodyUntilTheBallHitsIt) {
   run.until(7.0);
   EXPECT_GT(run.count(EventType::Unmerge), 50);
   EXPECT_TRUE(run.together("platform", "brick[5,0]")) << "its foot was not hit";
+}
+
+/// Counts the steps in which something was swept more than once.
+class DisturbanceWatch : public Observer {
+ public:
+  void afterStage(Stage stage, const State&, const Scratch& scratch) override {
+    if (stage != Stage::SingleIterationPGS) return;
+    disturbed += std::ranges::any_of(scratch.disturbed, [](auto d) { return d != 0; });
+  }
+  int disturbed = 0;
+};
+
+TEST(TowerPlatform, ASteadySwingIsNoDisturbance) {
+  SceneRun run("tower-platform", Mode::Merge);
+  run.until(1.2);
+  DisturbanceWatch watch;
+  run.world().observe(&watch);
+  run.until(4.9);
+  EXPECT_EQ(watch.disturbed, 0) << "one sweep a step is enough";
 }
 
 TEST(TowerPlatform, WhatIsLeftMergesAgainWhileItSwings) {
