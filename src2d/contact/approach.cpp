@@ -45,4 +45,16 @@ double approach(const State& state, const Scratch& scratch, BodyId a, BodyId b) 
   return state.h * ((of_b.v - of_a.v).norm() + turning(a, of_a.omega) + turning(b, of_b.omega));
 }
 
+double farthestApproach(const State& state, const Scratch& scratch) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
+    const Rigid& r = state.rigids[i];
+    if (!r.present() || r.asleep) continue;
+    const StartMotion motion = startMotion(state, scratch, RigidId{static_cast<std::uint32_t>(i)});
+    const double turning = std::abs(motion.omega) * radius(state.extent(r).bounds, r.center);
+    farthest = std::max(farthest, motion.v.norm() + turning);
+  }
+  return 2.0 * state.h * farthest;
+}
+
 }  // namespace merge2d

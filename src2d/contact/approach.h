@@ -17,6 +17,9 @@ StartMotion startMotion(const State& state, const Scratch& scratch, RigidId id);
 /// step, but for what contacts and forces add.
 double approach(const State& state, const Scratch& scratch, RigidId a, RigidId b);
 
+/// The same for any two things.
+double farthestApproach(const State& state, const Scratch& scratch);
+
 /// The same for two bodies, wherever their rigid things have their centres.
 double approach(const State& state, const Scratch& scratch, BodyId a, BodyId b);
 

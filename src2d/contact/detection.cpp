@@ -10,10 +10,16 @@
 namespace merge2d {
 namespace {
 
-/// Far enough apart to skip the manifold: the distance of b's box, seen from a, to a's box.
-bool boxesApart(const Aabb& a, const Aabb& b, const Pose& b_in_a, double margin) {
-  return !placed(b_in_a, b).grown(margin).overlaps(a);
+/// Far enough apart to skip the manifold, even when the two come nearer by `ahead` [m]: the
+/// distance of b's box, seen from a, to a's box.
+bool boxesApart(const State& state, const ContactKey& key, const Pose& b_in_a, double ahead) {
+  const double margin = std::max(state.settings.solver.margin, ahead);
+  return !placed(b_in_a, state.bounds(key.shape_b))
+              .grown(margin)
+              .overlaps(state.bounds(key.shape_a));
 }
+
+void loseTouch(Contact& contact) { contact.count = contact.quiet_steps = 0; }
 
 /// Hands on what is remembered of a point, or marks it as new.
 void inherit(ContactPoint& point, const Contact& old) {
@@ -66,14 +72,10 @@ bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
 
 void updateManifold(const State& state, Contact& contact, double ahead) {
   const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
+  if (boxesApart(state, contact.key, b_in_a, ahead)) return loseTouch(contact);
   const double margin = std::max(state.settings.solver.margin, ahead);
   const Collider& a = state.collider(contact.key.shape_a);
   const Collider& b = state.collider(contact.key.shape_b);
-  if (boxesApart(state.bounds(contact.key.shape_a), state.bounds(contact.key.shape_b), b_in_a,
-                 margin)) {
-    contact.count = contact.quiet_steps = 0;
-    return;
-  }
   const Manifold manifold = collide(a, b, b_in_a, margin);
   const Contact old = contact;
   contact.count = manifold.count;
@@ -106,6 +108,7 @@ void collectPairs(const State& state, Scratch& scratch) {
 
 void detectContacts(State& state, Scratch& scratch) {
   updateBroadphase(state, scratch);
+  const double farthest = farthestApproach(state, scratch);
   for (const ContactTable::Slot slot : state.contacts.order) {
     const ContactKey key = state.contacts[slot].key;
     const Rigid &a = state.rigid(key.a), &b = state.rigid(key.b);
@@ -113,8 +116,16 @@ void detectContacts(State& state, Scratch& scratch) {
       holdBreath(state.contacts[slot]);
       continue;
     }
-    const double ahead = approach(state, scratch, key.a, key.b);
-    updateManifold(state, state.contacts[slot], ahead);
+    // Most of those that do not touch stay apart however fast they are.
+    Contact& contact = state.contacts[slot];
+    if (contact.count == 0) {
+      const Pose b_in_a = state.pose(key.a).toLocal(state.pose(key.b));
+      if (boxesApart(state, key, b_in_a, farthest)) {
+        loseTouch(contact);
+        continue;
+      }
+    }
+    updateManifold(state, contact, approach(state, scratch, key.a, key.b));
   }
   collectPairs(state, scratch);
   for (const BodyPair& pair : scratch.pairs) {
