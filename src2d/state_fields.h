@@ -133,17 +133,17 @@ void fields(Ar& ar, Some<InternalContact> auto& c) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {
-  auto& [a, b, first, count, turning, joints, cut, reason] = w;
-  ar(a, b, first, count, turning, joints, cut, reason);
+  auto& [a, b, first, count, turning, joints, bridge, cut, reason] = w;
+  ar(a, b, first, count, turning, joints, bridge, cut, reason);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
-         cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v, frame_gain,
-         frame_known, residual, settled, follow_up, refuted] = c;
+         leaning, cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v,
+         frame_gain, frame_known, residual, settled, follow_up, refuted] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
-     cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v, frame_gain,
-     frame_known, residual, settled, follow_up, refuted);
+     leaning, cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v,
+     frame_gain, frame_known, residual, settled, follow_up, refuted);
 }
 
 template <class Ar>

@@ -72,6 +72,7 @@ struct Weld {
   std::uint32_t first = 0, count = 0;
   Drift turning{};          ///< of a pivot, over consecutive steps
   std::int16_t joints = 0;  ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
+  bool bridge = false;      ///< its cut would leave two parts
   bool cut = false;         ///< found broken, sliding or moving in this step
   EventReason reason = EventReason::None;
 };
@@ -88,6 +89,7 @@ struct Collection {
   std::vector<std::uint32_t> block_weld;     ///< which weld it belongs to
   std::vector<std::uint8_t> watched;         ///< per block: was at its limit in the last step
   std::vector<std::uint32_t> pivots;         ///< welds with fewer than two contacts that hold
+  std::vector<std::uint32_t> leaning;        ///< bridges with a contact that now carries nothing
   std::vector<std::uint32_t> cut_welds;      ///< in the last step
   bool pivots_stale = true;
   std::uint32_t active_blocks = 0;  ///< the first ones; the others are swept in disturbed steps

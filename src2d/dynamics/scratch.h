@@ -121,6 +121,7 @@ struct Scratch {
   // Unmerge
   bool split = false;                      ///< some collection was taken apart
   std::vector<std::uint32_t> doubted;      ///< bodies at welds that may part
+  std::vector<std::uint32_t> leant;        ///< bridges that leaned in the last step, see WeldTest
   std::vector<std::uint32_t> cuts_before;  ///< welds of the collection at hand
 
   // Merge

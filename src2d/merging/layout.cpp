@@ -5,6 +5,7 @@
 #include <bit>
 #include <numeric>
 
+#include "src2d/merging/bridges.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/joint_welds.h"
@@ -80,6 +81,7 @@ void layOutWelds(const State& state, Collection& c) {
   }
   addJointWelds(state, c);
   c.welds.shrink_to_fit();
+  c.leaning.clear();
   std::size_t o = 0;
   for (Weld& weld : c.welds) {
     while (o < old.size() && std::pair(old[o].a, old[o].b) < std::pair(weld.a, weld.b)) ++o;
@@ -209,6 +211,7 @@ void layOutCollections(State& state) {
     fitBox(state, c.rigid);
     layOutJoints(state, c);
     layOutWelds(state, c);
+    markBridges(state, c);
     layOutBlocks(state, c);
     layOutPush(state, c);
     c.stale = false;

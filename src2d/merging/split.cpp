@@ -85,18 +85,36 @@ RigidId newPart(State& state, const std::vector<BodyId>& members,
   return id;
 }
 
-/// Contacts between the parts return to the table with their impulses and today's geometry.
+/// A contact that leaves a collection.
+struct Released {
+  InternalContact inner;
+  int patience;  ///< steps before its pair may merge again
+};
+
+/// How long a pair that parts has to wait.
 /// Deviation: a weld that broke soon after it had formed waits for the rest of this time before its
 /// contacts are looked at again, or the pair would merge and part in turn while it barely moves.
-/// Guarded by Unmerge.AWeldThatBrokeAtOnceDoesNotFormAtOnce.
-void releaseContacts(State& state, std::vector<InternalContact>& released) {
-  constexpr int kFlicker = 20;  // steps
-  const bool paper = state.settings.unmerging.rule == Rule::Paper;
+/// Guarded by Unmerge.AWeldThatBrokeAtOnceDoesNotFormAtOnce. And one that turned slowly waits for
+/// as long as it took to find out: it would still seem at rest. Guarded by
+/// Seesaw.BarelyOutOfBalanceTipsAsInTheReference.
+int patienceAfter(const State& state, const Collection& c, const InternalContact& inner) {
+  constexpr std::int64_t kFlicker = 20;  // steps
+  if (state.settings.unmerging.rule == Rule::Paper) return 0;
+  const auto rest =
+      static_cast<int>(std::max(std::int64_t{0}, kFlicker - (state.step - inner.since)));
+  const auto pair = [](const auto& x) { return std::pair(x.a, x.b); };
+  const auto weld = std::ranges::lower_bound(c.welds, pair(inner.key), {}, pair);
+  if (weld == c.welds.end() || pair(*weld) != pair(inner.key) || !weld->cut) return rest;
+  return weld->reason == EventReason::RelativeMotion ? std::max(rest, weld->turning.steps) : rest;
+}
+
+/// Contacts between the parts return to the table with their impulses and today's geometry.
+void releaseContacts(State& state, const std::vector<Released>& released) {
   std::vector<ContactKey> keys;
-  for (const InternalContact& inner : released) keys.push_back(inner.key);
+  for (const Released& r : released) keys.push_back(r.inner.key);
   std::sort(keys.begin(), keys.end());
   addContacts(state, keys);
-  for (const InternalContact& inner : released) {
+  for (const auto& [inner, patience] : released) {
     const auto& order = state.contacts.order;
     const auto at = std::lower_bound(order.begin(), order.end(), inner.key,
                                      [&](ContactTable::Slot slot, const ContactKey& key) {
@@ -104,8 +122,7 @@ void releaseContacts(State& state, std::vector<InternalContact>& released) {
                                      });
     Contact& contact = state.contacts[*at];
     contact = inner.released();
-    const auto lived = static_cast<int>(state.step - inner.since);
-    if (!paper) contact.quiet_steps = std::min(0, lived - kFlicker);
+    contact.quiet_steps = -patience;
     updateManifold(state, contact, 0.0);
   }
 }
@@ -126,7 +143,7 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
 
   // Contacts first, while membership can still be asked.
   std::vector<std::vector<InternalContact>> kept(members.size());
-  std::vector<InternalContact> released;
+  std::vector<Released> released;
   {
     const Collection& c = state.collection(id);
     const auto partOf = [&](BodyId b) { return part[state[rigidOf(b)].member]; };
@@ -136,7 +153,11 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
       const std::uint32_t p = partOf(a_in ? a : b), q = partOf(b_in ? b : a);
       const bool on_frame = frameOf(state, a_in ? b : a) == whole.anchor;
       const bool stays = p == q && ((a_in && b_in) || (anchored[p] && on_frame));
-      (stays ? kept[p] : released).push_back(inner);
+      if (stays) {
+        kept[p].push_back(inner);
+      } else {
+        released.push_back({inner, patienceAfter(state, c, inner)});
+      }
     }
   }
 

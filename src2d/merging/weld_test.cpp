@@ -27,6 +27,8 @@ bool atLimit(const ContactBlock& k) {
 }  // namespace
 
 void WeldTest::testAll() {
+  std::swap(leant_, c_.leaning);
+  c_.leaning.clear();
   const std::size_t blocks = whole_ ? c_.blocks.size() : c_.active_blocks;
   for (std::uint32_t i = 0; i < blocks; ++i) {
     if (c_.watched[i] || scratch_.notes || atLimit(c_.blocks[i])) testContacts(i);
@@ -36,6 +38,7 @@ void WeldTest::testAll() {
     testLost(c_.welds[pivot]);
     testMotion(c_.welds[pivot]);
   }
+  testLeaning();
   // What may be about to part does not fall asleep.
   if (disturbed_) c_.refuted = false;
   if (growing_ && !c_.refuted && !confirming_) c_.settled = false;
@@ -68,6 +71,7 @@ void WeldTest::testContacts(std::uint32_t b) {
     if (scratch_.notes) {
       at_ = state_[c_.rigid].frame() * point.position;
     }
+    if (!pressed && point.active) leans(weld);
     if (edge || !pressed) {
       const ContactVelocity w = velocityAt(k, i);
       if (!pressed && point.active) point.lost = testBroken(weld, point.opening, w.n);
@@ -190,6 +194,25 @@ void WeldTest::testMotion(Weld& weld) {
   if (cut) cutWeld(weld, EventReason::RelativeMotion);
 }
 
+void WeldTest::leans(std::uint32_t weld) {
+  if (!c_.welds[weld].bridge || rule() == Rule::Paper) return;
+  if (std::ranges::find(c_.leaning, weld) == c_.leaning.end()) c_.leaning.push_back(weld);
+}
+
+void WeldTest::testLeaning() {
+  for (const std::uint32_t weld : leant_) {
+    const bool still = std::ranges::find(c_.leaning, weld) != c_.leaning.end();
+    if (!still && !isPivot(weld)) c_.welds[weld].turning = {};
+  }
+  for (const std::uint32_t weld : c_.leaning) {
+    if (!isPivot(weld)) testMotion(c_.welds[weld]);
+  }
+}
+
+bool WeldTest::isPivot(std::uint32_t weld) const {
+  return std::ranges::binary_search(c_.pivots, weld);
+}
+
 bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {
   const UnmergingSettings& settings = state_.settings.unmerging;
   weld.turning.steps = std::abs(now.fastest) > settings.velocity ? weld.turning.steps + 1 : 0;
@@ -197,10 +220,11 @@ bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {
 }
 
 bool WeldTest::turns(Weld& weld, const Turning& now) {
-  // Rigid rows may find a slow motion where soft contacts hold: what is slower is left to them.
-  constexpr double kPart = 0.1;
+  // Rigid rows may find a slow motion where soft contacts hold: what is slower is left to them. Not
+  // where nothing else holds: there both know the same forces.
   const UnmergingSettings& settings = state_.settings.unmerging;
-  if (now.nearest <= noise() || std::abs(now.fastest) <= kPart * settings.velocity) {
+  const double slow = weld.bridge ? 0.0 : 0.1 * settings.velocity;
+  if (now.nearest <= noise() || std::abs(now.fastest) <= slow) {
     weld.turning = {};
     return false;
   }

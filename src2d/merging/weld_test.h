@@ -14,6 +14,7 @@ class WeldTest {
         scratch_(scratch),
         c_(c),
         turn_(state[c.rigid].rotation),
+        leant_(scratch.leant),
         disturbed_(disturbed),
         whole_(disturbed) {}
 
@@ -71,6 +72,14 @@ class WeldTest {
   /// Relative motion (Section 6.4): only pairs with fewer than two contacts can turn in 2D.
   void testMotion(Weld& weld);
 
+  /// Notes a bridge that rests on fewer contacts than it has: it may be about to turn on them.
+  void leans(std::uint32_t weld);
+
+  /// Relative motion of those, long before the contact that carries nothing has opened.
+  void testLeaning();
+
+  bool isPivot(std::uint32_t weld) const;
+
   /// As in the paper: fast enough in several consecutive steps.
   bool moveLoudly(Weld& weld, const Turning& now) const;
 
@@ -101,6 +110,7 @@ class WeldTest {
   Scratch& scratch_;
   Collection& c_;
   Rotation turn_;
+  std::vector<std::uint32_t>& leant_;  ///< bridges that leaned in the last step
   bool confirming_ = false;
   bool growing_ = false;    ///< some sum grew in this step, and is not too large yet
   bool opened_ = false;     ///< some contact was lost that held before

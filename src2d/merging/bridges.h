@@ -1,0 +1,13 @@
+#pragma once
+/// Bridges of the graph of welds: a part that hangs on one weld alone.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Marks the welds whose cut would leave two parts that nothing else joins. What such a weld
+/// carries follows from the weight of either part, so rigid rows and soft contacts agree about it.
+/// Bodies of the frame count as one.
+void markBridges(const State& state, Collection& collection);
+
+}  // namespace merge2d
