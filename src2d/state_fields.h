@@ -133,8 +133,8 @@ void fields(Ar& ar, Some<InternalContact> auto& c) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {
-  auto& [a, b, first, count, turning, joints, bridge, cut, reason] = w;
-  ar(a, b, first, count, turning, joints, bridge, cut, reason);
+  auto& [a, b, first, count, turning, joints, bridge, expected, cut, reason] = w;
+  ar(a, b, first, count, turning, joints, bridge, expected, cut, reason);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {

@@ -37,11 +37,14 @@ struct InternalPoint {
   bool lost = false;    ///< has opened since
 };
 
+/// Instead of the step of a merge: a contact that may close in this step, and holds nothing.
+inline constexpr std::int64_t kExpected = -1;
+
 /// A contact inside a collection: its memory is cold, its block hot.
 struct InternalContact {
   ContactKey key;
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in the collection's frame
-  std::int64_t since = 0;       ///< step of the merge that brought it in
+  std::int64_t since = 0;       ///< step of the merge that brought it in, or kExpected
   int count = 0;
   std::array<InternalPoint, 2> points;
 
@@ -73,6 +76,7 @@ struct Weld {
   Drift turning{};          ///< of a pivot, over consecutive steps
   std::int16_t joints = 0;  ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
   bool bridge = false;      ///< its cut would leave two parts
+  bool expected = false;    ///< only contacts that may close in this step: no weld yet
   bool cut = false;         ///< found broken, sliding or moving in this step
   EventReason reason = EventReason::None;
 };

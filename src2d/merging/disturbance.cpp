@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src2d/merging/kicked.h"
 #include "src2d/merging/sweep.h"
 
 namespace merge2d {
@@ -83,6 +84,7 @@ bool closesAnew(const State& state, const Contact& contact) {
 }
 
 void orderContacts(State& state, Scratch& scratch) {
+  expectContactsOfKicked(state, scratch);
   reportImpacts(state, scratch);
   scratch.seeds.clear();
   scratch.disturbed.assign(state.collections.size(), 0);

@@ -75,11 +75,13 @@ void layOutWelds(const State& state, Collection& c) {
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
     const ContactKey& key = c.contacts[i].key;
     if (c.welds.empty() || c.welds.back().a != key.a || c.welds.back().b != key.b) {
-      c.welds.push_back({.a = key.a, .b = key.b, .first = i});
+      c.welds.push_back({.a = key.a, .b = key.b, .first = i, .expected = true});
     }
+    c.welds.back().expected &= c.contacts[i].since == kExpected;
     c.welds.back().count = i + 1 - c.welds.back().first;
   }
   addJointWelds(state, c);
+  for (Weld& weld : c.welds) weld.expected &= weld.joints == 0;
   c.welds.shrink_to_fit();
   c.leaning.clear();
   std::size_t o = 0;

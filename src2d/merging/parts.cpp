@@ -62,7 +62,7 @@ bool holdsFirmly(const State& state, const Collection& c) {
   std::size_t sets_left = c.members.size();
   bool anchored = false;
   for (const Weld& weld : c.welds) {
-    if (weld.cut || !isFirm(c, weld, resolution)) continue;
+    if (weld.cut || weld.expected || !isFirm(c, weld, resolution)) continue;
     const bool a_in = state[weld.a].rigid == c.rigid, b_in = state[weld.b].rigid == c.rigid;
     anchored |= !(a_in && b_in);
     if (!(a_in && b_in)) continue;
@@ -80,7 +80,8 @@ Parts partsWithoutCuts(const State& state, const Collection& c) {
   std::vector<Pin> pins;
   pins.reserve(2 * c.welds.size());
   for (const Weld& weld : c.welds) {
-    if (!weld.cut) addPins(state, c, weld, node[index(weld.a)], node[index(weld.b)], pins);
+    if (!weld.cut && !weld.expected)
+      addPins(state, c, weld, node[index(weld.a)], node[index(weld.b)], pins);
   }
   const auto nodes = static_cast<std::uint32_t>(c.members.size() + 1);
   const CycleCriterion criterion = state.settings.unmerging.rule == Rule::Paper

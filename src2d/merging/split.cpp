@@ -108,6 +108,13 @@ int patienceAfter(const State& state, const Collection& c, const InternalContact
   return weld->reason == EventReason::RelativeMotion ? std::max(rest, weld->turning.steps) : rest;
 }
 
+/// How far ahead to look for its points again: contacts of what was struck may still be open [m].
+double farthestPoint(const InternalContact& inner) {
+  double gap = 0.0;
+  for (int i = 0; i < inner.count; ++i) gap = std::max(gap, inner.point(i).gap);
+  return 1.001 * gap;
+}
+
 /// Contacts between the parts return to the table with their impulses and today's geometry.
 void releaseContacts(State& state, const std::vector<Released>& released) {
   std::vector<ContactKey> keys;
@@ -123,7 +130,7 @@ void releaseContacts(State& state, const std::vector<Released>& released) {
     Contact& contact = state.contacts[*at];
     contact = inner.released();
     contact.quiet_steps = -patience;
-    updateManifold(state, contact, 0.0);
+    updateManifold(state, contact, farthestPoint(inner));
   }
 }
 

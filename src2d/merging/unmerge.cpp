@@ -6,6 +6,7 @@
 #include "src2d/merging/collection.h"
 #include "src2d/merging/group_notes.h"
 #include "src2d/merging/joint_welds.h"
+#include "src2d/merging/kicked.h"
 #include "src2d/merging/parts.h"
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/weld_test.h"
@@ -37,6 +38,7 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
   Collection before;
   before.id = state.collection(id).id;
   before.welds = state.collection(id).welds;
+  std::erase_if(before.welds, [](const Weld& weld) { return weld.expected; });
   if (scratch.notes) before.contacts = state.collection(id).contacts;
   splitCollection(state, id, parts.part, parts.anchored);
   reportCuts(state, before, scratch);
@@ -129,6 +131,7 @@ void unmerge(State& state, Scratch& scratch) {
     restate(state, scratch.notes, first, "cut");  // cut, but held together by others
   }
   finishSplits(state, scratch);
+  forgetExpectedContacts(state, scratch);
 }
 
 void releaseBody(State& state, Scratch& scratch, BodyId body) {

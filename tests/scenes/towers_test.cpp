@@ -97,7 +97,7 @@ TEST(TowerImpulse, BelowTheBlowItStandsAsFirmAsAFineReference) {
     }
   }
   const std::string struck = "brick[0,20]";
-  EXPECT_GT(way(run, run.body(struck)).x(), 0.4);
+  EXPECT_GT(way(run, run.body(struck)).x(), 0.5);
   EXPECT_NEAR(way(run, run.body(struck)).x(), way(fine, run.body(struck)).x(), 0.15);
 }
 

@@ -1,0 +1,93 @@
+#include "src2d/merging/kicked.h"
+
+#include <algorithm>
+
+#include "src2d/contact/broadphase.h"
+#include "src2d/contact/detection.h"
+#include "src2d/merging/collection.h"
+
+namespace merge2d {
+namespace {
+
+/// How far the impulses of this step can move a body against its collection [m].
+double wayOf(const State& state, const Scratch& scratch, BodyId body) {
+  const Aabb& bounds = state.extent(rigidOf(body)).bounds;
+  const double radius = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).norm();
+  double speed = 0.0;
+  for (const Kick& kick : scratch.kicks) {
+    if (kick.body != body) continue;
+    const double moment = cross(kick.at - state.pose(body).position, kick.impulse);
+    speed += kick.impulse.norm() / state[body].mass;
+    speed += radius * std::abs(moment) / state[body].inertia;
+  }
+  return state.h * speed;
+}
+
+/// Detection leaves out pairs within a collection, and within what is fixed to one frame.
+bool leftOut(const State& state, BodyId a, BodyId b) {
+  if (a == b || !state.rigid(b).present() || joined(state, a, b)) return false;
+  if (state[a].rigid == state[b].rigid) return true;
+  const Rigid &ra = state.rigid(a), &rb = state.rigid(b);
+  return !ra.floating() && ra.anchor == rb.anchor;
+}
+
+/// The pairs of shapes of two bodies that `way` [m] can bring together and that are no contact yet.
+void addKeys(const State& state, BodyId a, BodyId b, double way, std::vector<ContactKey>& keys) {
+  const Body &first = state[std::min(a, b)], &second = state[std::max(a, b)];
+  const Pose seen = state.pose(std::min(a, b)).toLocal(state.pose(std::max(a, b)));
+  const auto& known = state.collection(state[a].rigid).contacts;
+  for (std::uint32_t s = first.first_shape; s < first.first_shape + first.shape_count; ++s) {
+    for (std::uint32_t t = second.first_shape; t < second.first_shape + second.shape_count; ++t) {
+      const ContactKey key{std::min(a, b), std::max(a, b), s, t};
+      if (!placed(seen, state.bounds(t)).grown(way).overlaps(state.bounds(s))) continue;
+      if (!std::ranges::binary_search(known, key, {}, &InternalContact::key)) keys.push_back(key);
+    }
+  }
+}
+
+}  // namespace
+
+void expectContactsOfKicked(State& state, Scratch& scratch) {
+  std::vector<ContactKey> keys;
+  for (const Kick& kick : scratch.kicks) {
+    if (!state.isCollection(state[kick.body].rigid)) continue;
+    const double way = wayOf(state, scratch, kick.body);
+    for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
+      const BodyId other{i};
+      if (!leftOut(state, kick.body, other)) continue;
+      addKeys(state, kick.body, other, way + wayOf(state, scratch, other), keys);
+    }
+  }
+  if (keys.empty()) return;
+  std::ranges::sort(keys);
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  addContacts(state, keys);
+  for (const ContactTable::Slot slot : state.contacts.order) {
+    Contact& contact = state.contacts[slot];
+    if (!std::ranges::binary_search(keys, contact.key)) continue;
+    const double way = wayOf(state, scratch, contact.key.a) + wayOf(state, scratch, contact.key.b);
+    updateManifold(state, contact, way);
+  }
+  absorbContacts(state);
+  for (Collection& c : state.collections) {
+    for (InternalContact& inner : c.contacts) {
+      if (std::ranges::binary_search(keys, inner.key)) inner.since = kExpected;
+    }
+  }
+  layOutCollections(state);
+  collectPairs(state, scratch);
+}
+
+void forgetExpectedContacts(State& state, const Scratch& scratch) {
+  if (scratch.kicks.empty()) return;
+  for (Collection& c : state.collections) {
+    const auto expected = [](const InternalContact& inner) { return inner.since == kExpected; };
+    if (std::ranges::none_of(c.contacts, expected)) continue;
+    if (!c.stale) saveForces(c);
+    c.stale = true;
+    std::erase_if(c.contacts, expected);
+  }
+  layOutCollections(state);
+}
+
+}  // namespace merge2d

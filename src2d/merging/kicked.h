@@ -1,0 +1,19 @@
+#pragma once
+/// What a struck body may run into within its own collection. Contacts there are never looked for
+/// (Section 4.1), as nothing moves; but an impulse can set a member off within the very step, and
+/// without these contacts it would pass through a neighbour that it does not touch yet.
+/// Deviation: the paper has no such contacts. Guarded by
+/// Kicked.ABodyPushesANeighbourThatItDoesNotTouchYet.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Adds the contacts that members with an impulse in this step can close: to their collections, for
+/// the sweep, and towards what is fixed to the same frame. They hold nothing together.
+void expectContactsOfKicked(State& state, Scratch& scratch);
+
+/// Forgets those that are still inside a collection when all welds have been tested.
+void forgetExpectedContacts(State& state, const Scratch& scratch);
+
+}  // namespace merge2d
