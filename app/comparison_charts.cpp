@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "app/output_file.h"
 #include "render/chart.h"
 #include "render/png.h"
 
@@ -191,7 +192,7 @@ std::vector<std::string> drawComparison(const Comparison& comparison,
                                         const std::filesystem::path& folder,
                                         const ChartStyle& style) {
   Canvas canvas(style.width, style.height);
-  std::filesystem::create_directories(folder);
+  makeFolder(folder);
   std::vector<std::string> files;
   const auto draw = [&](const char* file, const std::vector<Chart>& charts) {
     const std::filesystem::path path = folder / file;

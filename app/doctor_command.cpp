@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -25,7 +26,8 @@ struct Check {
   std::string name;
   bool works = false;
   bool needed = true;
-  std::string detail;  ///< what was found, or what is wrong and how to mend it
+  std::string detail;                 ///< what was found, or what is wrong and how to mend it
+  const char* otherwise = "missing";  ///< in a word, when it does not work and is not needed
 };
 
 /// Turns what `look` throws into a failed check; `remedy` says what to do about it.
@@ -59,8 +61,12 @@ std::string checkScenes() {
 Check checkFolder() {
   const fs::path folder = fs::exists("frames") ? "frames" : ".";
   const std::string where = fs::weakly_canonical(folder).string();
-  if (access(folder.c_str(), W_OK | X_OK) == 0) return {"folder", true, true, where};
-  return {"folder", false, false, fmt::format("{} is not writable; use --output DIR", where)};
+  const fs::path probe = folder / fmt::format(".merge2d-doctor-{}", getpid());
+  const bool writable = std::ofstream(probe).good();  // rights do not tell of every file system
+  std::error_code ignored;
+  fs::remove(probe, ignored);
+  if (writable) return {"folder", true, true, where};
+  return {"folder", false, false, fmt::format("{}; use --output DIR", where), "read-only"};
 }
 
 Check checkFfmpeg() {
@@ -84,8 +90,8 @@ std::vector<Check> examine() {
 std::string table(const std::vector<Check>& checks) {
   std::string out = "merge2d " MERGE2D_VERSION "\n";
   for (const Check& check : checks) {
-    const char* verdict = check.works ? "ok" : check.needed ? "FAILED" : "missing";
-    out += fmt::format("{:<12}{:<9}{}\n", check.name, verdict, check.detail);
+    const char* verdict = check.works ? "ok" : check.needed ? "FAILED" : check.otherwise;
+    out += fmt::format("{:<12}{:<11}{}\n", check.name, verdict, check.detail);
   }
   return out;
 }

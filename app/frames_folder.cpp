@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/output_file.h"
 #include "app/usage_error.h"
 #include "src2d/core/error.h"
 
@@ -57,7 +58,7 @@ void requireNothingForeign(const fs::path& folder) {
 void prepareFolder(const fs::path& folder, const Json& film, const Film& frames,
                    const RenderOptions& options, const Console& console) {
   if (!fs::exists(folder)) {
-    fs::create_directories(folder);
+    makeFolder(folder);
     return;
   }
   if (!fs::is_directory(folder)) throw IoError(fmt::format("{} is not a folder", folder.string()));

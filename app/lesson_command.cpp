@@ -117,7 +117,7 @@ void run(const LessonOptions& options) {
   const std::string path = options.output.empty()
                                ? (fs::path("frames") / name / "lesson.html").string()
                                : options.output;
-  if (options.output.empty()) fs::create_directories(fs::path(path).parent_path());
+  if (options.output.empty()) makeFolder(fs::path(path).parent_path());
   writeFile(path, makePage(content), {.everything = options.force, .ours = kPageStart});
   if (path != "-") print(fmt::format("{}\n", path));
 }

@@ -95,6 +95,12 @@ void writeFile(const std::string& path, std::string_view text, const Replaces& r
   file.finish();
 }
 
+void makeFolder(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) fail(folder.string(), failed.message());
+}
+
 std::string shellQuoted(const std::string& path) {
   constexpr std::string_view kPlain = "/._-+,:@%=";
   const bool plain = std::ranges::all_of(path, [&](char c) {

@@ -43,6 +43,9 @@ class OutputFile {
 /// A whole file at once.
 void writeFile(const std::string& path, std::string_view text, const Replaces& replaces);
 
+/// Makes a folder and those above it, where there are none. Throws IoError.
+void makeFolder(const std::filesystem::path& folder);
+
 /// The path as it can be typed into a shell.
 std::string shellQuoted(const std::string& path);
 

@@ -54,7 +54,7 @@ class StageFiles {
   std::int64_t step() const { return record_.step; }
 
   void write() {
-    fs::create_directories(folder_);
+    makeFolder(folder_);
     for (std::size_t i = 0; i < kStages; ++i) drawStage(i);
     writeFile(file(".vtt").string(), captions_.text(),
               {.everything = options_.force, .ours = WebVtt::kStart});

@@ -37,12 +37,18 @@ void labelCollections(LabelPainter& labels, const FrameScene& scene) {
   for (const CollectionView& c : scene.snapshot.collections) bySize.push_back(&c);
   std::ranges::stable_sort(bySize, std::ranges::greater{},
                            [](const CollectionView* c) { return c->bodies.size(); });
-  // Where there are few, each gets its label; where there are many, those that it does not hide.
+  // Where there are few, each gets its label; where there are many, those that it does not hide,
+  // the small ones in small print.
   const bool crowded = bySize.size() > 8;
-  const Font font = scene.font(13.0F, Weight::Bold);
+  const Font large = scene.font(13.0F, Weight::Bold), small = scene.font(9.0F, Weight::Bold);
   for (const CollectionView* c : bySize) {
     const std::string label = fmt::format("C{}", value(c->id));
-    if (crowded && coveredArea(scene, *c) < 2.0F * labels.area(label, font)) continue;
+    const float covered = coveredArea(scene, *c);
+    const auto fits = [&](const Font& font, float part) {
+      return !crowded || part * labels.area(label, font) <= covered;
+    };
+    if (!fits(small, 1.2F)) continue;
+    const Font& font = fits(large, 2.0F) ? large : small;
     labels.put(label, font, scene.view(labelPlace(scene, *c)), standingOut(scene, c->id));
   }
 }

@@ -44,12 +44,30 @@ class PngReader {
   png_image image_{};
 };
 
+/// libpng is content once it has all pixels; a file that was cut off behind them is still not
+/// whole.
+bool endsAsPng(std::string_view bytes) {
+  std::size_t at = 8;  // behind the signature, chunks: length, type, data, checksum
+  while (bytes.size() >= at + 12) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      length = 256 * length + static_cast<unsigned char>(bytes[at + i]);
+    }
+    if (bytes.substr(at + 4, 4) == "IEND") return true;
+    at += 12 + length;
+  }
+  return false;
+}
+
 }  // namespace
 
 Image decodePng(const std::string& bytes, const std::string& name) {
   static_assert(sizeof(Image::Pixel) == 4, "libpng writes four bytes per pixel");
   PngReader reader(name);
   reader.readHeader(bytes);
+  if (!endsAsPng(bytes)) {
+    throw InputError(fmt::format("{}: not a whole PNG picture (its end is missing)", name));
+  }
   return reader.readPixels();
 }
 

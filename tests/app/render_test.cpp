@@ -179,7 +179,9 @@ TEST_F(Render, FailsWhereItCannotWrite) {
   const Outcome outcome = render({"-o", "file"});
   EXPECT_EQ(outcome.code, 4);
   EXPECT_THAT(outcome.err, HasSubstr("file is not a folder"));
-  EXPECT_EQ(render({"-o", "/proc/frames"}).code, 4);
+  const Outcome nowhere = render({"-o", "/proc/frames"});
+  EXPECT_EQ(nowhere.code, 4);
+  EXPECT_THAT(nowhere.err, HasSubstr("cannot write /proc/frames: No such file"));
 }
 
 TEST_F(Render, DrawsARangeOfFramesWithTheSameBytes) {
