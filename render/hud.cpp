@@ -105,6 +105,13 @@ class LegendEntries {
 
   void addMarks() {
     const Theme& theme = scene_.theme();
+    if (scene_.shows(Overlay::Graph)) addLine("in contact", 1.3F, theme.graph);
+    if (merges(scene_.style.mode) && scene_.shows(Overlay::Welds)) {
+      addLine("weld", 3.5F, theme.graph);
+    }
+    if (merges(scene_.style.mode) && scene_.shows(Overlay::Boxes)) {
+      addSwatch("oriented box", {.outline = theme.box, .line = scene_.px(2.0F)});
+    }
     if (scene_.shows(Overlay::Contacts)) {
       addMark("merged", drawMergedMark);
       addMark("active", drawActiveMark);
@@ -122,6 +129,12 @@ class LegendEntries {
     entries.push_back({meaning, 10.0F, [this, mark](Painter& p, Pixel left) {
                          mark(p, scene_, left + Pixel{scene_.px(5.0F), 0.0F}, scene_.px(4.2F));
                        }});
+  }
+  void addLine(const char* meaning, float width, Color color) {
+    entries.push_back(
+        {meaning, 18.0F, [this, width, color](Painter& p, Pixel left) {
+           p.line(left, left + Pixel{scene_.px(18.0F), 0.0F}, scene_.px(width), color);
+         }});
   }
   void addArrow(const char* meaning, Color color) {
     entries.push_back({meaning, 22.0F, [this, color](Painter& p, Pixel left) {

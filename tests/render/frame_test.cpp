@@ -51,6 +51,19 @@ TEST(FrameReference, ContactsForcesAndWeldsInPrint) {
                       "overlays_print");
 }
 
+TEST(Frame, TheLegendTellsOfGraphWeldsAndBoxes) {
+  const Sample s = samples::tower(3, 3, 2);
+  const auto legend = [&](const std::string& overlays) {
+    const Picture p = drawn(s, styleOf(s, "A wall", 960, 540, parseOverlays(overlays)));
+    const auto rows = static_cast<std::ptrdiff_t>(p.height - 30) * p.width * 4;
+    return std::vector<std::uint8_t>(p.rgba.begin() + rows, p.rgba.end());
+  };
+  for (const char* overlay : {"graph", "welds", "boxes"}) {
+    EXPECT_NE(legend("legend"), legend(std::string("legend,") + overlay)) << overlay;
+    EXPECT_EQ(legend("-legend"), legend(std::string("-legend,") + overlay)) << overlay;
+  }
+}
+
 TEST(FrameReference, AllOverlaysOnATransparentBackground) {
   const Sample s = samples::mixture();
   FrameStyle style = styleOf(s, "Everything", 480, 270, parseOverlays("all"));
