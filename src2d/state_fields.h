@@ -81,8 +81,8 @@ void fields(Ar& ar, Some<ContactPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Contact> auto& c) {
-  auto& [key, normal, count, quiet_steps, points] = c;
-  ar(key, normal, count, quiet_steps, points);
+  auto& [key, normal, count, vain, quiet_steps, points] = c;
+  ar(key, normal, count, vain, quiet_steps, points);
 }
 template <class Ar>
 void fields(Ar& ar, Some<ContactTable> auto& t) {
@@ -128,13 +128,13 @@ void fields(Ar& ar, Some<InternalPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<InternalContact> auto& c) {
-  auto& [key, normal, since, count, points] = c;
-  ar(key, normal, since, count, points);
+  auto& [key, normal, since, count, vain, points] = c;
+  ar(key, normal, since, count, vain, points);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {
-  auto& [a, b, first, count, turning, joints, bridge, expected, cut, reason] = w;
-  ar(a, b, first, count, turning, joints, bridge, expected, cut, reason);
+  auto& [a, b, first, count, turning, joints, vain, bridge, expected, cut, reason] = w;
+  ar(a, b, first, count, turning, joints, vain, bridge, expected, cut, reason);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {

@@ -19,7 +19,10 @@ bool boxesApart(const State& state, const ContactKey& key, const Pose& b_in_a, d
               .overlaps(state.bounds(key.shape_a));
 }
 
-void loseTouch(Contact& contact) { contact.count = contact.quiet_steps = 0; }
+void loseTouch(Contact& contact) {
+  contact.count = 0;
+  contact.quiet_steps = 0;
+}
 
 /// Hands on what is remembered of a point, or marks it as new.
 void inherit(ContactPoint& point, const Contact& old) {
@@ -78,7 +81,7 @@ void updateManifold(const State& state, Contact& contact, double ahead) {
   const Collider& b = state.collider(contact.key.shape_b);
   const Manifold manifold = collide(a, b, b_in_a, margin);
   const Contact old = contact;
-  contact.count = manifold.count;
+  contact.count = static_cast<std::int16_t>(manifold.count);
   contact.normal = manifold.normal;
   for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
     ContactPoint point;

@@ -83,7 +83,7 @@ void dropInternalEdges(const State& state, const Pose& b_in_a, Contact& contact)
   };
   const auto end =
       std::remove_if(contact.points.begin(), contact.points.begin() + contact.count, internal);
-  contact.count = static_cast<int>(end - contact.points.begin());
+  contact.count = static_cast<std::int16_t>(end - contact.points.begin());
 }
 
 }  // namespace merge2d

@@ -66,7 +66,7 @@ void prunePair(ContactTable& table, const BodyPair& pair) {
       });
       if (outermost) contact.points[static_cast<std::size_t>(kept++)] = point;
     }
-    contact.count = kept;
+    contact.count = static_cast<std::int16_t>(kept);
   }
 }
 

@@ -45,7 +45,8 @@ struct InternalContact {
   ContactKey key;
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in the collection's frame
   std::int64_t since = 0;       ///< step of the merge that brought it in, or kExpected
-  int count = 0;
+  std::int16_t count = 0;
+  std::int16_t vain = 0;  ///< as in Contact
   std::array<InternalPoint, 2> points;
 
   InternalPoint& point(int i) { return points[static_cast<std::size_t>(i)]; }
@@ -57,6 +58,7 @@ struct InternalContact {
     contact.key = key;
     contact.normal = normal;
     contact.count = count;
+    contact.vain = vain;
     for (std::size_t i = 0; i < 2; ++i) {
       ContactPoint& point = contact.points[i];
       point.position = points[i].position;
@@ -75,6 +77,7 @@ struct Weld {
   std::uint32_t first = 0, count = 0;
   Drift turning{};          ///< of a pivot, over consecutive steps
   std::int16_t joints = 0;  ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
+  std::int16_t vain = 0;    ///< welds of the pair before it that were cut in vain
   bool bridge = false;      ///< its cut would leave two parts
   bool expected = false;    ///< only contacts that may close in this step: no weld yet
   bool cut = false;         ///< found broken, sliding or moving in this step

@@ -35,7 +35,8 @@ struct ContactPoint {
 struct Contact {
   ContactKey key;
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in a's frame; inside a collection in its frame
-  int count = 0;
+  std::int16_t count = 0;
+  std::int16_t vain = 0;  ///< welds of the pair in a row that were cut, and then nothing moved
   /// Consecutive steps in which the pair could have merged; below 0 it may not yet.
   int quiet_steps = 0;
   std::array<ContactPoint, 2> points;

@@ -200,6 +200,7 @@ void absorbContacts(State& state) {
     InternalContact inner;
     inner.key = contact.key;
     inner.count = contact.count;
+    inner.vain = contact.vain;
     inner.since = state.step;
     const Pose from_a = state[id].frame().toLocal(state.pose(contact.key.a));
     inner.normal = from_a.rotation * contact.normal;

@@ -79,6 +79,7 @@ void layOutWelds(const State& state, Collection& c) {
     }
     c.welds.back().expected &= c.contacts[i].since == kExpected;
     c.welds.back().count = i + 1 - c.welds.back().first;
+    c.welds.back().vain = std::max(c.welds.back().vain, c.contacts[i].vain);
   }
   addJointWelds(state, c);
   for (Weld& weld : c.welds) weld.expected &= weld.joints == 0;
@@ -171,7 +172,8 @@ void layOutBlocks(const State& state, Collection& c) {
   for (const std::uint32_t contact : c.block_contact) {
     InternalContact& inner = c.contacts[contact];
     c.blocks.push_back(makeBlock(state, c, inner));
-    inner.count = c.blocks.back().count;  // points too close to each other count as one
+    inner.count = static_cast<std::int16_t>(
+        c.blocks.back().count);  // points too close to each other count as one
     c.block_weld.push_back(weld_of[contact]);
   }
 }

@@ -66,10 +66,13 @@ void countQuietPairs(State& state, Scratch& scratch) {
     const int count = first.quiet_steps;
     if (count < 0) notePatience(scratch.notes, pair, count);
     PairTest test(state, pair, scratch.notes);
-    const int now = test.ready() || count < 0 ? count + 1 : 0;
+    const bool ready = test.ready();
+    const int now = ready || count < 0 ? count + 1 : 0;
     test.noteCount(count, now);
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-      state.contacts[state.contacts.order[i]].quiet_steps = now;
+      Contact& contact = state.contacts[state.contacts.order[i]];
+      contact.quiet_steps = now;
+      if (!ready) contact.vain = 0;
     }
   }
 }

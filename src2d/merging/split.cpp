@@ -91,21 +91,27 @@ struct Released {
   int patience;  ///< steps before its pair may merge again
 };
 
+/// The weld that a contact belongs to, when a test of this step found it broken, sliding or moving.
+const Weld* cutByTest(const Collection& c, const InternalContact& inner) {
+  const auto pair = [](const auto& x) { return std::pair(x.a, x.b); };
+  const auto weld = std::ranges::lower_bound(c.welds, pair(inner.key), {}, pair);
+  if (weld == c.welds.end() || pair(*weld) != pair(inner.key)) return nullptr;
+  return weld->cut && weld->reason != EventReason::User ? &*weld : nullptr;
+}
+
 /// How long a pair that parts has to wait.
 /// Deviation: a weld that broke soon after it had formed waits for the rest of this time before its
 /// contacts are looked at again, or the pair would merge and part in turn while it barely moves.
 /// Guarded by Unmerge.AWeldThatBrokeAtOnceDoesNotFormAtOnce. And one that turned slowly waits for
 /// as long as it took to find out: it would still seem at rest. Guarded by
 /// Seesaw.BarelyOutOfBalanceTipsAsInTheReference.
-int patienceAfter(const State& state, const Collection& c, const InternalContact& inner) {
+int patienceAfter(const State& state, const InternalContact& inner, const Weld* cut) {
   constexpr std::int64_t kFlicker = 20;  // steps
   if (state.settings.unmerging.rule == Rule::Paper) return 0;
   const auto rest =
       static_cast<int>(std::max(std::int64_t{0}, kFlicker - (state.step - inner.since)));
-  const auto pair = [](const auto& x) { return std::pair(x.a, x.b); };
-  const auto weld = std::ranges::lower_bound(c.welds, pair(inner.key), {}, pair);
-  if (weld == c.welds.end() || pair(*weld) != pair(inner.key) || !weld->cut) return rest;
-  return weld->reason == EventReason::RelativeMotion ? std::max(rest, weld->turning.steps) : rest;
+  const bool turned = cut && cut->reason == EventReason::RelativeMotion;
+  return turned ? std::max(rest, cut->turning.steps) : rest;
 }
 
 /// How far ahead to look for its points again: contacts of what was struck may still be open [m].
@@ -163,7 +169,9 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
       if (stays) {
         kept[p].push_back(inner);
       } else {
-        released.push_back({inner, patienceAfter(state, c, inner)});
+        const Weld* cut = cutByTest(c, inner);
+        released.push_back({inner, patienceAfter(state, inner, cut)});
+        if (cut) ++released.back().inner.vain;
       }
     }
   }

@@ -109,7 +109,7 @@ WeldTest::Evidence WeldTest::weigh(Drift& drift, double w, double threshold) {
 
 bool WeldTest::testBroken(std::uint32_t weld, Drift& opening, double w_n) {
   const bool literal = rule() == Rule::Paper;
-  const double threshold = literal ? 0.0 : openingThreshold();
+  const double threshold = literal ? 0.0 : openingThreshold() * caution(c_.welds[weld]);
   const Evidence found = weigh(opening, std::max(0.0, w_n), threshold);
   const bool lost = found.exceeds || literal;
   note(c_.welds[weld], {.criterion = "opening",
@@ -152,7 +152,7 @@ bool WeldTest::hadContact(const Weld& weld) const {
 }
 
 void WeldTest::testSliding(std::uint32_t weld, Drift& slip, double w_t) {
-  const double threshold = state_.settings.unmerging.sliding;
+  const double threshold = state_.settings.unmerging.sliding * caution(c_.welds[weld]);
   if (rule() == Rule::Paper) slip = {};
   const Evidence found = weigh(slip, w_t, threshold);
   note(c_.welds[weld], {.criterion = "sliding",
@@ -184,7 +184,7 @@ void WeldTest::testMotion(Weld& weld) {
   note(weld, {.criterion = "relative-motion",
               .equation = "(17)",
               .value = literal ? std::abs(now.fastest) : std::abs(weld.turning.sum),
-              .threshold = settings.velocity,
+              .threshold = literal ? settings.velocity : settings.velocity * caution(weld),
               .count = weld.turning.steps,
               .needed = literal ? settings.steps : 0,
               .verdict = cut                      ? "unmerge"
@@ -228,7 +228,7 @@ bool WeldTest::turns(Weld& weld, const Turning& now) {
     weld.turning = {};
     return false;
   }
-  return weigh(weld.turning, now.fastest, settings.velocity).exceeds &&
+  return weigh(weld.turning, now.fastest, settings.velocity * caution(weld)).exceeds &&
          weld.turning.steps >= settings.steps;
 }
 
@@ -274,6 +274,15 @@ void WeldTest::note(const Weld& weld, Decision test) const {
   test.b = weld.b;
   test.stage = "Unmerge";
   scratch_.notes->decisions.push_back(test);
+}
+
+double WeldTest::caution(const Weld& weld) const {
+  constexpr double kSteps = 20.0;
+  constexpr int kMost = 5;
+  if (rule() == Rule::Paper || weld.vain == 0) return 1.0;
+  const double factor = std::exp2(std::min<int>(weld.vain, kMost));
+  const auto lived = static_cast<double>(state_.step - c_.contacts[weld.first].since);
+  return lived < kSteps * factor ? factor : 1.0;
 }
 
 double WeldTest::noise() const { return std::max<double>(residualVelocity(state_), c_.residual); }

@@ -29,6 +29,19 @@ TEST(Pile, MergesWithEachOtherThenWithTheGroundThenFallsAsleep) {
   EXPECT_EQ(run.now().stats.asleep, 180);
 }
 
+TEST(Pile, NoPairMergesAndPartsOverAndOver) {
+  SceneRun run("pile");
+  run.until(20.0);
+  std::map<std::pair<std::string, std::string>, int> parted;
+  for (const SceneRun::Logged& e : run.log()) {
+    if (e.type == EventType::Unmerge) ++parted[{e.a, e.b}];
+  }
+  EXPECT_GT(parted.size(), 100u);
+  for (const auto& [pair, times] : parted) {
+    EXPECT_LE(times, 12) << pair.first << " and " << pair.second;
+  }
+}
+
 class LongPile : public testing::TestWithParam<int> {};
 
 TEST_P(LongPile, FallsAsleepWithAnySeed) {
