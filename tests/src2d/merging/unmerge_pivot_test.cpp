@@ -1,5 +1,6 @@
 /// Welds that turn about one contact (Section 6.4).
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -20,6 +21,15 @@ name = "beam"
 at = [0.02, 0.6]
 box = [4, 0.2]
 )";
+
+/// In balance, until from 4 s on one end is pushed with a force [N].
+std::string pushedSeeSaw(double force) {
+  std::string balanced = kSeeSaw;
+  balanced.replace(balanced.find("[0.02, 0.6]"), 11, "[0.00, 0.6]");
+  return balanced +
+         fmt::format("[[force]]\nbody = \"beam\"\nat = [1.9, 0]\nforce = [0, {}]\nfrom = 4\n",
+                     force);
+}
 
 TEST(Unmerge, ASeeSawOutOfBalanceTips) {
   for (const char* let_go : {"", "pinned_until = 2\n"}) {
@@ -43,16 +53,7 @@ TEST(Unmerge, UnderThePapersRuleTheSeeSawIsStuck) {
 TEST(Unmerge, AWeldThatTurnsBreaksAfterTheGivenSteps) {  // Figure 4, Section 6.4
   for (const int steps : {3, 6}) {
     Overrides overrides{{"merging.cycles", "\"off\""}, {"unmerging.steps", std::to_string(steps)}};
-    std::string balanced = kSeeSaw;
-    balanced.replace(balanced.find("[0.02, 0.6]"), 11, "[0.00, 0.6]");
-    Simulation run(balanced + R"(
-[[force]]
-body = "beam"
-at = [1.9, 0]
-force = [0, -8]
-from = 4
-)",
-                   Mode::Merge, overrides);
+    Simulation run(pushedSeeSaw(-8.0), Mode::Merge, overrides);
     run.until(4.0);
     ASSERT_TRUE(run.merged("beam"));
     run.steps(steps - 1, [&] { ASSERT_TRUE(run.merged("beam")) << steps; });
@@ -66,18 +67,9 @@ from = 4
 
 TEST(Unmerge, APivotThatGathersSpeedSlowlyBreaksToo) {
   // No step alone would be fast enough.
-  std::string balanced = kSeeSaw;
-  balanced.replace(balanced.find("[0.02, 0.6]"), 11, "[0.00, 0.6]");
   const auto parted = [&](Overrides overrides) {
     overrides.push_back({"merging.cycles", "\"off\""});
-    Simulation run(balanced + R"(
-[[force]]
-body = "beam"
-at = [1.9, 0]
-force = [0, -0.4]
-from = 4
-)",
-                   Mode::Merge, overrides);
+    Simulation run(pushedSeeSaw(-0.4), Mode::Merge, overrides);
     run.until(4.0);
     EXPECT_TRUE(run.merged("beam"));
     int turned = 0;
