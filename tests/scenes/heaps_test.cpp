@@ -72,6 +72,7 @@ TEST(Funnel, HeapsMergeWhileMoreIsFalling) {
   }
   EXPECT_GT(run.now().stats.bodies, 70);
   EXPECT_LT(active, bodies / 2);
+  EXPECT_LT(run.now().stats.active_bodies, run.now().stats.bodies / 2);
   expectInTheTray(run);
 }
 

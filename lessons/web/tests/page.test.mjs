@@ -352,6 +352,8 @@ for (const colorScheme of ['light', 'dark']) {
       if (name === 'contact-forces') await page.click('text=Just show me');
       if (name === 'how-fast-is-still') await page.keyboard.press('9');
       if (name === 'one-sweep') await page.click('.stage:nth-child(7)');
+      // In the middle of a change of colours nothing is readable.
+      await page.evaluate(() => Promise.all(document.getAnimations().map((animation) => animation.finished)));
       await page.evaluate(axe);
       const { violations } = await page.evaluate(() => window.axe.run());
       assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(' | ')}`), []);
