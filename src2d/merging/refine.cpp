@@ -192,8 +192,13 @@ std::vector<SweepItem> orderedFrom(std::span<const std::uint32_t> seeds, const S
   const auto order =
       breadthFirst(static_cast<std::uint32_t>(passable.size()), edges, seeds, passable, depth);
   std::vector<SweepItem> ordered;
+  std::vector<std::uint32_t> depth_in_order;
   ordered.reserve(order.size());
-  for (const std::uint32_t i : order) ordered.push_back(items[i]);
+  for (const std::uint32_t i : order) {
+    ordered.push_back(items[i]);
+    if (depth) depth_in_order.push_back((*depth)[i]);
+  }
+  if (depth) *depth = std::move(depth_in_order);
   return ordered;
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 #include "tests/support/fingerprint.h"
@@ -56,6 +57,19 @@ TEST(Recorder, EachStageHasItsOwnEventsAndDecisions) {
     decisions += in_stages;
   }
   EXPECT_GT(decisions, 50u);
+}
+
+TEST(Recorder, TheOrderOfTheSweepLeadsAwayFromTheBlow) {
+  Scene scene = column(4);
+  scene.impulses.push_back({.body = 4, .at = {0.0, 4.5}, .impulse = {0.0, -1.0}, .time = 3.0});
+  Recorder recorder(scene);
+  recorder.skipTo(300);
+  std::vector<std::array<int, 3>> visits;
+  for (const NotedVisit& v : recorder.record().notes.order) {
+    visits.push_back({static_cast<int>(v.a), static_cast<int>(v.b), v.depth});
+  }
+  using Visit = std::array<int, 3>;
+  EXPECT_THAT(visits, ElementsAre(Visit{3, 4, 1}, Visit{2, 3, 2}, Visit{1, 2, 3}, Visit{0, 1, 4}));
 }
 
 TEST(Recorder, AStageStartsWhereTheOneBeforeItEnded) {
