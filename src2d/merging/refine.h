@@ -28,8 +28,8 @@ void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocit
 
 void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method);
 
-/// The items in breadth-first order from the seed bodies (Section 6.2). `depth`, when given, gets per
-/// item, in that order, what breadthFirst says of it.
+/// The items in breadth-first order from the seed bodies (Section 6.2). `depth`, when given, gets
+/// per item, in that order, what breadthFirst says of it.
 std::vector<SweepItem> orderedFrom(std::span<const std::uint32_t> seeds, const Scratch& scratch,
                                    const std::vector<SweepItem>& items,
                                    std::vector<std::uint32_t>* depth = nullptr);
