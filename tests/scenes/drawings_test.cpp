@@ -1,5 +1,5 @@
 /// Drawn scenes: those of a folder `drawings` beside the project, or where MERGE2D_DRAWINGS says.
-/// Without such a folder there is nothing to test.
+/// Without such a folder they have no tests.
 
 #include <cstdlib>
 #include <filesystem>
@@ -26,15 +26,15 @@ std::vector<fs::path> allDrawings() {
   return found;
 }
 
-TEST(Drawings, RunInAllModesWithoutBlowingUp) {
-  if (allDrawings().empty()) GTEST_SKIP() << "there is no drawing in " << drawings();
-  for (const fs::path& drawing : allDrawings()) expectNoBlowUp(loadScene(drawing.string()));
-}
+/// A test for each: without drawings there is none.
+class Drawings : public testing::TestWithParam<fs::path> {};
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Drawings);
 
-TEST(Drawings, MergeWhatRests) {
-  if (allDrawings().empty()) GTEST_SKIP() << "there is no drawing in " << drawings();
-  for (const fs::path& drawing : allDrawings()) expectMergesWhatRests(loadScene(drawing.string()));
-}
+TEST_P(Drawings, RunInAllModesWithoutBlowingUp) { expectNoBlowUp(loadScene(GetParam().string())); }
+
+TEST_P(Drawings, MergeWhatRests) { expectMergesWhatRests(loadScene(GetParam().string())); }
+
+INSTANTIATE_TEST_SUITE_P(All, Drawings, testing::ValuesIn(allDrawings()));
 
 }  // namespace
 }  // namespace merge2d
