@@ -199,7 +199,7 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
     return cycle(d, d.group < 0 ? "its own" : name(BodyId{static_cast<std::uint32_t>(d.group)}));
   }
   if (c == "patience") {
-    return fmt::format("their weld broke soon after it had formed: {} to wait",
+    return fmt::format("their last weld broke too early, or turned slowly: {} to wait",
                        counted(static_cast<std::size_t>(d.value), "step", "steps"));
   }
   if (c == "pressed") return "no contact between them carries a force (Section 5.3)";

@@ -92,7 +92,7 @@ TEST_F(WordsTest, TellsOverHowManyStepsAPivotGatheredSpeed) {
 
 TEST_F(WordsTest, TellsHowLongAPairThatPartedMustWait) {
   EXPECT_EQ(said({.stage = "AccumulateRelativeMotion", .criterion = "patience", .value = 7.0}),
-            "their weld broke soon after it had formed: 7 steps to wait");
+            "their last weld broke too early, or turned slowly: 7 steps to wait");
 }
 
 TEST_F(WordsTest, TellsHowMuchOfTheConeIsUsed) {
