@@ -81,8 +81,8 @@ void fields(Ar& ar, Some<ContactPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Contact> auto& c) {
-  auto& [key, normal, count, vain, quiet_steps, points] = c;
-  ar(key, normal, count, vain, quiet_steps, points);
+  auto& [key, normal, count, vain, quiet_steps, apart, points] = c;
+  ar(key, normal, count, vain, quiet_steps, apart, points);
 }
 template <class Ar>
 void fields(Ar& ar, Some<ContactTable> auto& t) {
@@ -128,8 +128,8 @@ void fields(Ar& ar, Some<InternalPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<InternalContact> auto& c) {
-  auto& [key, normal, since, count, vain, points] = c;
-  ar(key, normal, since, count, vain, points);
+  auto& [key, normal, since, weld, count, vain, points] = c;
+  ar(key, normal, since, weld, count, vain, points);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {
@@ -138,12 +138,12 @@ void fields(Ar& ar, Some<Weld> auto& w) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
-  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
-         leaning, cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v,
-         frame_gain, frame_known, residual, settled, follow_up, refuted] = c;
-  ar(id, rigid, anchor, members, contacts, blocks, block_contact, block_weld, watched, pivots,
-     leaning, cut_welds, pivots_stale, active_blocks, welds, joints, push, stale, frame_v,
-     frame_gain, frame_known, residual, settled, follow_up, refuted);
+  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watched, pivots, leaning,
+         cut_welds, pivots_stale, active_blocks, welds, weld_at, weld_of, joints, push, stale,
+         frame_v, frame_gain, frame_known, residual, settled, follow_up, stubborn, refuted] = c;
+  ar(id, rigid, anchor, members, contacts, blocks, block_contact, watched, pivots, leaning,
+     cut_welds, pivots_stale, active_blocks, welds, weld_at, weld_of, joints, push, stale, frame_v,
+     frame_gain, frame_known, residual, settled, follow_up, stubborn, refuted);
 }
 
 template <class Ar>
@@ -162,9 +162,9 @@ template <class Ar>
 void fields(Ar& ar, Some<State> auto& state) {
   auto& [settings, mode, h, gravity, colliders, collider_bounds, shape_collider, shape_body,
          first_sibling, siblings, step, time, bodies, rigids, extents, collections, next_collection,
-         contacts, joints, joined_pairs, broadphase, ready_before] = state;
+         contacts, joints, joined_pairs, broadphase, moved, ready_before] = state;
   ar(step, time, bodies, rigids, extents, collections, next_collection, contacts, joints,
-     joined_pairs, broadphase.near, ready_before);
+     joined_pairs, broadphase.near, moved, ready_before);
 }
 
 template <class Ar>

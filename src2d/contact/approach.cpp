@@ -1,5 +1,7 @@
 #include "src2d/contact/approach.h"
 
+#include <limits>
+
 namespace merge2d {
 namespace {
 
@@ -45,16 +47,35 @@ double approach(const State& state, const Scratch& scratch, BodyId a, BodyId b) 
   return state.h * ((of_b.v - of_a.v).norm() + turning(a, of_a.omega) + turning(b, of_b.omega));
 }
 
-double farthestApproach(const State& state, const Scratch& scratch) {
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
+namespace {
+
+/// The speed of the fastest point of all that is awake, at most, where `motion(id)` is how a rigid
+/// thing moves [m/s].
+template <class MotionOf>
+double fastestPoint(const State& state, MotionOf&& motion) {
+  double fastest = 0.0;
+  for (std::uint32_t i = 0; i < state.rigids.size(); ++i) {
     const Rigid& r = state.rigids[i];
     if (!r.present() || r.asleep) continue;
-    const StartMotion motion = startMotion(state, scratch, RigidId{static_cast<std::uint32_t>(i)});
-    const double turning = std::abs(motion.omega) * radius(state.extent(r).bounds, r.center);
-    farthest = std::max(farthest, motion.v.norm() + turning);
+    const StartMotion of = motion(RigidId{i});
+    const double turning = std::abs(of.omega) * radius(state.extent(r).bounds, r.center);
+    fastest = std::max(fastest, of.v.norm() + turning);
   }
-  return 2.0 * state.h * farthest;
+  return fastest;
+}
+
+}  // namespace
+
+double farthestApproach(const State& state, const Scratch& scratch) {
+  const auto at_start = [&](RigidId id) { return startMotion(state, scratch, id); };
+  return 2.0 * state.h * fastestPoint(state, at_start);
+}
+
+double farthestMove(const State& state) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  if (state.settings.solver.stabilisation == Stabilisation::Post) return kUnknown;
+  const auto now = [&](RigidId id) { return StartMotion{state[id].v, state[id].omega}; };
+  return state.h * fastestPoint(state, now);
 }
 
 }  // namespace merge2d

@@ -23,4 +23,8 @@ double farthestApproach(const State& state, const Scratch& scratch);
 /// The same for two bodies, wherever their rigid things have their centres.
 double approach(const State& state, const Scratch& scratch, BodyId a, BodyId b);
 
+/// How far the velocities of now carry any point in a step, at most: what advancePositions moves
+/// anything, unless it corrects positions too [m].
+double farthestMove(const State& state);
+
 }  // namespace merge2d

@@ -10,13 +10,27 @@
 namespace merge2d {
 namespace {
 
-/// Far enough apart to skip the manifold, even when the two come nearer by `ahead` [m]: the
-/// distance of b's box, seen from a, to a's box.
-bool boxesApart(const State& state, const ContactKey& key, const Pose& b_in_a, double ahead) {
-  const double margin = std::max(state.settings.solver.margin, ahead);
-  return !placed(b_in_a, state.bounds(key.shape_b))
-              .grown(margin)
-              .overlaps(state.bounds(key.shape_a));
+/// Of b's box, seen from a, to a's box [m].
+double boxDistance(const State& state, const ContactKey& key, const Pose& b_in_a) {
+  return placed(b_in_a, state.bounds(key.shape_b)).distance(state.bounds(key.shape_a));
+}
+
+/// Nearer than this two shapes get a manifold when they can approach by `ahead` in this step [m].
+double reach(const State& state, double ahead) {
+  return std::max(state.settings.solver.margin, ahead);
+}
+
+/// Most of those that do not touch stay apart however fast they are, and many need no look at all:
+/// they are fixed to the same frame, or were farther apart than what has moved since.
+bool staysApart(const State& state, Contact& contact, double farthest) {
+  if (contact.count > 0) return false;
+  const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
+  if (!a.floating() && !b.floating() && a.anchor == b.anchor) return true;
+  contact.apart -= static_cast<float>(2.0 * state.moved);
+  if (contact.apart > reach(state, farthest)) return true;
+  const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
+  contact.apart = static_cast<float>(boxDistance(state, contact.key, b_in_a));
+  return contact.apart > reach(state, farthest);
 }
 
 void loseTouch(Contact& contact) {
@@ -75,8 +89,9 @@ bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
 
 void updateManifold(const State& state, Contact& contact, double ahead) {
   const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
-  if (boxesApart(state, contact.key, b_in_a, ahead)) return loseTouch(contact);
-  const double margin = std::max(state.settings.solver.margin, ahead);
+  const double margin = reach(state, ahead);
+  contact.apart = static_cast<float>(boxDistance(state, contact.key, b_in_a));
+  if (contact.apart > margin) return loseTouch(contact);
   const Collider& a = state.collider(contact.key.shape_a);
   const Collider& b = state.collider(contact.key.shape_b);
   const Manifold manifold = collide(a, b, b_in_a, margin);
@@ -119,15 +134,8 @@ void detectContacts(State& state, Scratch& scratch) {
       holdBreath(state.contacts[slot]);
       continue;
     }
-    // Most of those that do not touch stay apart however fast they are.
     Contact& contact = state.contacts[slot];
-    if (contact.count == 0) {
-      const Pose b_in_a = state.pose(key.a).toLocal(state.pose(key.b));
-      if (boxesApart(state, key, b_in_a, farthest)) {
-        loseTouch(contact);
-        continue;
-      }
-    }
+    if (staysApart(state, contact, farthest)) continue;
     updateManifold(state, contact, approach(state, scratch, key.a, key.b));
   }
   collectPairs(state, scratch);

@@ -45,6 +45,7 @@ struct InternalContact {
   ContactKey key;
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in the collection's frame
   std::int64_t since = 0;       ///< step of the merge that brought it in, or kExpected
+  std::uint32_t weld = 0;       ///< which one it belongs to
   std::int16_t count = 0;
   std::int16_t vain = 0;  ///< as in Contact
   std::array<InternalPoint, 2> points;
@@ -93,20 +94,22 @@ struct Collection {
   std::vector<InternalContact> contacts;  ///< ascending by key
   std::vector<ContactBlock> blocks;       ///< one per contact, in the order of an undisturbed sweep
   std::vector<std::uint32_t> block_contact;  ///< which contact a block is
-  std::vector<std::uint32_t> block_weld;     ///< which weld it belongs to
-  std::vector<std::uint8_t> watched;         ///< per block: was at its limit in the last step
-  std::vector<std::uint32_t> pivots;         ///< welds with fewer than two contacts that hold
-  std::vector<std::uint32_t> leaning;        ///< bridges with a contact that now carries nothing
-  std::vector<std::uint32_t> cut_welds;      ///< in the last step
+  std::vector<std::uint8_t> watched;     ///< per block: is at its limit, or was in the last step
+  std::vector<std::uint32_t> pivots;     ///< welds with fewer than two contacts that hold
+  std::vector<std::uint32_t> leaning;    ///< bridges with a contact that now carries nothing
+  std::vector<std::uint32_t> cut_welds;  ///< in the last step
   bool pivots_stale = true;
   std::uint32_t active_blocks = 0;  ///< the first ones; the others are swept in disturbed steps
   std::vector<Weld> welds;          ///< ascending by pair
-  std::vector<JointBlock> joints;   ///< those that act inside; λ is live here
-  std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
-  bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
+  /// Welds of node n, a member or at last the frame: weld_of[weld_at[n] … weld_at[n + 1]].
+  std::vector<std::uint32_t> weld_at, weld_of;
+  std::vector<JointBlock> joints;  ///< those that act inside; λ is live here
+  std::vector<Twist> push;         ///< per member: Δu by the inner forces, in the frame
+  bool stale = false;              ///< contacts changed: welds and blocks must be laid out anew
   Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
   int frame_known = 0;                                     ///< steps since it was formed, up to 2
   int follow_up = 0;      ///< steps for which a disturbance is still followed, see sweep.cpp
+  float stubborn = 0.0F;  ///< what the last refinement did not quieten [m/s]
   float residual = 0.0F;  ///< largest change of a member's velocity in the last sweep [m/s]
   bool settled = false;   ///< inner forces did not change in the last sweep
   bool refuted = false;   ///< more sweeps did not confirm what seemed to part, and nothing is new

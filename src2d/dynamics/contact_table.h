@@ -39,6 +39,7 @@ struct Contact {
   std::int16_t vain = 0;  ///< welds of the pair in a row that were cut, and then nothing moved
   /// Consecutive steps in which the pair could have merged; below 0 it may not yet.
   int quiet_steps = 0;
+  float apart = 0.0F;  ///< without points: the shapes are at least this far from each other [m]
   std::array<ContactPoint, 2> points;
 };
 

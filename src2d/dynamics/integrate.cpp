@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "src2d/contact/approach.h"
 #include "src2d/core/error.h"
 #include "src2d/dynamics/stabilise.h"
 #include "src2d/merging/collection.h"
@@ -19,6 +20,7 @@ void advanceVelocities(State& state, const Scratch& scratch) {
 }
 
 void advancePositions(State& state, Scratch& scratch) {
+  state.moved = farthestMove(state);
   for (std::size_t i = 0; i < state.rigids.size(); ++i) {
     Rigid& r = state.rigids[i];
     if (!r.present() || r.asleep || r.anchor == kWorldFrame) continue;

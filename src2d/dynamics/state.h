@@ -57,6 +57,7 @@ struct State {
   std::vector<Joint> joints;
   std::vector<std::pair<BodyId, BodyId>> joined_pairs;  ///< do not collide; ascending
   Broadphase broadphase;
+  double moved = 0.0;  ///< by the fastest point of all in the last step, at most [m]
   std::vector<ReadyPair> ready_before;  ///< in the last step; those still there were not welded
 
   const Collider& collider(std::uint32_t shape) const { return colliders[shape_collider[shape]]; }

@@ -31,6 +31,10 @@ struct Aabb {
   bool overlaps(const Aabb& o) const {
     return (lower.array() <= o.upper.array()).all() && (upper.array() >= o.lower.array()).all();
   }
+  /// How far apart they are along an axis, at least; below 0 they overlap [m].
+  double distance(const Aabb& o) const {
+    return (lower - o.upper).cwiseMax(o.lower - upper).maxCoeff();
+  }
   Aabb grown(double margin) const {
     return {lower - Vec2::Constant(margin), upper + Vec2::Constant(margin)};
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src2d/merging/detours.h"
+
 namespace merge2d {
 namespace {
 
@@ -9,23 +11,15 @@ namespace {
 /// no other edge leads from beyond it to where the walk came from (Tarjan 1974).
 class BridgeSearch {
  public:
-  BridgeSearch(const State& state, Collection& c) : state_(state), c_(c), at_(nodes() + 1, 0) {
-    for (const Weld& weld : c.welds) ++at_[nodeOf(weld.a) + 1], ++at_[nodeOf(weld.b) + 1];
-    for (std::size_t n = 1; n < at_.size(); ++n) at_[n] += at_[n - 1];
-    incident_.resize(at_.back());
-    next_.assign(at_.begin(), at_.end() - 1);
-    for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
-      incident_[next_[nodeOf(c.welds[w].a)]++] = w;
-      incident_[next_[nodeOf(c.welds[w].b)]++] = w;
-    }
-    next_.assign(at_.begin(), at_.end() - 1);
+  BridgeSearch(const State& state, Collection& c)
+      : state_(state), c_(c), next_(c.weld_at.begin(), c.weld_at.end() - 1) {
     visited_.assign(nodes(), 0);
     lowest_.assign(nodes(), 0);
     came_by_.assign(nodes(), kNone);
   }
 
   void run() {
-    for (std::uint32_t n = 0; n < nodes(); ++n) {
+    for (std::uint32_t n = nodes(); n-- > 0;) {
       if (!visited_[n]) walkFrom(n);
     }
   }
@@ -33,10 +27,7 @@ class BridgeSearch {
  private:
   static constexpr std::uint32_t kNone = ~0u;
 
-  std::size_t nodes() const { return c_.members.size() + 1; }
-  std::uint32_t nodeOf(BodyId b) const {
-    return state_[b].rigid == c_.rigid ? state_[rigidOf(b)].member + 1 : 0;
-  }
+  std::uint32_t nodes() const { return static_cast<std::uint32_t>(c_.members.size() + 1); }
 
   void visit(std::uint32_t node, std::uint32_t weld) {
     visited_[node] = lowest_[node] = ++count_;
@@ -48,8 +39,8 @@ class BridgeSearch {
     visit(root, kNone);
     while (!path_.empty()) {
       const std::uint32_t node = path_.back();
-      if (next_[node] < at_[node + 1]) {
-        follow(node, incident_[next_[node]++]);
+      if (next_[node] < c_.weld_at[node + 1]) {
+        follow(node, c_.weld_of[next_[node]++]);
       } else {
         path_.pop_back();
         if (!path_.empty()) leave(node, path_.back());
@@ -59,7 +50,8 @@ class BridgeSearch {
 
   void follow(std::uint32_t node, std::uint32_t weld) {
     if (weld == came_by_[node]) return;
-    const std::uint32_t a = nodeOf(c_.welds[weld].a), b = nodeOf(c_.welds[weld].b);
+    const std::uint32_t a = nodeOf(state_, c_, c_.welds[weld].a);
+    const std::uint32_t b = nodeOf(state_, c_, c_.welds[weld].b);
     const std::uint32_t other = a == node ? b : a;
     if (!visited_[other]) return visit(other, weld);
     lowest_[node] = std::min(lowest_[node], visited_[other]);
@@ -72,11 +64,10 @@ class BridgeSearch {
 
   const State& state_;
   Collection& c_;
-  std::vector<std::uint32_t> at_, incident_;  ///< welds of node n: incident_[at_[n] … at_[n + 1]]
-  std::vector<std::uint32_t> next_;           ///< per node: the weld to follow next
-  std::vector<std::uint32_t> visited_;        ///< per node: when, from 1 on
-  std::vector<std::uint32_t> lowest_;         ///< the earliest that is reached from beyond
-  std::vector<std::uint32_t> came_by_;        ///< per node: a weld
+  std::vector<std::uint32_t> next_;     ///< per node: the weld to follow next, in weld_of
+  std::vector<std::uint32_t> visited_;  ///< per node: when, from 1 on
+  std::vector<std::uint32_t> lowest_;   ///< the earliest that is reached from beyond
+  std::vector<std::uint32_t> came_by_;  ///< per node: a weld
   std::vector<std::uint32_t> path_;
   std::uint32_t count_ = 0;
 };

@@ -5,8 +5,10 @@
 #include <bit>
 #include <numeric>
 
+#include "src2d/core/memory.h"
 #include "src2d/merging/bridges.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/detours.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/joint_welds.h"
 
@@ -82,7 +84,11 @@ void layOutWelds(const State& state, Collection& c) {
     c.welds.back().vain = std::max(c.welds.back().vain, c.contacts[i].vain);
   }
   addJointWelds(state, c);
-  for (Weld& weld : c.welds) weld.expected &= weld.joints == 0;
+  for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
+    Weld& weld = c.welds[w];
+    weld.expected &= weld.joints == 0;
+    for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) c.contacts[i].weld = w;
+  }
   c.welds.shrink_to_fit();
   c.leaning.clear();
   std::size_t o = 0;
@@ -155,17 +161,13 @@ void layOutBlocks(const State& state, Collection& c) {
   }
   c.active_blocks = std::accumulate(first.begin(), first.begin() + kColours + 1, 0u);
   std::partial_sum(first.begin(), first.end(), first.begin());
+  reserveTightly(c.block_contact, colour_of.size());
   c.block_contact.resize(colour_of.size());
   for (std::uint32_t i = 0; i < colour_of.size(); ++i) c.block_contact[first[colour_of[i]]++] = i;
 
-  std::vector<std::uint32_t> weld_of(c.contacts.size());
-  for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
-    std::fill_n(weld_of.begin() + c.welds[w].first, c.welds[w].count, w);
-  }
   c.blocks.clear();
   c.blocks.shrink_to_fit();
   c.blocks.reserve(c.contacts.size());
-  c.block_weld.clear();
   c.watched.assign(c.contacts.size(), 1);
   c.cut_welds.clear();
   c.pivots_stale = true;
@@ -174,7 +176,6 @@ void layOutBlocks(const State& state, Collection& c) {
     c.blocks.push_back(makeBlock(state, c, inner));
     inner.count = static_cast<std::int16_t>(
         c.blocks.back().count);  // points too close to each other count as one
-    c.block_weld.push_back(weld_of[contact]);
   }
 }
 
@@ -215,6 +216,7 @@ void layOutCollections(State& state) {
     fitBox(state, c.rigid);
     layOutJoints(state, c);
     layOutWelds(state, c);
+    indexWelds(state, c);
     markBridges(state, c);
     layOutBlocks(state, c);
     layOutPush(state, c);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "src2d/cycles/tolerance.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
+#include "src2d/merging/detours.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/unmerge.h"
 
@@ -36,29 +36,12 @@ void addPins(const State& state, const Collection& c, const Weld& weld, std::uin
   }
 }
 
-/// Two contacts that hold in different places, or joints worth as much.
-bool isFirm(const Collection& c, const Weld& weld, double resolution) {
-  if (weld.joints > 1) return true;
-  const Vec2* first = nullptr;
-  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    const InternalContact& inner = c.contacts[i];
-    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.count); ++p) {
-      if (!inner.points[p].active || inner.points[p].lost) continue;
-      const Vec2& at = inner.points[p].position;
-      if (first && (at - *first).norm() > resolution) return true;
-      if (!first) first = &at;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 bool holdsFirmly(const State& state, const Collection& c) {
   thread_local DisjointSets sets;  // its memory is kept
   sets.reset(c.members.size());
-  const Aabb& bounds = state.extent(c.rigid).bounds;
-  const double resolution = kPointTolerance * (bounds.upper - bounds.lower).maxCoeff();
+  const double resolution = resolutionOf(state, c);
   std::size_t sets_left = c.members.size();
   bool anchored = false;
   for (const Weld& weld : c.welds) {

@@ -6,6 +6,7 @@
 #include "src2d/merging/collection.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/joint_sweep.h"
+#include "src2d/merging/limits.h"
 #include "src2d/merging/ordering.h"
 #include "src2d/merging/refine.h"
 #include "src2d/merging/sleep.h"
@@ -59,8 +60,8 @@ double enoughAfter(const State& state, double blow) {
 }
 
 /// Sweeps over the active contacts of a collection. What they change is added to each member's
-/// push. Returns the largest change of a member's velocity [m/s]; those for whom it was not enough
-/// are marked as restless.
+/// push. Contacts that they leave at their limits are watched from now on. Returns the largest
+/// change of a member's velocity [m/s]; those for whom it was not enough are marked as restless.
 double sweepInside(const State& state, Collection& c, Scratch& scratch, int sweeps) {
   auto& u = scratch.sweep_u;
   auto& before = scratch.nncg.u_before;  // idle now
@@ -76,6 +77,7 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
     for (JointBlock& k : c.joints) solveJoint(k, turn, u[k.a], u[k.b]);
     for (std::uint32_t i = 0; i < c.active_blocks; ++i) {
       sweepBlock(c.blocks[i], turn, u, state.settings.solver.method);
+      if (s + 1 == sweeps && atLimit(c.blocks[i])) c.watched[i] = 1;
     }
   }
   const Rotation back = turn.inverse();
@@ -104,13 +106,17 @@ bool refines(const UnmergingSettings& settings) {
 
 /// Whether a collection is disturbed: something new entered, the sweep changed much, or a
 /// disturbance of the last steps still changes something. For some steps only: a load that changes
-/// for ever, as on a swing, is one that single sweeps follow well.
+/// for ever, as on a swing, is one that single sweeps follow well. Nor where more sweeps have just
+/// failed to quieten as much: that is forgotten little by little.
 void follow(const State& state, Collection& c, Scratch& scratch, double change) {
   constexpr int kSteps = 10;
+  constexpr float kForgets = 0.95F;  // in each step
   std::uint8_t& disturbed = scratch.disturbed[index(c.rigid) - state.bodies.size()];
-  const bool anew = disturbed != 0 || change > refinedVelocity(state);
+  const double stubborn = c.stubborn *= kForgets;
+  const bool anew = disturbed != 0 || change > std::max(refinedVelocity(state), stubborn);
   c.follow_up = anew ? kSteps : std::max(0, c.follow_up - 1);
-  disturbed = anew || (c.follow_up > 0 && change > residualVelocity(state)) ? 1 : 0;
+  const bool followed = c.follow_up > 0 && change > std::max(residualVelocity(state), stubborn);
+  disturbed = anew || followed ? 1 : 0;
 }
 
 /// Sweeps one collection once; one that could sleep but for its inner forces a few times more, so
@@ -173,6 +179,7 @@ void refineDisturbed(State& state, Scratch& scratch, double blow) {
     c.settled = false;
     c.residual = static_cast<float>(change);
     if (change <= enough) c.follow_up = 0;
+    c.stubborn = change <= enough ? 0.0F : c.residual;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "src2d/contact/detection.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/detours.h"
 #include "src2d/merging/group_notes.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/kicked.h"
@@ -71,30 +72,33 @@ bool breakInside(State& state, Scratch& scratch, Collection& c) {
   return true;
 }
 
-/// Some weld is cut that was not in the last step.
-bool newCut(const Collection& c, const Scratch& scratch) {
-  return std::any_of(c.cut_welds.begin(), c.cut_welds.end(), [&](std::uint32_t weld) {
-    const auto& before = scratch.cuts_before;
-    return std::find(before.begin(), before.end(), weld) == before.end();
-  });
+/// Lists the welds that are cut and were not in the last step, beside those that lost a contact.
+void listNewCuts(const Collection& c, Scratch& scratch) {
+  const auto& before = scratch.cuts_before;
+  for (const std::uint32_t weld : c.cut_welds) {
+    if (!std::ranges::binary_search(before, weld)) scratch.loosened.push_back(weld);
+  }
 }
 
 /// Tests the welds of one collection, and splits it where it falls apart.
 void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   Collection& c = state.collections[slot];
   scratch.doubted.clear();
+  scratch.loosened.clear();
   scratch.cuts_before.assign(c.cut_welds.begin(), c.cut_welds.end());
+  std::ranges::sort(scratch.cuts_before);
   for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
   c.cut_welds.clear();
   if (anyJointBreaks(state, c) && breakInside(state, scratch, c)) return;
-  const bool loosened = loosenJoints(state, c, scratch.sweep_u);
-  if (loosened) doubtJoints(scratch, c);
+  const bool joints_loosened = loosenJoints(state, c, scratch.sweep_u);
+  if (joints_loosened) doubtJoints(scratch, c);
   const std::size_t first = scratch.notes ? scratch.notes->decisions.size() : 0;
   WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
   test.testAll();
   // Broken welds that do not part the graph are found again in each step: look anew only when
-  // there is one more.
-  if (!newCut(c, scratch) && !test.contactOpened() && !loosened) return;
+  // there is one more, and nothing near it holds its bodies together.
+  listNewCuts(c, scratch);
+  if (!joints_loosened && heldByDetours(state, c, scratch.loosened)) return;
   if (holdsFirmly(state, c)) return;
   Parts parts = partsOf(state, scratch, c);
   if (!fallsApart(state, c, parts)) return;

@@ -2,36 +2,20 @@
 
 #include <algorithm>
 
+#include "src2d/merging/limits.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/refine.h"
 #include "src2d/merging/unmerge.h"
 
 namespace merge2d {
-namespace {
-
-/// A tangential impulse this near to its limit is on the edge of the cone, Eq. (20).
-constexpr double kWeldOnEdge = 1.0 - 1e-9;
-
-bool broken(const ContactBlock& k, int i) { return k.lambda_n(i) <= 0.0 && !k.bilateral; }
-bool onEdge(const ContactBlock& k, int i) {
-  return !k.bilateral && std::abs(k.lambda_t(i)) >= kWeldOnEdge * k.mu * k.lambda_n(i);
-}
-
-bool atLimit(const ContactBlock& k) {
-  for (int i = 0; i < k.count; ++i) {
-    if (broken(k, i) || onEdge(k, i)) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 void WeldTest::testAll() {
   std::swap(leant_, c_.leaning);
   c_.leaning.clear();
+  // A plain sweep has watched the contacts that it left at their limits.
   const std::size_t blocks = whole_ ? c_.blocks.size() : c_.active_blocks;
   for (std::uint32_t i = 0; i < blocks; ++i) {
-    if (c_.watched[i] || scratch_.notes || atLimit(c_.blocks[i])) testContacts(i);
+    if (c_.watched[i] || scratch_.notes || (whole_ && atLimit(c_.blocks[i]))) testContacts(i);
   }
   if (c_.pivots_stale) listPivots(c_);
   for (const std::uint32_t pivot : c_.pivots) {
@@ -55,7 +39,7 @@ void WeldTest::confirmAll() {
 void WeldTest::testContacts(std::uint32_t b) {
   ContactBlock& k = c_.blocks[b];
   InternalContact& inner = c_.contacts[c_.block_contact[b]];
-  const std::uint32_t weld = c_.block_weld[b];
+  const std::uint32_t weld = inner.weld;
   c_.watched[b] = 0;
   for (int i = 0; i < k.count; ++i) {
     InternalPoint& point = inner.point(i);
@@ -80,7 +64,7 @@ void WeldTest::testContacts(std::uint32_t b) {
     if (pressed) noteCone(weld, k, i, edge);
     c_.watched[b] |= edge || !pressed;
     if (point.lost && !was_lost) {
-      opened_ = true;
+      scratch_.loosened.push_back(weld);
       doubt(c_.welds[weld]);
     }
     c_.pivots_stale |= was_lost != point.lost || was_active != point.active;

@@ -22,7 +22,6 @@ class WeldTest {
   /// contacts at their limit, or watched since they were, need more than a look at their impulses.
   void testAll();
 
-  bool contactOpened() const { return opened_; }
   bool somethingGrows() const { return growing_; }
 
   /// Looks again after more sweeps. What was summed may have come from a sweep that had not
@@ -119,7 +118,6 @@ class WeldTest {
   std::vector<std::uint32_t>& leant_;  ///< bridges that leaned in the last step
   bool confirming_ = false;
   bool growing_ = false;    ///< some sum grew in this step, and is not too large yet
-  bool opened_ = false;     ///< some contact was lost that held before
   bool disturbed_ = false;  ///< something new entered in this step: the sweeps have converged
   bool whole_ = false;      ///< dormant contacts were swept too
   Vec2 at_ = Vec2::Zero();  ///< the contact point at hand, for the notes
