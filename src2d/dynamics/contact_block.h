@@ -91,45 +91,71 @@ inline void solveNormalPair(const ContactBlock& k, double w1, double w2, double&
   x2 = 0.0;
 }
 
+/// The impulse at the limits of friction, where the tangent moves by `w` [m/s].
+inline double solveTangent(const ContactBlock& k, int i, double w) {
+  const double limit = k.bilateral ? std::numeric_limits<double>::infinity() : k.mu * k.lambda_n(i);
+  return std::clamp(k.lambda_t(i) - k.inv_kt[i] * w, -limit, limit);
+}
+
 /// Solves one block: normals together, then friction at each point (Eqs. (5)-(7)). `nx`, `ny` is
-/// the block's normal in the frame of the velocities.
-inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& body_a,
-                       SolverVelocity& body_b) {
-  SolverVelocity a = body_a, b = body_b;
+/// the block's normal in the frame of the velocities. The rows share a normal: what one of them
+/// changes for the next is told by its impulse alone, so that the velocities are read and written
+/// once.
+inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
+                       SolverVelocity& b) {
+  const double dx = b.vx - a.vx, dy = b.vy - a.vy;
+  const double v_n = nx * dx + ny * dy, v_t = nx * dy - ny * dx;  // of the centres of mass
+  double omega_a = a.omega, omega_b = b.omega;
+  double p_n, p_t;  // what is added along the normal and the tangent
   if (k.count == 2) {
-    const double w1 =
-        contactVelocity(k, 0, nx, ny, a, b).n + k.bias[0] + k.softness * k.lambda_n(0);
-    const double w2 =
-        contactVelocity(k, 1, nx, ny, a, b).n + k.bias[1] + k.softness * k.lambda_n(1);
+    const double w1 = v_n + k.arm_bn[0] * omega_b - k.arm_an[0] * omega_a + k.bias[0] +
+                      k.softness * k.lambda_n(0);
+    const double w2 = v_n + k.arm_bn[1] * omega_b - k.arm_an[1] * omega_a + k.bias[1] +
+                      k.softness * k.lambda_n(1);
     double x1, x2;
     solveNormalPair(k, w1, w2, x1, x2);
     const double p1 = x1 - k.lambda_n(0), p2 = x2 - k.lambda_n(1);
     k.lambda_n(0) = x1;
     k.lambda_n(1) = x2;
-    const double px = nx * (p1 + p2), py = ny * (p1 + p2);
-    a.vx -= a.inv_mass * px;
-    a.vy -= a.inv_mass * py;
-    a.omega -= a.inv_inertia * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
-    b.vx += b.inv_mass * px;
-    b.vy += b.inv_mass * py;
-    b.omega += b.inv_inertia * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
+    p_n = p1 + p2;
+    omega_a -= a.inv_inertia * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
+    omega_b += b.inv_inertia * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
+
+    const double y1 = solveTangent(k, 0, v_t + k.arm_bt[0] * omega_b - k.arm_at[0] * omega_a);
+    const double q1 = y1 - k.lambda_t(0);
+    const double k12 = a.inv_mass + b.inv_mass + a.inv_inertia * k.arm_at[0] * k.arm_at[1] +
+                       b.inv_inertia * k.arm_bt[0] * k.arm_bt[1];
+    const double y2 =
+        solveTangent(k, 1, v_t + k.arm_bt[1] * omega_b - k.arm_at[1] * omega_a + k12 * q1);
+    const double q2 = y2 - k.lambda_t(1);
+    k.lambda_t(0) = y1;
+    k.lambda_t(1) = y2;
+    p_t = q1 + q2;
+    omega_a -= a.inv_inertia * (k.arm_at[0] * q1 + k.arm_at[1] * q2);
+    omega_b += b.inv_inertia * (k.arm_bt[0] * q1 + k.arm_bt[1] * q2);
   } else {
-    const double w = contactVelocity(k, 0, nx, ny, a, b).n + k.bias[0] + k.softness * k.lambda_n(0);
+    const double w = v_n + k.arm_bn[0] * omega_b - k.arm_an[0] * omega_a + k.bias[0] +
+                     k.softness * k.lambda_n(0);
     double x = k.lambda_n(0) - w / k.k11;
     if (!k.bilateral) x = std::max(0.0, x);
-    applyImpulse(k, 0, nx, ny, x - k.lambda_n(0), 0.0, a, b);
+    p_n = x - k.lambda_n(0);
     k.lambda_n(0) = x;
+    omega_a -= a.inv_inertia * k.arm_an[0] * p_n;
+    omega_b += b.inv_inertia * k.arm_bn[0] * p_n;
+
+    const double y = solveTangent(k, 0, v_t + k.arm_bt[0] * omega_b - k.arm_at[0] * omega_a);
+    p_t = y - k.lambda_t(0);
+    k.lambda_t(0) = y;
+    omega_a -= a.inv_inertia * k.arm_at[0] * p_t;
+    omega_b += b.inv_inertia * k.arm_bt[0] * p_t;
   }
-  for (int i = 0; i < k.count; ++i) {
-    const double w = contactVelocity(k, i, nx, ny, a, b).t;
-    const double limit =
-        k.bilateral ? std::numeric_limits<double>::infinity() : k.mu * k.lambda_n(i);
-    const double x = std::clamp(k.lambda_t(i) - k.inv_kt[i] * w, -limit, limit);
-    applyImpulse(k, i, nx, ny, 0.0, x - k.lambda_t(i), a, b);
-    k.lambda_t(i) = x;
-  }
-  body_a.vx = a.vx, body_a.vy = a.vy, body_a.omega = a.omega;
-  body_b.vx = b.vx, body_b.vy = b.vy, body_b.omega = b.omega;
+  const double px = nx * p_n - ny * p_t, py = ny * p_n + nx * p_t;
+  a.vx -= a.inv_mass * px;
+  a.vy -= a.inv_mass * py;
+  a.omega = omega_a;
+  b.vx += b.inv_mass * px;
+  b.vy += b.inv_mass * py;
+  b.omega = omega_b;
 }
 
 /// The paper's plain PGS: one row at a time, each normal followed by its friction.
