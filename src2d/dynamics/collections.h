@@ -94,6 +94,7 @@ struct Collection {
   std::vector<InternalContact> contacts;  ///< ascending by key
   std::vector<ContactBlock> blocks;       ///< one per contact, in the order of an undisturbed sweep
   std::vector<std::uint32_t> block_contact;  ///< which contact a block is
+  std::vector<std::uint32_t> contact_block;  ///< and the other way round
   std::vector<std::uint8_t> watched;     ///< per block: is at its limit, or was in the last step
   std::vector<std::uint32_t> pivots;     ///< welds with fewer than two contacts that hold
   std::vector<std::uint32_t> leaning;    ///< bridges with a contact that now carries nothing

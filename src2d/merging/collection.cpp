@@ -129,6 +129,23 @@ void freeCollection(State& state, RigidId id) {
   dropShapeTree(state, id);
 }
 
+void dropFreeSlots(State& state) {
+  std::size_t used = state.collections.size();
+  while (used > 0 && state.collections[used - 1].id == kNoCollection) --used;
+  const std::size_t gone = state.collections.size() - used;
+  if (gone == 0) return;
+  const auto shorten = [&](auto& slots) {
+    slots.resize(slots.size() - gone);
+    if (slots.capacity() - slots.size() > slots.size() / 32) slots.shrink_to_fit();
+  };
+  shorten(state.collections);
+  shorten(state.rigids);
+  shorten(state.extents);
+  shorten(state.broadphase.shape_trees);
+  std::erase_if(state.broadphase.near,
+                [&](const NearPair& p) { return index(p.b) >= state.rigids.size(); });
+}
+
 void addMotion(Rigid& c, const Rigid& b) {
   const double mass = c.mass + b.mass;
   const Vec2 between = (b.x - c.x) + (b.rest - c.rest);

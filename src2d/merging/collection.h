@@ -51,6 +51,8 @@ void followAnchors(State& state);
 RigidId newCollection(State& state);
 /// Gives the slot back; its rigid thing must have left the broadphase.
 void freeCollection(State& state, RigidId id);
+/// Shortens the tables where the last slots are free.
+void dropFreeSlots(State& state);
 
 /// The frame that a pinned or scripted body belongs to.
 FrameId frameOf(const State& state, BodyId body);

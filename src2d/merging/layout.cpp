@@ -165,6 +165,10 @@ void layOutBlocks(const State& state, Collection& c) {
   c.block_contact.resize(colour_of.size());
   for (std::uint32_t i = 0; i < colour_of.size(); ++i) c.block_contact[first[colour_of[i]]++] = i;
 
+  reserveTightly(c.contact_block, colour_of.size());
+  c.contact_block.resize(colour_of.size());
+  for (std::uint32_t b = 0; b < c.block_contact.size(); ++b)
+    c.contact_block[c.block_contact[b]] = b;
   c.blocks.clear();
   c.blocks.shrink_to_fit();
   c.blocks.reserve(c.contacts.size());

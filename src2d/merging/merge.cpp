@@ -65,6 +65,7 @@ void merge(State& state, Scratch& scratch) {
   }
   absorbContacts(state);
   layOutCollections(state);
+  dropFreeSlots(state);
   compactContacts(state);
   collectPairs(state, scratch);
   releaseRows(state, scratch);

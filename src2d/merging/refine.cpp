@@ -11,15 +11,20 @@ namespace {
 
 class Refinement {
  public:
-  Refinement(const State& state, Scratch& scratch, const std::vector<SweepItem>& items,
-             double threshold)
+  Refinement(State& state, Scratch& scratch, const SweepScope& scope, double threshold)
       : state_(state),
         scratch_(scratch),
-        items_(items),
+        scope_(scope),
         threshold_(threshold),
-        at_(scratch.sweep_u.size() + 1, 0),
         place_(scratch.sweep_u.size(), kNowhere) {
-    listItemsOfBodies();
+    listLooseItemsOfBodies();
+    auto items = static_cast<std::uint32_t>(scope.loose.size());
+    for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
+      first_block_.push_back(items);
+      if (scope.inside[slot])
+        items += static_cast<std::uint32_t>(state.collections[slot].blocks.size());
+    }
+    swept_.resize(items);
   }
 
   double run(std::span<const std::uint32_t> seeds) {
@@ -51,14 +56,15 @@ class Refinement {
     bool queued;    ///< all its items are swept
   };
 
-  void listItemsOfBodies() {
-    for (const SweepItem& item : items_) ++at_[item.a() + 1], ++at_[item.b() + 1];
+  void listLooseItemsOfBodies() {
+    at_.assign(scratch_.sweep_u.size() + 1, 0);
+    for (const SweepItem& item : scope_.loose) ++at_[item.a() + 1], ++at_[item.b() + 1];
     for (std::size_t b = 1; b < at_.size(); ++b) at_[b] += at_[b - 1];
-    incident_.resize(at_.back());
+    loose_of_.resize(at_.back());
     std::vector<std::uint32_t> next(at_.begin(), at_.end() - 1);
-    for (std::uint32_t i = 0; i < items_.size(); ++i) {
-      incident_[next[items_[i].a()]++] = i;
-      incident_[next[items_[i].b()]++] = i;
+    for (std::uint32_t i = 0; i < scope_.loose.size(); ++i) {
+      loose_of_[next[scope_.loose[i].a()]++] = i;
+      loose_of_[next[scope_.loose[i].b()]++] = i;
     }
   }
 
@@ -85,24 +91,48 @@ class Refinement {
     reached_.clear();
     active_.clear();
     walk_.clear();
-    swept_.assign(items_.size(), 0);
+    std::ranges::fill(swept_, 0);
     for (const std::uint32_t body : queue_) enqueue(body);
     for (std::size_t head = 0; head < walk_.size(); ++head) {
-      const std::uint32_t body = walk_[head];
-      for (std::uint32_t k = at_[body]; k < at_[body + 1]; ++k) {
-        const std::uint32_t i = incident_[k];
-        if (swept_[i]) continue;
-        swept_[i] = 1;
-        active_.push_back(items_[i]);
-        const std::uint32_t a = items_[i].a(), b = items_[i].b();
-        reach(a), reach(b);
-        sweepItem(items_[i], scratch_.sweep_u, state_.settings.solver.method);
-        if (changeSinceStart(reach(a)) > threshold_ * threshold_) enqueue(a);
-        if (changeSinceStart(reach(b)) > threshold_ * threshold_) enqueue(b);
-      }
+      sweepLooseItemsOf(walk_[head]);
+      sweepInnerContactsOf(walk_[head]);
     }
     std::erase_if(reached_,
                   [&](const Reached& r) { return scratch_.sweep_u[r.body].inv_mass == 0.0; });
+  }
+
+  void sweepLooseItemsOf(std::uint32_t body) {
+    for (std::uint32_t k = at_[body]; k < at_[body + 1]; ++k) {
+      sweepOnce(loose_of_[k], scope_.loose[loose_of_[k]]);
+    }
+  }
+
+  void sweepInnerContactsOf(std::uint32_t body) {
+    if (body >= state_.bodies.size()) return;  // the world
+    const RigidId id = state_.bodies[body].rigid;
+    if (!state_.isCollection(id)) return;
+    const std::size_t slot = index(id) - state_.bodies.size();
+    if (!scope_.inside[slot]) return;
+    Collection& c = state_.collections[slot];
+    const std::uint32_t member = state_[rigidOf(BodyId{body})].member;
+    for (std::uint32_t k = c.weld_at[member]; k < c.weld_at[member + 1]; ++k) {
+      const Weld& weld = c.welds[c.weld_of[k]];
+      for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+        const std::uint32_t block = c.contact_block[i];
+        sweepOnce(first_block_[slot] + block, {&c.blocks[block], nullptr, state_[id].rotation});
+      }
+    }
+  }
+
+  void sweepOnce(std::uint32_t number, const SweepItem& item) {
+    if (swept_[number]) return;
+    swept_[number] = 1;
+    active_.push_back(item);
+    const std::uint32_t a = item.a(), b = item.b();
+    reach(a), reach(b);
+    sweepItem(item, scratch_.sweep_u, state_.settings.solver.method);
+    if (changeSinceStart(reach(a)) > threshold_ * threshold_) enqueue(a);
+    if (changeSinceStart(reach(b)) > threshold_ * threshold_) enqueue(b);
   }
 
   /// Squared [m²/s²].
@@ -145,17 +175,19 @@ class Refinement {
     }
   }
 
-  const State& state_;
+  State& state_;
   Scratch& scratch_;
-  const std::vector<SweepItem>& items_;
+  const SweepScope& scope_;
   double threshold_;
-  std::vector<std::uint32_t> at_, incident_;  ///< items of body b: incident_[at_[b] … at_[b + 1]]
-  std::vector<std::uint32_t> place_;          ///< per body: in reached_
-  std::vector<std::uint32_t> queue_;          ///< bodies from which a round begins
-  std::vector<std::uint32_t> walk_;           ///< bodies whose items are swept in this round
-  std::vector<std::uint8_t> swept_;           ///< per item: in this round
-  std::vector<Reached> reached_;              ///< by this round; only those that respond to forces
-  std::vector<SweepItem> active_;             ///< of this round, in the order of the walk
+  std::vector<std::uint32_t> at_,
+      loose_of_;  ///< loose items of body b: loose_of_[at_[b] … at_[b+1]]
+  std::vector<std::uint32_t> first_block_;  ///< per collection slot: number of its first block
+  std::vector<std::uint8_t> swept_;         ///< in this round, by number: loose items, then blocks
+  std::vector<std::uint32_t> place_;        ///< per body: in reached_
+  std::vector<std::uint32_t> queue_;        ///< bodies from which a round begins
+  std::vector<std::uint32_t> walk_;         ///< bodies whose items are swept in this round
+  std::vector<Reached> reached_;            ///< by this round; only those that respond to forces
+  std::vector<SweepItem> active_;           ///< of this round, in the order of the walk
 
   // Largest changes of a body's velocity, squared [m²/s²].
   double restless_ = 0.0;  ///< in the last sweep
@@ -212,9 +244,9 @@ double refinedVelocity(const State& state) {
   return kPart * state.settings.unmerging.sliding;
 }
 
-double sweepUntilQuiet(const State& state, Scratch& scratch, const std::vector<SweepItem>& items,
+double sweepUntilQuiet(State& state, Scratch& scratch, const SweepScope& scope,
                        std::span<const std::uint32_t> seeds, double threshold) {
-  return Refinement(state, scratch, items, threshold).run(seeds);
+  return Refinement(state, scratch, scope, threshold).run(seeds);
 }
 
 }  // namespace merge2d

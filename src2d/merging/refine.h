@@ -22,6 +22,12 @@ struct SweepItem {
   Impulses& impulses() const { return block ? block->lambda : joint->lambda; }
 };
 
+/// What a refinement may sweep.
+struct SweepScope {
+  std::vector<SweepItem> loose;          ///< contacts outside collections, and all joints
+  std::span<const std::uint8_t> inside;  ///< per collection slot: its contacts too
+};
+
 /// Solves one block of rows, whose frame is turned by `turn`.
 void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocity>& u,
                 SolverMethod method);
@@ -42,11 +48,11 @@ double residualVelocity(const State& state);
 /// of the slip that parts a weld [m/s].
 double refinedVelocity(const State& state);
 
-/// Sweeps the items at the seeds and at the bodies marked in `scratch.restless_bodies`, breadth
-/// first; then those at bodies that the last sweep changed by more than `threshold` [m/s], and so
+/// Sweeps what is at the seeds and at the bodies marked in `scratch.restless_bodies`, breadth
+/// first; then what is at bodies that the last sweep changed by more than `threshold` [m/s], and so
 /// on, accelerated as in the full solve, until there are none or as many sweeps are spent as the
 /// full solve may take. Returns the largest change that may be left [m/s].
-double sweepUntilQuiet(const State& state, Scratch& scratch, const std::vector<SweepItem>& items,
+double sweepUntilQuiet(State& state, Scratch& scratch, const SweepScope& scope,
                        std::span<const std::uint32_t> seeds, double threshold);
 
 }  // namespace merge2d

@@ -14,10 +14,10 @@
 namespace merge2d {
 namespace {
 
-/// Contacts and joints of a disturbed step: outside ones and those inside disturbed collections.
-std::vector<SweepItem> disturbedItems(State& state, Scratch& scratch) {
+/// Contacts outside collections, and joints, of a disturbed step: those at disturbed collections,
+/// and the fresh ones between free bodies.
+std::vector<SweepItem> looseItems(State& state, Scratch& scratch) {
   std::vector<SweepItem> items;
-  // Of the contacts outside, those at disturbed collections and the fresh ones between free bodies.
   const auto concerned = [&](std::uint32_t b) {
     if (b >= state.bodies.size()) return true;  // the world
     const RigidId id = state.bodies[b].rigid;
@@ -33,18 +33,27 @@ std::vector<SweepItem> disturbedItems(State& state, Scratch& scratch) {
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
-    const Rotation& turn = state[c.rigid].rotation;
-    for (ContactBlock& k : c.blocks) items.push_back({&k, nullptr, turn});
-    for (JointBlock& k : c.joints) items.push_back({nullptr, &k, turn});
+    for (JointBlock& k : c.joints) items.push_back({nullptr, &k, state[c.rigid].rotation});
+  }
+  return items;
+}
+
+/// All that a disturbed step may sweep.
+std::vector<SweepItem> disturbedItems(State& state, Scratch& scratch) {
+  std::vector<SweepItem> items = looseItems(state, scratch);
+  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
+    Collection& c = state.collections[slot];
+    if (!scratch.disturbed[slot]) continue;
+    for (ContactBlock& k : c.blocks) items.push_back({&k, nullptr, state[c.rigid].rotation});
   }
   return items;
 }
 
 /// For who asks: the whole order of a disturbed step.
-void noteOrder(const State& state, Scratch& scratch, const std::vector<SweepItem>& items) {
+void noteOrder(State& state, Scratch& scratch) {
   if (!scratch.notes) return;
   std::vector<std::uint32_t> depth;
-  const auto ordered = orderedFrom(scratch.seeds, scratch, items, &depth);
+  const auto ordered = orderedFrom(scratch.seeds, scratch, disturbedItems(state, scratch), &depth);
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     const std::uint32_t a = ordered[i].a(), b = ordered[i].b();
     if (std::max(a, b) >= state.bodies.size()) continue;  // to the world
@@ -151,9 +160,9 @@ bool anyDisturbed(const Scratch& scratch) {
 /// As in the paper: one sweep over all of a disturbed collection, breadth first from what is new.
 void sweepBreadthFirst(State& state, Scratch& scratch) {
   spreadDisturbance(state, scratch);
-  const std::vector<SweepItem> items = disturbedItems(state, scratch);
-  noteOrder(state, scratch, items);
-  const std::vector<SweepItem> ordered = orderedFrom(scratch.seeds, scratch, items);
+  noteOrder(state, scratch);
+  const std::vector<SweepItem> ordered =
+      orderedFrom(scratch.seeds, scratch, disturbedItems(state, scratch));
   for (int s = 0; s < state.settings.unmerging.sweeps; ++s) {
     for (const SweepItem& item : ordered) {
       sweepItem(item, scratch.sweep_u, state.settings.solver.method);
@@ -168,10 +177,10 @@ void sweepBreadthFirst(State& state, Scratch& scratch) {
 void refineDisturbed(State& state, Scratch& scratch, double blow) {
   if (!anyDisturbed(scratch)) return releaseBuffers(scratch);
   spreadDisturbance(state, scratch);
-  const std::vector<SweepItem> items = disturbedItems(state, scratch);
-  noteOrder(state, scratch, items);
+  noteOrder(state, scratch);
   const double enough = enoughAfter(state, blow);
-  const double change = sweepUntilQuiet(state, scratch, items, scratch.seeds, enough);
+  const SweepScope scope{looseItems(state, scratch), scratch.disturbed};
+  const double change = sweepUntilQuiet(state, scratch, scope, scratch.seeds, enough);
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
@@ -233,17 +242,19 @@ void sweepCollections(State& state, Scratch& scratch) {
 }
 
 void sweepAgain(State& state, Scratch& scratch, Collection& c) {
-  std::vector<SweepItem> items;
+  SweepScope scope;
   for (SweepContact& outer : scratch.sweep_contacts) {
     const ContactBlock& k = outer.block;
     const bool at = state.bodies[k.a].rigid == c.rigid || state.bodies[k.b].rigid == c.rigid;
-    if (at) items.push_back({&outer.block, nullptr, {}});
+    if (at) scope.loose.push_back({&outer.block, nullptr, {}});
   }
-  for (JointBlock& k : scratch.sweep_joints) items.push_back({nullptr, &k, {}});
-  for (ContactBlock& k : c.blocks) items.push_back({&k, nullptr, state[c.rigid].rotation});
-  for (JointBlock& k : c.joints) items.push_back({nullptr, &k, state[c.rigid].rotation});
+  for (JointBlock& k : scratch.sweep_joints) scope.loose.push_back({nullptr, &k, {}});
+  for (JointBlock& k : c.joints) scope.loose.push_back({nullptr, &k, state[c.rigid].rotation});
+  std::vector<std::uint8_t> only(state.collections.size(), 0);
+  only[index(c.rigid) - state.bodies.size()] = 1;
+  scope.inside = only;
   const double change =
-      sweepUntilQuiet(state, scratch, items, scratch.doubted, residualVelocity(state));
+      sweepUntilQuiet(state, scratch, scope, scratch.doubted, residualVelocity(state));
   c.residual = static_cast<float>(change);
   if (!state.joints.empty()) keepJointForces(state, scratch);
   layOutPush(state, c);

@@ -229,16 +229,22 @@ bool WeldTest::slowerThan(double limit, const Weld& weld, const VelocityField& a
   return linear + std::abs(b.omega - a.omega) * (radius + between) <= limit;
 }
 
+Vec2 WeldTest::between(const Weld& weld) const {
+  const bool both = state_[weld.a].rigid == c_.rigid && state_[weld.b].rigid == c_.rigid;
+  if (both) return turn_ * (state_[weld.b].local - state_[weld.a].local);
+  return state_.pose(weld.b).position - state_.pose(weld.a).position;
+}
+
 WeldTest::Turning WeldTest::relativeMotion(const Weld& weld) const {
   // Seen from the first body, so that it does not matter where in the world they are.
-  const Vec2 origin = state_.pose(weld.a).position;
-  const auto field = [&](BodyId b) {
+  const auto field = [&](BodyId b, const Vec2& at) {
     const SolverVelocity& u = scratch_.sweep_u[index(b)];
-    return VelocityField{state_.pose(b).position - origin, {u.vx, u.vy}, u.omega};
+    return VelocityField{at, {u.vx, u.vy}, u.omega};
   };
-  const VelocityField a = field(weld.a), b = field(weld.b);
+  const VelocityField a = field(weld.a, Vec2::Zero()), b = field(weld.b, between(weld));
   Turning motion;
   if (!scratch_.notes && slowerThan(noise(), weld, a, b)) return motion;
+  const Vec2 origin = state_.pose(weld.a).position;
   for (const BodyId id : {weld.a, weld.b}) {
     if (state_[id].rigid != c_.rigid) continue;  // only the box of the body that can move
     OrientedBox box = state_.extent(rigidOf(id)).box;

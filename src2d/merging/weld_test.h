@@ -88,6 +88,9 @@ class WeldTest {
 
   Turning relativeMotion(const Weld& weld) const;
 
+  /// From the centre of mass of the weld's first body to that of the other.
+  Vec2 between(const Weld& weld) const;
+
   /// True when no corner can be faster: a bound that spares most pivots a look at their corners.
   bool slowerThan(double limit, const Weld& weld, const VelocityField& a,
                   const VelocityField& b) const;

@@ -369,5 +369,28 @@ TEST(Collection, MergesAndUnmergesConserveMomentum) {
   EXPECT_GT(run.count(EventType::Unmerge), 0);
 }
 
+/// Sees the tables of slots.
+class SlotWatch : public Observer {
+ public:
+  void afterStage(Stage stage, const State& state, const Scratch&) override {
+    if (stage != Stage::Merge) return;
+    slots = state.collections.size();
+    most = std::max(most, slots);
+    EXPECT_EQ(state.rigids.size(), state.bodies.size() + slots);
+    EXPECT_EQ(state.broadphase.shape_trees.size(), state.rigids.size());
+    for (const NearPair& p : state.broadphase.near) EXPECT_LT(index(p.b), state.rigids.size());
+  }
+  std::size_t slots = 0, most = 0;
+};
+
+TEST(Collection, SlotsThatAreFreeAreGivenBack) {
+  SlotWatch watch;
+  World world(wall(10, 10), inMode(Mode::Merge));
+  world.observe(&watch);
+  runSteps(world, 150);
+  EXPECT_GT(watch.most, 5u) << "the wall merges in many places";
+  EXPECT_LT(watch.slots, watch.most / 2);
+}
+
 }  // namespace
 }  // namespace merge2d
