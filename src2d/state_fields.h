@@ -138,13 +138,14 @@ void fields(Ar& ar, Some<Weld> auto& w) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
-  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched,
-         pivots, leaning, cut_welds, pivots_stale, active_blocks, welds, weld_at, weld_of, joints,
-         push, stale, frame_v, frame_gain, frame_known, residual, settled, follow_up, stubborn,
-         refuted] = c;
-  ar(id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, pivots,
-     leaning, cut_welds, pivots_stale, active_blocks, welds, weld_at, weld_of, joints, push, stale,
-     frame_v, frame_gain, frame_known, residual, settled, follow_up, stubborn, refuted);
+  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, grip,
+         pivots, leaning, cut_welds, spare, loosened, pivots_stale, active_blocks, welds, weld_at,
+         weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up, stubborn,
+         residual, settled, refuted] = c;
+  ar(id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, grip,
+     pivots, leaning, cut_welds, spare, loosened, pivots_stale, active_blocks, welds, weld_at,
+     weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up, stubborn, residual,
+     settled, refuted);
 }
 
 template <class Ar>

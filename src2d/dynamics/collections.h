@@ -85,6 +85,15 @@ struct Weld {
   EventReason reason = EventReason::None;
 };
 
+/// What a weld holds by.
+enum class Grip : std::uint8_t {
+  None,     ///< no contact of it has carried a force yet
+  Lost,     ///< all of them have opened
+  Pivot,    ///< one contact
+  Several,  ///< more, which may all be in one place
+  Firm,     ///< two in different places, or joints worth as much: its bodies cannot turn
+};
+
 /// Bodies simulated as one (Section 4).
 struct Collection {
   CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
@@ -96,9 +105,12 @@ struct Collection {
   std::vector<std::uint32_t> block_contact;  ///< which contact a block is
   std::vector<std::uint32_t> contact_block;  ///< and the other way round
   std::vector<std::uint8_t> watched;     ///< per block: is at its limit, or was in the last step
+  std::vector<Grip> grip;                ///< per weld
   std::vector<std::uint32_t> pivots;     ///< welds with fewer than two contacts that hold
   std::vector<std::uint32_t> leaning;    ///< bridges with a contact that now carries nothing
   std::vector<std::uint32_t> cut_welds;  ///< in the last step
+  std::vector<std::uint32_t> spare;      ///< welds without which, all at once, it holds together
+  std::vector<std::uint32_t> loosened;   ///< welds that have lost a contact since that was found
   bool pivots_stale = true;
   std::uint32_t active_blocks = 0;  ///< the first ones; the others are swept in disturbed steps
   std::vector<Weld> welds;          ///< ascending by pair

@@ -122,8 +122,7 @@ struct Scratch {
   bool split = false;                      ///< some collection was taken apart
   std::vector<std::uint32_t> doubted;      ///< bodies at welds that may part
   std::vector<std::uint32_t> leant;        ///< bridges that leaned in the last step, see WeldTest
-  std::vector<std::uint32_t> cuts_before;  ///< welds of the collection at hand, ascending
-  std::vector<std::uint32_t> loosened;     ///< its welds that hold less than in the last step
+  std::vector<std::uint32_t> others;       ///< welds, see spare_welds.cpp
 
   // Merge
   std::vector<ReadyPair> ready;  ///< ascending by bodies

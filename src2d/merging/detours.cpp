@@ -4,51 +4,85 @@
 #include <array>
 
 #include "src2d/core/memory.h"
-#include "src2d/cycles/tolerance.h"
+#include "src2d/merging/grip.h"
 
 namespace merge2d {
 namespace {
 
-/// Breadth first over firm welds.
+/// Grows a rigid group from one body of a weld until it contains the other one: a body belongs to
+/// it when a firm weld joins it, or two contacts in different places do.
 class DetourSearch {
  public:
   DetourSearch(const State& state, const Collection& c)
-      : state_(state), c_(c), resolution_(resolutionOf(state, c)) {}
+      : state_(state),
+        c_(c),
+        frame_(static_cast<std::uint32_t>(c.members.size())),
+        resolution_(resolutionOf(state, c)),
+        by_two_(state.settings.merging.cycles != CycleCriterion::Triangle) {}
 
   bool leadsAround(const Weld& weld) {
-    const std::uint32_t frame = static_cast<std::uint32_t>(c_.members.size());
-    std::uint32_t from = nodeOf(state_, c_, weld.a), to = nodeOf(state_, c_, weld.b);
-    if (from == frame) std::swap(from, to);
-    reached_[0] = from;
+    const std::uint32_t a = nodeOf(state_, c_, weld.a), b = nodeOf(state_, c_, weld.b);
+    return (a != frame_ && growsTo(a, b)) || (b != frame_ && growsTo(b, a));
+  }
+
+ private:
+  /// A body that one contact holds to the group.
+  struct Hinged {
+    std::uint32_t node;
+    Vec2 at;
+  };
+
+  bool growsTo(std::uint32_t from, std::uint32_t to) {
+    group_[0] = from;
     count_ = 1;
+    hinged_count_ = 0;
     for (std::size_t head = 0; head < count_; ++head) {
-      for (std::uint32_t k = c_.weld_at[reached_[head]]; k < c_.weld_at[reached_[head] + 1]; ++k) {
-        const Weld& next = c_.welds[c_.weld_of[k]];
-        const std::uint32_t a = nodeOf(state_, c_, next.a), b = nodeOf(state_, c_, next.b);
-        const std::uint32_t node = a == reached_[head] ? b : a;
-        if ((node == frame && to != frame) || next.cut || next.expected || reached(node) ||
-            !isFirm(c_, next, resolution_)) {
-          continue;
-        }
-        if (node == to) return true;
-        if (count_ == reached_.size()) return false;
-        reached_[count_++] = node;
+      const std::uint32_t node = group_[head];
+      for (std::uint32_t k = c_.weld_at[node]; k < c_.weld_at[node + 1]; ++k) {
+        const std::uint32_t number = c_.weld_of[k];
+        const Weld& weld = c_.welds[number];
+        const std::uint32_t a = nodeOf(state_, c_, weld.a), b = nodeOf(state_, c_, weld.b);
+        const std::uint32_t other = a == node ? b : a;
+        const bool through_frame = other == frame_ && to != frame_;
+        if (weld.cut || weld.expected || through_frame || contains(other)) continue;
+        if (c_.grip[number] != Grip::Firm && !hingeTwice(other, weld)) continue;
+        if (other == to) return true;
+        if (count_ == group_.size()) return false;
+        group_[count_++] = other;
       }
     }
     return false;
   }
 
- private:
-  bool reached(std::uint32_t node) const {
-    const auto end = reached_.begin() + static_cast<std::ptrdiff_t>(count_);
-    return std::find(reached_.begin(), end, node) != end;
+  bool contains(std::uint32_t node) const {
+    const auto end = group_.begin() + static_cast<std::ptrdiff_t>(count_);
+    return std::find(group_.begin(), end, node) != end;
   }
+
+  /// Notes a contact that holds `node` to the group; true when it is the second one.
+  bool hingeTwice(std::uint32_t node, const Weld& weld) {
+    if (!by_two_) return false;
+    bool twice = false;
+    forEachHeld(c_, weld, [&](const InternalPoint& point) {
+      const Vec2& at = point.position;
+      for (std::size_t i = 0; i < hinged_count_; ++i) {
+        twice |= hinged_[i].node == node && (hinged_[i].at - at).norm() > resolution_;
+      }
+      if (hinged_count_ < hinged_.size()) hinged_[hinged_count_++] = {node, at};
+    });
+    return twice;
+  }
+
+  static constexpr std::size_t kMost = 48;  ///< few detours look at more bodies
 
   const State& state_;
   const Collection& c_;
+  std::uint32_t frame_;  ///< its node
   double resolution_;
-  std::array<std::uint32_t, 48> reached_{};  ///< nodes; few detours look at more
-  std::size_t count_ = 0;
+  bool by_two_;  ///< two contacts with different bodies of a rigid group hold a body
+  std::array<std::uint32_t, kMost> group_{};
+  std::array<Hinged, kMost> hinged_{};
+  std::size_t count_ = 0, hinged_count_ = 0;
 };
 
 }  // namespace
@@ -73,26 +107,6 @@ void indexWelds(const State& state, Collection& c) {
     c.weld_of[next[nodeOf(state, c, c.welds[w].a)]++] = w;
     c.weld_of[next[nodeOf(state, c, c.welds[w].b)]++] = w;
   }
-}
-
-bool isFirm(const Collection& c, const Weld& weld, double resolution) {
-  if (weld.joints > 1) return true;
-  const Vec2* first = nullptr;
-  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    const InternalContact& inner = c.contacts[i];
-    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.count); ++p) {
-      if (!inner.points[p].active || inner.points[p].lost) continue;
-      const Vec2& at = inner.points[p].position;
-      if (first && (at - *first).norm() > resolution) return true;
-      if (!first) first = &at;
-    }
-  }
-  return false;
-}
-
-double resolutionOf(const State& state, const Collection& c) {
-  const Aabb& bounds = state.extent(c.rigid).bounds;
-  return kPointTolerance * (bounds.upper - bounds.lower).maxCoeff();
 }
 
 bool heldByDetours(const State& state, const Collection& c, std::span<const std::uint32_t> welds) {

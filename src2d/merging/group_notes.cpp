@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "src2d/merging/unmerge.h"
+#include "src2d/merging/grip.h"
 
 namespace merge2d {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src2d/merging/collection.h"
+#include "src2d/merging/grip.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/refine.h"
 
@@ -61,11 +62,13 @@ Hold holdOf(const State& state, const Collection& c, const Weld& weld) {
 /// True when some weld holds less than before.
 bool updateWelds(const State& state, Collection& c) {
   bool less = false;
-  for (Weld& weld : c.welds) {
+  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
+    Weld& weld = c.welds[i];
     const int contacts = holdOf(state, c, weld).contacts();
-    c.pivots_stale |= contacts != weld.joints;
+    if (contacts == weld.joints) continue;
     less |= contacts < weld.joints;
     weld.joints = static_cast<std::int16_t>(contacts);
+    if (!c.stale) updateGrip(state, c, i);  // else all are found when it is laid out
   }
   return less;
 }

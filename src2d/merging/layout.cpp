@@ -9,6 +9,7 @@
 #include "src2d/merging/bridges.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/detours.h"
+#include "src2d/merging/grip.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/joint_welds.h"
 
@@ -174,7 +175,8 @@ void layOutBlocks(const State& state, Collection& c) {
   c.blocks.reserve(c.contacts.size());
   c.watched.assign(c.contacts.size(), 1);
   c.cut_welds.clear();
-  c.pivots_stale = true;
+  c.spare.clear();
+  c.loosened.clear();
   for (const std::uint32_t contact : c.block_contact) {
     InternalContact& inner = c.contacts[contact];
     c.blocks.push_back(makeBlock(state, c, inner));
@@ -223,6 +225,7 @@ void layOutCollections(State& state) {
     indexWelds(state, c);
     markBridges(state, c);
     layOutBlocks(state, c);
+    findGrips(state, c);
     layOutPush(state, c);
     c.stale = false;
     c.settled = c.refuted = false;

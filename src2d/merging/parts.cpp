@@ -1,34 +1,52 @@
 #include "src2d/merging/parts.h"
 
-#include <algorithm>
-
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/detours.h"
+#include "src2d/merging/grip.h"
 #include "src2d/merging/joint_welds.h"
-#include "src2d/merging/unmerge.h"
 
 namespace merge2d {
 namespace {
 
-/// Per body its node: the members from 1 on, 0 for the frame.
-std::vector<std::uint32_t> nodesOf(const State& state, const Collection& c) {
-  std::vector<std::uint32_t> node(state.bodies.size(), 0);
-  for (std::uint32_t i = 0; i < c.members.size(); ++i) node[index(c.members[i])] = i + 1;
-  return node;
+/// Whether a weld that is not cut joins two members firmly: then the theory need not ask.
+bool joinsFirmly(const State& state, const Collection& c, std::uint32_t number) {
+  const Weld& weld = c.welds[number];
+  return c.grip[number] == Grip::Firm && !weld.cut && !weld.expected &&
+         state[weld.a].rigid == c.rigid && state[weld.b].rigid == c.rigid;
+}
+
+/// Per member, and at last for the frame, its node: 0 is the frame; members that are joined firmly
+/// share one.
+struct Nodes {
+  std::vector<std::uint32_t> of;
+  std::uint32_t count = 1;
+};
+
+Nodes nodesOf(const State& state, const Collection& c) {
+  const auto members = static_cast<std::uint32_t>(c.members.size());
+  DisjointSets sets;
+  sets.reset(members);
+  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
+    if (!joinsFirmly(state, c, i)) continue;
+    sets.unite(nodeOf(state, c, c.welds[i].a), nodeOf(state, c, c.welds[i].b));
+  }
+  Nodes nodes{std::vector<std::uint32_t>(members + 1, 0)};
+  for (std::uint32_t m = 0; m < members; ++m) {
+    std::uint32_t& node = nodes.of[sets.find(m)];
+    if (node == 0) node = nodes.count++;
+    nodes.of[m] = node;
+  }
+  return nodes;
 }
 
 /// The contacts of a weld that hold, seen from the first member, and what its joints are worth.
 void addPins(const State& state, const Collection& c, const Weld& weld, std::uint32_t a,
              std::uint32_t b, std::vector<Pin>& pins) {
   const Vec2& origin = state[c.members.front()].local;
-  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    const InternalContact& inner = c.contacts[i];
-    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.count); ++p) {
-      if (!inner.points[p].active || inner.points[p].lost) continue;
-      pins.push_back({.a = a, .b = b, .at = inner.points[p].position - origin, .placed = true});
-    }
-  }
+  forEachHeld(c, weld, [&](const InternalPoint& point) {
+    pins.push_back({.a = a, .b = b, .at = point.position - origin, .placed = true});
+  });
   if (weld.joints == 0) return;
   const Vec2 at = jointPoint(state, c, weld) - origin;
   for (int i = 0; i < weld.joints; ++i) {
@@ -38,56 +56,36 @@ void addPins(const State& state, const Collection& c, const Weld& weld, std::uin
 
 }  // namespace
 
-bool holdsFirmly(const State& state, const Collection& c) {
-  thread_local DisjointSets sets;  // its memory is kept
-  sets.reset(c.members.size());
-  const double resolution = resolutionOf(state, c);
-  std::size_t sets_left = c.members.size();
-  bool anchored = false;
-  for (const Weld& weld : c.welds) {
-    if (weld.cut || weld.expected || !isFirm(c, weld, resolution)) continue;
-    const bool a_in = state[weld.a].rigid == c.rigid, b_in = state[weld.b].rigid == c.rigid;
-    anchored |= !(a_in && b_in);
-    if (!(a_in && b_in)) continue;
-    const auto a = state[rigidOf(weld.a)].member;
-    const auto b = state[rigidOf(weld.b)].member;
-    if (sets.find(a) == sets.find(b)) continue;
-    sets.unite(a, b);
-    --sets_left;
-  }
-  return sets_left == 1 && anchored != state[c.rigid].floating();
-}
-
 Parts partsWithoutCuts(const State& state, const Collection& c) {
-  const std::vector<std::uint32_t> node = nodesOf(state, c);
+  const Nodes nodes = nodesOf(state, c);
   std::vector<Pin> pins;
-  pins.reserve(2 * c.welds.size());
-  for (const Weld& weld : c.welds) {
-    if (!weld.cut && !weld.expected)
-      addPins(state, c, weld, node[index(weld.a)], node[index(weld.b)], pins);
+  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
+    const Weld& weld = c.welds[i];
+    const auto a = nodes.of[nodeOf(state, c, weld.a)], b = nodes.of[nodeOf(state, c, weld.b)];
+    if (a != b && !weld.cut && !weld.expected) addPins(state, c, weld, a, b, pins);
   }
-  const auto nodes = static_cast<std::uint32_t>(c.members.size() + 1);
   const CycleCriterion criterion = state.settings.unmerging.rule == Rule::Paper
                                        ? CycleCriterion::Off
                                        : state.settings.merging.cycles;
-  const Groups group = heldGroups(nodes, pins, criterion);
+  const Groups group = heldGroups(nodes.count, pins, criterion);
 
   // Bodies of one rigid group that touch each other, not only the frame, stay one part.
   DisjointSets parts;
-  parts.reset(nodes);
+  parts.reset(nodes.count);
   for (const Pin& pin : pins) {
     if (pin.a != 0 && pin.b != 0 && group[pin.a] == group[pin.b]) parts.unite(pin.a, pin.b);
   }
   Parts result;
-  std::vector<std::uint32_t> number(nodes, ~0u);
-  for (std::uint32_t n = 1; n < nodes; ++n) {
-    std::uint32_t& p = number[parts.find(n)];
+  std::vector<std::uint32_t> number(nodes.count, ~0u);
+  for (std::size_t m = 0; m < c.members.size(); ++m) {
+    const std::uint32_t node = nodes.of[m];
+    std::uint32_t& p = number[parts.find(node)];
     if (p == ~0u) {
       p = static_cast<std::uint32_t>(result.anchored.size());
       result.anchored.push_back(0);
     }
     result.part.push_back(p);
-    if (group[n] == group[0]) result.anchored[p] = 1;
+    if (group[node] == group[0]) result.anchored[p] = 1;
   }
   return result;
 }

@@ -14,11 +14,6 @@ struct Parts {
   std::vector<std::uint8_t> anchored;  ///< per part
 };
 
-/// Whether welds with two contacts alone, without those that are cut, still hold all members
-/// together, and to the frame where it is fixed to one: then nothing parts, whatever the criterion.
-/// Allocates nothing.
-bool holdsFirmly(const State& state, const Collection& c);
-
 /// The parts that the remaining welds hold together under the cycle criterion.
 Parts partsWithoutCuts(const State& state, const Collection& c);
 

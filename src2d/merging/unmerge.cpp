@@ -1,14 +1,15 @@
 #include "src2d/merging/unmerge.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "src2d/contact/detection.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/detours.h"
 #include "src2d/merging/group_notes.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/kicked.h"
 #include "src2d/merging/parts.h"
+#include "src2d/merging/spare_welds.h"
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/weld_test.h"
 
@@ -72,21 +73,10 @@ bool breakInside(State& state, Scratch& scratch, Collection& c) {
   return true;
 }
 
-/// Lists the welds that are cut and were not in the last step, beside those that lost a contact.
-void listNewCuts(const Collection& c, Scratch& scratch) {
-  const auto& before = scratch.cuts_before;
-  for (const std::uint32_t weld : c.cut_welds) {
-    if (!std::ranges::binary_search(before, weld)) scratch.loosened.push_back(weld);
-  }
-}
-
 /// Tests the welds of one collection, and splits it where it falls apart.
 void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   Collection& c = state.collections[slot];
   scratch.doubted.clear();
-  scratch.loosened.clear();
-  scratch.cuts_before.assign(c.cut_welds.begin(), c.cut_welds.end());
-  std::ranges::sort(scratch.cuts_before);
   for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
   c.cut_welds.clear();
   if (anyJointBreaks(state, c) && breakInside(state, scratch, c)) return;
@@ -95,13 +85,8 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   const std::size_t first = scratch.notes ? scratch.notes->decisions.size() : 0;
   WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
   test.testAll();
-  // Broken welds that do not part the graph are found again in each step: look anew only when
-  // there is one more, and nothing near it holds its bodies together.
-  listNewCuts(c, scratch);
-  if (!joints_loosened && heldByDetours(state, c, scratch.loosened)) return;
-  if (holdsFirmly(state, c)) return;
-  Parts parts = partsOf(state, scratch, c);
-  if (!fallsApart(state, c, parts)) return;
+  std::optional<Parts> parts = partsAtCuts(state, scratch, c, joints_loosened);
+  if (!parts) return;
   const UnmergingSettings& settings = state.settings.unmerging;
   if (settings.rule == Rule::Default && settings.ordering) {
     // One sweep may not have converged: before anything parts, look again after more.
@@ -109,11 +94,11 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
     sweepAgain(state, scratch, c);
     confirmJoints(state, c, scratch.sweep_u);
     test.confirmAll();
-    parts = partsOf(state, scratch, c);
+    parts = partsAtCuts(state, scratch, c, joints_loosened);
     c.refuted = !test.somethingGrows();
-    if (!fallsApart(state, c, parts)) return;
+    if (!parts) return;
   }
-  splitAtCuts(state, scratch, c.rigid, parts);
+  splitAtCuts(state, scratch, c.rigid, *parts);
 }
 
 void finishSplits(State& state, Scratch& scratch) {

@@ -16,13 +16,6 @@ namespace merge2d {
 /// Tests all welds of swept collections and splits those that fall apart.
 void unmerge(State& state, Scratch& scratch);
 
-/// Contacts of a weld that have carried a force and have not opened since, and what its joints are
-/// worth beside them.
-int activeContacts(const Collection& collection, const Weld& weld);
-
-/// Lists the welds with fewer than two such contacts: the only ones that can turn in 2D.
-void listPivots(Collection& collection);
-
 /// Cuts all welds of one body: its pinning ended, its magnet changed, or the user wants it.
 void releaseBody(State& state, Scratch& scratch, BodyId body);
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "src2d/merging/grip.h"
 #include "src2d/merging/limits.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/refine.h"
-#include "src2d/merging/unmerge.h"
 
 namespace merge2d {
 
@@ -19,7 +19,7 @@ void WeldTest::testAll() {
   }
   if (c_.pivots_stale) listPivots(c_);
   for (const std::uint32_t pivot : c_.pivots) {
-    testLost(c_.welds[pivot]);
+    testLost(pivot);
     testMotion(c_.welds[pivot]);
   }
   testLeaning();
@@ -64,10 +64,10 @@ void WeldTest::testContacts(std::uint32_t b) {
     if (pressed) noteCone(weld, k, i, edge);
     c_.watched[b] |= edge || !pressed;
     if (point.lost && !was_lost) {
-      scratch_.loosened.push_back(weld);
+      c_.loosened.push_back(weld);
       doubt(c_.welds[weld]);
     }
-    c_.pivots_stale |= was_lost != point.lost || was_active != point.active;
+    if (was_lost != point.lost || was_active != point.active) updateGrip(state_, c_, weld);
   }
 }
 
@@ -109,30 +109,21 @@ bool WeldTest::testBroken(std::uint32_t weld, Drift& opening, double w_n) {
   return lost;
 }
 
-void WeldTest::testLost(Weld& weld) {
-  const int held = activeContacts(c_, weld);
-  if (!hadContact(weld)) return;
-  if (held == 0) cutWeld(weld, EventReason::Broken);
-  note(weld, {.criterion = "broken",
-              .equation = "Section 6.3",
-              .value = static_cast<double>(held),
-              .threshold = 1.0,
-              .verdict = held == 0 ? "unmerge" : "keep"});
+void WeldTest::testLost(std::uint32_t weld) {
+  const bool lost = c_.grip[weld] == Grip::Lost;
+  if (lost) cutWeld(c_.welds[weld], EventReason::Broken);
+  if (!scratch_.notes) return;
+  note(c_.welds[weld], {.criterion = "broken",
+                        .equation = "Section 6.3",
+                        .value = static_cast<double>(activeContacts(c_, c_.welds[weld])),
+                        .threshold = 1.0,
+                        .verdict = lost ? "unmerge" : "keep"});
 }
 
 double WeldTest::openingThreshold() const {
   constexpr double kBeyondResidual = 5.0;
   const double sliding = state_.settings.unmerging.sliding;
   return disturbed_ ? std::min(sliding, kBeyondResidual * noise()) : sliding;
-}
-
-bool WeldTest::hadContact(const Weld& weld) const {
-  if (weld.joints > 0) return true;
-  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    const InternalContact& inner = c_.contacts[i];
-    if (inner.points[0].active || inner.points[1].active) return true;
-  }
-  return false;
 }
 
 void WeldTest::testSliding(std::uint32_t weld, Drift& slip, double w_t) {
@@ -159,7 +150,7 @@ void WeldTest::noteCone(std::uint32_t weld, const ContactBlock& k, int i, bool e
 }
 
 void WeldTest::testMotion(Weld& weld) {
-  if (weld.cut || !hadContact(weld)) return;
+  if (weld.cut) return;
   const UnmergingSettings& settings = state_.settings.unmerging;
   const Drift before = weld.turning;
   const Turning now = relativeMotion(weld);
@@ -194,7 +185,7 @@ void WeldTest::testLeaning() {
 }
 
 bool WeldTest::isPivot(std::uint32_t weld) const {
-  return std::ranges::binary_search(c_.pivots, weld);
+  return c_.grip[weld] == Grip::Lost || c_.grip[weld] == Grip::Pivot;
 }
 
 bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {
@@ -287,27 +278,6 @@ void WeldTest::cutWeld(Weld& weld, EventReason reason) {
   weld.cut = true;
   weld.reason = reason;
   c_.cut_welds.push_back(static_cast<std::uint32_t>(&weld - c_.welds.data()));
-}
-
-int activeContacts(const Collection& c, const Weld& weld) {
-  int active = weld.joints;
-  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    const InternalContact& inner = c.contacts[i];
-    for (int p = 0; p < inner.count; ++p) active += inner.point(p).active && !inner.point(p).lost;
-  }
-  return active;
-}
-
-void listPivots(Collection& c) {
-  c.pivots.clear();
-  c.pivots_stale = false;
-  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
-    if (activeContacts(c, c.welds[i]) < 2) {
-      c.pivots.push_back(i);
-    } else {
-      c.welds[i].turning = {};
-    }
-  }
 }
 
 }  // namespace merge2d

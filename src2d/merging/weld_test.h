@@ -56,12 +56,10 @@ class WeldTest {
 
   /// A weld all of whose contacts have opened is broken; one that keeps a single contact is a
   /// pivot.
-  void testLost(Weld& weld);
+  void testLost(std::uint32_t weld);
 
   /// How much may open. Where something new entered, the sweeps have converged, and less will do.
   double openingThreshold() const;
-
-  bool hadContact(const Weld& weld) const;
 
   /// A contact on the edge of its cone.
   void testSliding(std::uint32_t weld, Drift& slip, double w_t);

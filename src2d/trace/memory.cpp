@@ -22,9 +22,9 @@ std::size_t bytesOfState(const State& s) {
                       bytesOf(s.contacts.slots, s.contacts.free_slots, s.contacts.order) +
                       bytesOfBroadphase(s.broadphase);
   for (const Collection& c : s.collections) {
-    total +=
-        bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.contact_block, c.watched,
-                c.pivots, c.leaning, c.cut_welds, c.welds, c.weld_at, c.weld_of, c.joints, c.push);
+    total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.contact_block, c.watched,
+                     c.grip, c.pivots, c.leaning, c.cut_welds, c.spare, c.loosened, c.welds,
+                     c.weld_at, c.weld_of, c.joints, c.push);
   }
   return total;
 }
@@ -34,7 +34,7 @@ std::size_t bytesOfScratch(const Scratch& s) {
                  s.candidates, s.near_candidates, s.near_refined, s.seeds, s.stirred, s.restless,
                  s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
-                 s.cuts_before, s.loosened, s.leant, s.ready) +
+                 s.others, s.leant, s.ready) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order) +
          bytesOf(s.nncg.before, s.nncg.direction, s.nncg.u_before, s.nncg.u_direction) +

@@ -1,0 +1,68 @@
+#include "src2d/merging/grip.h"
+
+#include "src2d/cycles/tolerance.h"
+
+namespace merge2d {
+namespace {
+
+bool hadContact(const Collection& c, const Weld& weld) {
+  if (weld.joints > 0) return true;
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    if (c.contacts[i].points[0].active || c.contacts[i].points[1].active) return true;
+  }
+  return false;
+}
+
+bool isFirm(const Collection& c, const Weld& weld, double resolution) {
+  if (weld.joints > 1) return true;
+  const Vec2* first = nullptr;
+  bool firm = false;
+  forEachHeld(c, weld, [&](const InternalPoint& point) {
+    firm |= first && (point.position - *first).norm() > resolution;
+    if (!first) first = &point.position;
+  });
+  return firm;
+}
+
+Grip gripOf(const Collection& c, const Weld& weld, double resolution) {
+  if (isFirm(c, weld, resolution)) return Grip::Firm;
+  const int held = activeContacts(c, weld);
+  if (held > 0) return held > 1 ? Grip::Several : Grip::Pivot;
+  return hadContact(c, weld) ? Grip::Lost : Grip::None;
+}
+
+bool isPivot(Grip grip) { return grip == Grip::Lost || grip == Grip::Pivot; }
+
+}  // namespace
+
+int activeContacts(const Collection& c, const Weld& weld) {
+  int active = weld.joints;
+  forEachHeld(c, weld, [&](const InternalPoint&) { ++active; });
+  return active;
+}
+
+double resolutionOf(const State& state, const Collection& c) {
+  const Aabb& bounds = state.extent(c.rigid).bounds;
+  return kPointTolerance * (bounds.upper - bounds.lower).maxCoeff();
+}
+
+void updateGrip(const State& state, Collection& c, std::uint32_t weld) {
+  c.grip[weld] = gripOf(c, c.welds[weld], resolutionOf(state, c));
+  if (!isPivot(c.grip[weld])) c.welds[weld].turning = {};
+  c.pivots_stale = true;
+}
+
+void findGrips(const State& state, Collection& c) {
+  c.grip.resize(c.welds.size());
+  for (std::uint32_t i = 0; i < c.welds.size(); ++i) updateGrip(state, c, i);
+}
+
+void listPivots(Collection& c) {
+  c.pivots.clear();
+  c.pivots_stale = false;
+  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
+    if (isPivot(c.grip[i])) c.pivots.push_back(i);
+  }
+}
+
+}  // namespace merge2d

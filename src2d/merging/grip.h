@@ -1,0 +1,35 @@
+#pragma once
+/// What each weld of a collection still holds by: its contacts that press or have not opened since,
+/// and its joints.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Contacts of a weld that have carried a force and have not opened since, and what its joints are
+/// worth beside them.
+int activeContacts(const Collection& c, const Weld& weld);
+
+/// Points of this collection nearer than this count as one [m].
+double resolutionOf(const State& state, const Collection& c);
+
+/// Finds the grip of one weld, and of all.
+void updateGrip(const State& state, Collection& c, std::uint32_t weld);
+void findGrips(const State& state, Collection& c);
+
+/// Lists the welds with fewer than two contacts that hold and once had one: the only ones that can
+/// turn in 2D.
+void listPivots(Collection& c);
+
+/// Calls `visit(point)` for the contacts of a weld that hold.
+template <class Visit>
+void forEachHeld(const Collection& c, const Weld& weld, Visit&& visit) {
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    const InternalContact& inner = c.contacts[i];
+    for (int p = 0; p < inner.count; ++p) {
+      if (inner.point(p).active && !inner.point(p).lost) visit(inner.point(p));
+    }
+  }
+}
+
+}  // namespace merge2d

@@ -1,0 +1,73 @@
+#include "src2d/merging/spare_welds.h"
+
+#include <algorithm>
+
+#include "src2d/merging/detours.h"
+
+namespace merge2d {
+namespace {
+
+/// Asks the criterion anew.
+Parts judge(const State& state, Scratch& scratch, const Collection& c) {
+  if (scratch.notes) scratch.notes->judged += static_cast<int>(c.welds.size());
+  return partsWithoutCuts(state, c);
+}
+
+void sortUnique(std::vector<std::uint32_t>& welds) {
+  std::ranges::sort(welds);
+  welds.erase(std::unique(welds.begin(), welds.end()), welds.end());
+}
+
+/// The welds that are cut or hold less than they did when `c.spare` was found, and are none of it.
+void listOthers(const Collection& c, std::vector<std::uint32_t>& others) {
+  others.clear();
+  for (const auto* welds : {&c.cut_welds, &c.loosened}) {
+    for (const std::uint32_t weld : *welds) {
+      if (!std::ranges::binary_search(c.spare, weld)) others.push_back(weld);
+    }
+  }
+  sortUnique(others);
+}
+
+/// Whether it would hold together without what is cut and what was spare before, all at once.
+bool holdsWithout(const State& state, Scratch& scratch, Collection& c,
+                  const std::vector<std::uint32_t>& all) {
+  for (const std::uint32_t weld : all) c.welds[weld].cut = true;
+  const bool apart = fallsApart(state, c, judge(state, scratch, c));
+  for (const std::uint32_t weld : all) c.welds[weld].cut = false;
+  for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = true;
+  return !apart;
+}
+
+void spare(Collection& c, const std::vector<std::uint32_t>& welds) {
+  c.spare.assign(welds.begin(), welds.end());
+  c.loosened.clear();
+}
+
+}  // namespace
+
+std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collection& c, bool anew) {
+  auto& others = scratch.others;
+  listOthers(c, others);
+  const std::size_t few = 4 + c.members.size() / 64;  // as long as it is quicker than to judge all
+  if (!anew) {
+    if (others.empty()) return {};
+    if (others.size() <= few && heldByDetours(state, c, others)) return {};
+  }
+  if (!c.spare.empty() && !anew) {
+    others.insert(others.end(), c.spare.begin(), c.spare.end());
+    sortUnique(others);
+    if (holdsWithout(state, scratch, c, others)) {
+      spare(c, others);
+      return {};
+    }
+  }
+  others.assign(c.cut_welds.begin(), c.cut_welds.end());
+  sortUnique(others);
+  Parts parts = judge(state, scratch, c);
+  if (fallsApart(state, c, parts)) return parts;
+  spare(c, others);
+  return {};
+}
+
+}  // namespace merge2d

@@ -1,0 +1,15 @@
+#pragma once
+/// Whether a collection falls apart where welds are cut, judged as seldom as can be: the same welds
+/// are found cut in step after step while others hold their bodies together.
+
+#include <optional>
+
+#include "src2d/merging/parts.h"
+
+namespace merge2d {
+
+/// The parts into which the welds that are cut divide the collection; nothing while it holds
+/// together. `anew`: something else has changed too, and what was found before does not help.
+std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collection& c, bool anew);
+
+}  // namespace merge2d
