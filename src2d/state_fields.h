@@ -139,13 +139,13 @@ void fields(Ar& ar, Some<Weld> auto& w) {
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, grip,
-         pivots, leaning, cut_welds, spare, loosened, pivots_stale, active_blocks, welds, weld_at,
-         weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up, stubborn,
-         residual, settled, refuted] = c;
+         pivots, leaning, cut_welds, spare, loosened, pivots_stale, points, active_blocks, welds,
+         weld_at, weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up,
+         stubborn, residual, settled, refuted] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, grip,
-     pivots, leaning, cut_welds, spare, loosened, pivots_stale, active_blocks, welds, weld_at,
-     weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up, stubborn, residual,
-     settled, refuted);
+     pivots, leaning, cut_welds, spare, loosened, pivots_stale, points, active_blocks, welds,
+     weld_at, weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up, stubborn,
+     residual, settled, refuted);
 }
 
 template <class Ar>
@@ -163,9 +163,9 @@ void fields(Ar& ar, Some<ReadyPair> auto& r) {
 template <class Ar>
 void fields(Ar& ar, Some<State> auto& state) {
   auto& [settings, mode, h, gravity, colliders, collider_bounds, shape_collider, shape_body,
-         first_sibling, siblings, step, time, bodies, rigids, extents, collections, next_collection,
-         contacts, joints, joined_pairs, broadphase, moved, ready_before] = state;
-  ar(step, time, bodies, rigids, extents, collections, next_collection, contacts, joints,
+         first_sibling, siblings, step, time, bodies, rigids, present, extents, collections,
+         next_collection, contacts, joints, joined_pairs, broadphase, moved, ready_before] = state;
+  ar(step, time, bodies, rigids, present, extents, collections, next_collection, contacts, joints,
      joined_pairs, broadphase.near, moved, ready_before);
 }
 

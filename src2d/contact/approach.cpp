@@ -54,10 +54,10 @@ namespace {
 template <class MotionOf>
 double fastestPoint(const State& state, MotionOf&& motion) {
   double fastest = 0.0;
-  for (std::uint32_t i = 0; i < state.rigids.size(); ++i) {
-    const Rigid& r = state.rigids[i];
-    if (!r.present() || r.asleep) continue;
-    const StartMotion of = motion(RigidId{i});
+  for (const RigidId id : state.present) {
+    const Rigid& r = state[id];
+    if (r.asleep) continue;
+    const StartMotion of = motion(id);
     const double turning = std::abs(of.omega) * radius(state.extent(r).bounds, r.center);
     fastest = std::max(fastest, of.v.norm() + turning);
   }

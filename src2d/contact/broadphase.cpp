@@ -75,16 +75,15 @@ Aabb shapeBounds(const State& state, RigidId id, std::uint32_t shape) {
 void moveLeaves(State& state, Scratch& scratch) {
   scratch.moved.clear();
   scratch.moved_flag.assign(state.rigids.size(), 0);
-  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
-    Rigid& r = state.rigids[i];
-    if (!r.present() || (!moves(r) && !r.resized)) continue;
-    const RigidId id{static_cast<std::uint32_t>(i)};
+  for (const RigidId id : state.present) {
+    Rigid& r = state[id];
+    if (!moves(r) && !r.resized) continue;
     const Vec2 way = state.h * startMotion(state, scratch, id).v;
     const bool left = state.broadphase.tree.move(r.leaf, sweptBounds(state, r, way), way);
     if (!left && !r.resized) continue;
     r.resized = false;
     scratch.moved.push_back(id);
-    scratch.moved_flag[i] = 1;
+    scratch.moved_flag[index(id)] = 1;
   }
 }
 
@@ -201,11 +200,13 @@ void insertRigid(State& state, RigidId id) {
   Rigid& r = state[id];
   r.leaf = state.broadphase.tree.insert(worldBounds(state, r), static_cast<std::uint32_t>(id));
   r.resized = true;
+  state.present.insert(std::ranges::lower_bound(state.present, id), id);
 }
 
 void removeRigid(State& state, RigidId id) {
   state.broadphase.tree.remove(state[id].leaf);
   state[id].leaf = -1;
+  state.present.erase(std::ranges::lower_bound(state.present, id));
 }
 
 void addShapes(State& state, RigidId id, const std::vector<BodyId>& bodies) {
@@ -234,14 +235,11 @@ void compactTree(State& state) {
   auto& tree = state.broadphase.tree;
   if (!tree.sparse()) return;
   std::vector<Aabb> boxes;
-  for (const Rigid& r : state.rigids) {
-    if (r.present()) boxes.push_back(tree.fatBox(r.leaf));
-  }
+  for (const RigidId id : state.present) boxes.push_back(tree.fatBox(state[id].leaf));
   tree.clear();
   auto box = boxes.begin();
-  for (std::uint32_t i = 0; i < state.rigids.size(); ++i) {
-    Rigid& r = state.rigids[i];
-    if (r.present()) r.leaf = tree.insertFat(*box++, i);
+  for (const RigidId id : state.present) {
+    state[id].leaf = tree.insertFat(*box++, static_cast<std::uint32_t>(id));
   }
 }
 

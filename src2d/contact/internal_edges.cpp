@@ -67,6 +67,7 @@ void listSiblings(State& state) {
       state.first_sibling[s + 1] = static_cast<std::uint32_t>(state.siblings.size());
     }
   }
+  if (state.siblings.empty()) std::vector<std::uint32_t>().swap(state.first_sibling);
 }
 
 void dropInternalEdges(const State& state, const Pose& b_in_a, Contact& contact) {

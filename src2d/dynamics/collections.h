@@ -112,6 +112,7 @@ struct Collection {
   std::vector<std::uint32_t> spare;      ///< welds without which, all at once, it holds together
   std::vector<std::uint32_t> loosened;   ///< welds that have lost a contact since that was found
   bool pivots_stale = true;
+  int points = 0;                   ///< contact points of all blocks
   std::uint32_t active_blocks = 0;  ///< the first ones; the others are swept in disturbed steps
   std::vector<Weld> welds;          ///< ascending by pair
   /// Welds of node n, a member or at last the frame: weld_of[weld_at[n] … weld_at[n + 1]].

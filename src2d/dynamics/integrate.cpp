@@ -10,22 +10,23 @@
 namespace merge2d {
 
 void advanceVelocities(State& state, const Scratch& scratch) {
-  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
-    Rigid& r = state.rigids[i];
-    const bool anchored = !r.floating() && i >= state.bodies.size();  // takes its frame's velocity
-    if (!r.present() || r.asleep || !(r.floating() || anchored)) continue;
-    r.v = {scratch.u[i].vx, scratch.u[i].vy};
-    r.omega = scratch.u[i].omega;
+  for (const RigidId id : state.present) {
+    Rigid& r = state[id];
+    const bool anchored = !r.floating() && state.isCollection(id);  // takes its frame's velocity
+    if (r.asleep || !(r.floating() || anchored)) continue;
+    const SolverVelocity& u = scratch.u[index(id)];
+    r.v = {u.vx, u.vy};
+    r.omega = u.omega;
   }
 }
 
 void advancePositions(State& state, Scratch& scratch) {
   state.moved = farthestMove(state);
-  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
-    Rigid& r = state.rigids[i];
-    if (!r.present() || r.asleep || r.anchor == kWorldFrame) continue;
+  for (const RigidId id : state.present) {
+    Rigid& r = state[id];
+    if (r.asleep || r.anchor == kWorldFrame) continue;
     r.previous_rotation = r.rotation;
-    if (!r.floating() && i >= state.bodies.size()) continue;  // anchored: follows its frame
+    if (!r.floating() && state.isCollection(id)) continue;  // anchored: follows its frame
     r.moveBy(state.h * r.v);
     if (r.omega == 0.0) continue;
     r.angle += state.h * r.omega;
@@ -36,14 +37,12 @@ void advancePositions(State& state, Scratch& scratch) {
 }
 
 void checkFinite(const State& state, const std::vector<BodyInfo>& bodies, Stage stage) {
-  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
-    const Rigid& r = state.rigids[i];
-    if (!r.present()) continue;
+  for (const RigidId id : state.present) {
+    const Rigid& r = state[id];
     const double sum = r.x.sum() + r.v.sum() + r.angle + r.omega;
     if (std::isfinite(sum)) continue;
-    const BodyId body = i < state.bodies.size()
-                            ? BodyId{static_cast<std::uint32_t>(i)}
-                            : state.collections[i - state.bodies.size()].members.front();
+    const BodyId body = state.isCollection(id) ? state.collection(id).members.front()
+                                               : BodyId{static_cast<std::uint32_t>(id)};
     throw SimulationError(
         fmt::format("body '{}' is no longer at a finite place after {} in step {} "
                     "(x = {}, {}; v = {}, {}; omega = {}); try a smaller step or softer springs",

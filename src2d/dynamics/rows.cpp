@@ -23,9 +23,10 @@ void startVelocities(const State& state, Scratch& scratch) {
   reserveTightly(scratch.u, state.rigids.size() + 1);
   scratch.u.resize(state.rigids.size() + 1);
   scratch.u.back() = {};
-  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
-    const bool anchored = i >= state.bodies.size() && !state.rigids[i].floating() &&
-                          state.rigids[i].anchor != kWorldFrame && state.rigids[i].present();
+  for (const RigidId id : state.present) {
+    const std::size_t i = index(id);
+    const bool anchored = state.isCollection(id) && !state.rigids[i].floating() &&
+                          state.rigids[i].anchor != kWorldFrame;
     const Rigid& r = anchored ? anchorOf(state, i) : state.rigids[i];
     SolverVelocity& u = scratch.u[i];
     const bool free = simulated(r);
@@ -202,7 +203,8 @@ void listIslandBodies(const State& state, Scratch& scratch) {
     island_of[scratch.islands[i].root] = static_cast<std::int32_t>(i);
   }
   for (auto& island : scratch.islands) island.first_body = island.last_body = 0;
-  for (std::uint32_t r = 0; r < state.rigids.size(); ++r) {
+  for (const RigidId id : state.present) {
+    const auto r = static_cast<std::uint32_t>(id);
     if (scratch.u[r].inv_mass == 0.0 || scratch.colours[r] == 0) continue;
     island_of[r] = island_of[scratch.sets.find(r)];
     ++scratch.islands[static_cast<std::size_t>(island_of[r])].last_body;
@@ -214,7 +216,8 @@ void listIslandBodies(const State& state, Scratch& scratch) {
     begin += count;
   }
   scratch.island_bodies.resize(begin);
-  for (std::uint32_t r = 0; r < state.rigids.size(); ++r) {
+  for (const RigidId id : state.present) {
+    const auto r = static_cast<std::uint32_t>(id);
     if (scratch.u[r].inv_mass == 0.0 || scratch.colours[r] == 0) continue;
     auto& island = scratch.islands[static_cast<std::size_t>(island_of[r])];
     scratch.island_bodies[island.last_body++] = r;

@@ -119,10 +119,10 @@ struct Scratch {
   std::vector<std::uint8_t> restless_bodies;  ///< per body: a sweep still changes it
 
   // Unmerge
-  bool split = false;                      ///< some collection was taken apart
-  std::vector<std::uint32_t> doubted;      ///< bodies at welds that may part
-  std::vector<std::uint32_t> leant;        ///< bridges that leaned in the last step, see WeldTest
-  std::vector<std::uint32_t> others;       ///< welds, see spare_welds.cpp
+  bool split = false;                  ///< some collection was taken apart
+  std::vector<std::uint32_t> doubted;  ///< bodies at welds that may part
+  std::vector<std::uint32_t> leant;    ///< bridges that leaned in the last step, see WeldTest
+  std::vector<std::uint32_t> others;   ///< welds, see spare_welds.cpp
 
   // Merge
   std::vector<ReadyPair> ready;  ///< ascending by bodies

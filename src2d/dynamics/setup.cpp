@@ -217,6 +217,7 @@ class Builder {
     State& s = setup_.state;
     listJoinedPairs(s);
     s.broadphase.shape_trees.resize(s.rigids.size());
+    s.present.reserve(s.rigids.size());
     s.broadphase.shape_leaves.assign(s.shape_body.size(), -1);
     listSiblings(s);
     for (const Actions::Scripted& script : setup_.actions.scripts) {

@@ -50,6 +50,7 @@ struct State {
   double time = 0.0;
   std::vector<Body> bodies;
   std::vector<Rigid> rigids;            ///< bodies, then collections
+  std::vector<RigidId> present;         ///< rigid things that are there: in B or asleep; ascending
   std::vector<Extent> extents;          ///< of the different bodies, then one per collection
   std::vector<Collection> collections;  ///< slot i is rigid bodies.size() + i
   std::int32_t next_collection = 0;

@@ -177,11 +177,13 @@ void layOutBlocks(const State& state, Collection& c) {
   c.cut_welds.clear();
   c.spare.clear();
   c.loosened.clear();
+  c.points = 0;
   for (const std::uint32_t contact : c.block_contact) {
     InternalContact& inner = c.contacts[contact];
     c.blocks.push_back(makeBlock(state, c, inner));
     inner.count = static_cast<std::int16_t>(
         c.blocks.back().count);  // points too close to each other count as one
+    c.points += inner.count;
   }
 }
 

@@ -81,17 +81,17 @@ void countQuietPairs(State& state, Scratch& scratch) {
 void countQuietRigids(State& state, Notes* notes) {
   const SleepingSettings& sleeping = state.settings.sleeping;
   const VelocityField still;
-  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
-    Rigid& r = state.rigids[i];
-    if (!r.present() || r.asleep) continue;
+  for (const RigidId id : state.present) {
+    Rigid& r = state[id];
+    if (r.asleep) continue;
     const double motion = fastestCorner(worldBox(state, r), fieldOf(r), still);
     const int before = r.quiet_steps;
     const bool quiet = motion < sleeping.velocity;
     r.quiet_steps = quiet ? r.quiet_steps + 1 : 0;
-    const bool collection = i >= state.bodies.size();
+    const bool collection = state.isCollection(id);
     if (!notes || !(r.floating() || collection)) continue;
-    const BodyId body = collection ? state.collections[i - state.bodies.size()].members.front()
-                                   : BodyId{static_cast<std::uint32_t>(i)};
+    const BodyId body =
+        collection ? state.collection(id).members.front() : BodyId{static_cast<std::uint32_t>(id)};
     notes->decisions.push_back({.a = body,
                                 .b = body,
                                 .stage = "AccumulateRelativeMotion",

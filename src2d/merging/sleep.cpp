@@ -154,18 +154,20 @@ void sleepAndWake(State& state, Scratch& scratch) {
   }
   auto& awake = scratch.island_awake;
   awake.assign(state.rigids.size(), 0);
-  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
+  for (const RigidId id : state.present) {
+    const std::size_t i = index(id);
     if (!canSleep(state.rigids[i], state, i)) continue;
     std::uint8_t& island = awake[sets.find(static_cast<std::uint32_t>(i))];
     island = std::max<std::uint8_t>(island, reasonToStay(state, i, restless[i] != 0));
   }
   bool any = false;
-  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
+  for (const RigidId id : state.present) {
+    const std::size_t i = index(id);
     if (!canSleep(state.rigids[i], state, i)) continue;
     const bool stays_awake = awake[sets.find(static_cast<std::uint32_t>(i))] != 0;
     noteSleep(state, scratch.notes, i, restless[i] != 0, stays_awake);
     if (state.rigids[i].asleep && stays_awake) {
-      wakeUp(state, scratch, RigidId{static_cast<std::uint32_t>(i)});
+      wakeUp(state, scratch, id);
     }
     if (state.rigids[i].asleep || stays_awake) continue;
     fallAsleep(state, scratch, i);

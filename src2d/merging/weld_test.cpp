@@ -96,15 +96,17 @@ bool WeldTest::testBroken(std::uint32_t weld, Drift& opening, double w_n) {
   const double threshold = literal ? 0.0 : openingThreshold() * caution(c_.welds[weld]);
   const Evidence found = weigh(opening, std::max(0.0, w_n), threshold);
   const bool lost = found.exceeds || literal;
-  note(c_.welds[weld], {.criterion = "opening",
-                        .equation = "Section 6.3",
-                        .value = found.sum,
-                        .threshold = threshold,
-                        .count = found.steps,
-                        .verdict = !lost     ? "wait"
-                                   : literal ? "unmerge"
-                                             : "lost",
-                        .at = at_});
+  note(c_.welds[weld], [&] {
+    return Decision{.criterion = "opening",
+                    .equation = "Section 6.3",
+                    .value = found.sum,
+                    .threshold = threshold,
+                    .count = found.steps,
+                    .verdict = !lost     ? "wait"
+                               : literal ? "unmerge"
+                                         : "lost",
+                    .at = at_};
+  });
   if (lost && literal) cutWeld(c_.welds[weld], EventReason::Broken);
   return lost;
 }
@@ -112,12 +114,13 @@ bool WeldTest::testBroken(std::uint32_t weld, Drift& opening, double w_n) {
 void WeldTest::testLost(std::uint32_t weld) {
   const bool lost = c_.grip[weld] == Grip::Lost;
   if (lost) cutWeld(c_.welds[weld], EventReason::Broken);
-  if (!scratch_.notes) return;
-  note(c_.welds[weld], {.criterion = "broken",
-                        .equation = "Section 6.3",
-                        .value = static_cast<double>(activeContacts(c_, c_.welds[weld])),
-                        .threshold = 1.0,
-                        .verdict = lost ? "unmerge" : "keep"});
+  note(c_.welds[weld], [&] {
+    return Decision{.criterion = "broken",
+                    .equation = "Section 6.3",
+                    .value = static_cast<double>(activeContacts(c_, c_.welds[weld])),
+                    .threshold = 1.0,
+                    .verdict = lost ? "unmerge" : "keep"};
+  });
 }
 
 double WeldTest::openingThreshold() const {
@@ -130,23 +133,27 @@ void WeldTest::testSliding(std::uint32_t weld, Drift& slip, double w_t) {
   const double threshold = state_.settings.unmerging.sliding * caution(c_.welds[weld]);
   if (rule() == Rule::Paper) slip = {};
   const Evidence found = weigh(slip, w_t, threshold);
-  note(c_.welds[weld], {.criterion = "sliding",
-                        .equation = "(19)",
-                        .value = found.sum,
-                        .threshold = threshold,
-                        .count = found.steps,
-                        .verdict = found.exceeds ? "unmerge" : "wait",
-                        .at = at_});
+  note(c_.welds[weld], [&] {
+    return Decision{.criterion = "sliding",
+                    .equation = "(19)",
+                    .value = found.sum,
+                    .threshold = threshold,
+                    .count = found.steps,
+                    .verdict = found.exceeds ? "unmerge" : "wait",
+                    .at = at_};
+  });
   if (found.exceeds) cutWeld(c_.welds[weld], EventReason::Sliding);
 }
 
 void WeldTest::noteCone(std::uint32_t weld, const ContactBlock& k, int i, bool edge) {
-  note(c_.welds[weld], {.criterion = "cone",
-                        .equation = "(20)",
-                        .value = std::abs(k.lambda_t(i)),
-                        .threshold = k.mu * k.lambda_n(i),
-                        .verdict = edge ? "edge" : "keep",
-                        .at = at_});
+  note(c_.welds[weld], [&] {
+    return Decision{.criterion = "cone",
+                    .equation = "(20)",
+                    .value = std::abs(k.lambda_t(i)),
+                    .threshold = k.mu * k.lambda_n(i),
+                    .verdict = edge ? "edge" : "keep",
+                    .at = at_};
+  });
 }
 
 void WeldTest::testMotion(Weld& weld) {
@@ -156,16 +163,18 @@ void WeldTest::testMotion(Weld& weld) {
   const Turning now = relativeMotion(weld);
   const bool literal = rule() == Rule::Paper;
   const bool cut = literal ? moveLoudly(weld, now) : turns(weld, now);
-  note(weld, {.criterion = "relative-motion",
-              .equation = "(17)",
-              .value = literal ? std::abs(now.fastest) : std::abs(weld.turning.sum),
-              .threshold = literal ? settings.velocity : settings.velocity * caution(weld),
-              .count = weld.turning.steps,
-              .needed = literal ? settings.steps : 0,
-              .verdict = cut                      ? "unmerge"
-                         : weld.turning.steps > 0 ? "wait"
-                                                  : "keep",
-              .before = before.steps});
+  note(weld, [&] {
+    return Decision{.criterion = "relative-motion",
+                    .equation = "(17)",
+                    .value = literal ? std::abs(now.fastest) : std::abs(weld.turning.sum),
+                    .threshold = literal ? settings.velocity : settings.velocity * caution(weld),
+                    .count = weld.turning.steps,
+                    .needed = literal ? settings.steps : 0,
+                    .verdict = cut                      ? "unmerge"
+                               : weld.turning.steps > 0 ? "wait"
+                                                        : "keep",
+                    .before = before.steps};
+  });
   if (cut) cutWeld(weld, EventReason::RelativeMotion);
 }
 
@@ -249,8 +258,7 @@ WeldTest::Turning WeldTest::relativeMotion(const Weld& weld) const {
   return motion;
 }
 
-void WeldTest::note(const Weld& weld, Decision test) const {
-  if (!scratch_.notes) return;
+void WeldTest::writeDown(const Weld& weld, Decision test) const {
   test.a = weld.a;
   test.b = weld.b;
   test.stage = "Unmerge";

@@ -93,8 +93,12 @@ class WeldTest {
   bool slowerThan(double limit, const Weld& weld, const VelocityField& a,
                   const VelocityField& b) const;
 
-  /// Writes one test down if somebody asks.
-  void note(const Weld& weld, Decision test) const;
+  /// Writes one test down if somebody asks: only then is `test()` made.
+  template <class MakeDecision>
+  void note(const Weld& weld, MakeDecision&& test) const {
+    if (scratch_.notes) writeDown(weld, test());
+  }
+  void writeDown(const Weld& weld, Decision test) const;
 
   void cutWeld(Weld& weld, EventReason reason);
 

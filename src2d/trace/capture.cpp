@@ -222,23 +222,21 @@ void countBodies(const State& state, Scratch& scratch) {
   Stats& stats = scratch.stats;
   stats.bodies = stats.active_bodies = stats.collections = stats.asleep = 0;
   stats.internal_contacts = 0;
-  for (std::size_t i = 0; i < state.rigids.size(); ++i) {
-    const Rigid& r = state.rigids[i];
-    if (!r.present()) continue;
-    if (i < state.bodies.size()) {
+  for (const RigidId id : state.present) {
+    const Rigid& r = state[id];
+    if (!state.isCollection(id)) {
       if (!r.floating()) continue;
       stats.bodies += 1;
       stats.asleep += r.asleep ? 1 : 0;
       stats.active_bodies += r.asleep ? 0 : 1;
     } else {
-      const Collection& c = state.collections[i - state.bodies.size()];
+      const Collection& c = state.collection(id);
       const int members = static_cast<int>(c.members.size());
       stats.bodies += members;
       stats.collections += 1;
       stats.asleep += r.asleep ? members : 0;
       stats.active_bodies += r.asleep ? 0 : 1;
-      if (r.asleep) continue;
-      for (const ContactBlock& k : c.blocks) stats.internal_contacts += k.count;
+      stats.internal_contacts += r.asleep ? 0 : c.points;
     }
   }
 }

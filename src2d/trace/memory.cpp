@@ -17,7 +17,7 @@ std::size_t bytesOfBroadphase(const Broadphase& b) {
 
 std::size_t bytesOfState(const State& s) {
   std::size_t total = bytesOf(s.colliders, s.collider_bounds, s.shape_collider, s.shape_body,
-                              s.first_sibling, s.siblings, s.bodies, s.rigids, s.extents,
+                              s.first_sibling, s.siblings, s.bodies, s.rigids, s.present, s.extents,
                               s.collections, s.joints, s.joined_pairs, s.ready_before) +
                       bytesOf(s.contacts.slots, s.contacts.free_slots, s.contacts.order) +
                       bytesOfBroadphase(s.broadphase);
