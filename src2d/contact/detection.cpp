@@ -20,12 +20,14 @@ double reach(const State& state, double ahead) {
   return std::max(state.settings.solver.margin, ahead);
 }
 
+/// True for two things fixed to the same frame.
+bool sameFrame(const Rigid& a, const Rigid& b) {
+  return !a.floating() && !b.floating() && a.anchor == b.anchor;
+}
+
 /// Most of those that do not touch stay apart however fast they are, and many need no look at all:
-/// they are fixed to the same frame, or were farther apart than what has moved since.
+/// they were farther apart than what has moved since.
 bool staysApart(const State& state, Contact& contact, double farthest) {
-  if (contact.count > 0) return false;
-  const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
-  if (!a.floating() && !b.floating() && a.anchor == b.anchor) return true;
   contact.apart -= static_cast<float>(2.0 * state.moved);
   if (contact.apart > reach(state, farthest)) return true;
   const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
@@ -130,12 +132,17 @@ void detectContacts(State& state, Scratch& scratch) {
   for (const ContactTable::Slot slot : state.contacts.order) {
     const ContactKey key = state.contacts[slot].key;
     const Rigid &a = state.rigid(key.a), &b = state.rigid(key.b);
-    if (resting(a) && resting(b)) {
-      holdBreath(state.contacts[slot]);
+    Contact& contact = state.contacts[slot];
+    const bool fixed = resting(a) && resting(b);
+    if (fixed) holdBreath(contact);
+    if (fixed || (contact.count == 0 && sameFrame(a, b))) {
+      contact.apart = 0.0F;  // what they have moved before is not counted from here on
       continue;
     }
-    Contact& contact = state.contacts[slot];
-    if (staysApart(state, contact, farthest)) continue;
+    if (contact.count == 0 && staysApart(state, contact, farthest)) {
+      loseTouch(contact);
+      continue;
+    }
     updateManifold(state, contact, approach(state, scratch, key.a, key.b));
   }
   collectPairs(state, scratch);

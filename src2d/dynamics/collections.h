@@ -106,11 +106,14 @@ struct Collection {
   std::vector<std::uint32_t> contact_block;  ///< and the other way round
   std::vector<std::uint8_t> watched;     ///< per block: is at its limit, or was in the last step
   std::vector<Grip> grip;                ///< per weld
-  std::vector<std::uint32_t> pivots;     ///< welds with fewer than two contacts that hold
+  std::vector<std::uint32_t> pivots;     ///< Lost or Pivot: the only ones that can turn in 2D
   std::vector<std::uint32_t> leaning;    ///< bridges with a contact that now carries nothing
   std::vector<std::uint32_t> cut_welds;  ///< in the last step
-  std::vector<std::uint32_t> spare;      ///< welds without which, all at once, it holds together
-  std::vector<std::uint32_t> loosened;   ///< welds that have lost a contact since that was found
+  /// Welds without which, all at once, it was found to hold together.
+  std::vector<std::uint32_t> spare;
+  /// Other welds that have lost a contact since.
+  std::vector<std::uint32_t> loosened;
+  bool judged = false;  ///< asked since it was laid out whether it holds together
   bool pivots_stale = true;
   int points = 0;                   ///< contact points of all blocks
   std::uint32_t active_blocks = 0;  ///< the first ones; the others are swept in disturbed steps

@@ -14,9 +14,9 @@ std::uint32_t nodeOf(const State& state, const Collection& c, BodyId body);
 /// Lists the welds of each node.
 void indexWelds(const State& state, Collection& c);
 
-/// True when other welds near each of these, none of them cut, hold its two bodies in one rigid
-/// group, and not by way of the frame. What held together with these welds then holds together
-/// without them. False when in doubt.
+/// True when welds near each of these, what is left of it included and none of them cut, hold its
+/// two bodies in one rigid group, and not by way of the frame. What held together with these welds
+/// then holds together without them. False when in doubt.
 bool heldByDetours(const State& state, const Collection& c, std::span<const std::uint32_t> welds);
 
 }  // namespace merge2d

@@ -154,9 +154,11 @@ void breakJointsInside(State& state, Scratch& scratch, Collection& c) {
     if (breaks(state, joint)) breakJoint(state, scratch, joint);
   }
   std::erase_if(c.joints, [&](const JointBlock& k) { return state.joints[k.joint].broken; });
-  for (Weld& weld : c.welds) {
+  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
+    Weld& weld = c.welds[i];
     const bool held = weld.joints > 0;
     weld.joints = static_cast<std::int16_t>(holdOf(state, c, weld).contacts());
+    updateGrip(state, c, i);
     if (!held || weld.joints > 0 || weld.count > 0) continue;
     weld.cut = true;
     weld.reason = EventReason::Broken;

@@ -177,6 +177,7 @@ void layOutBlocks(const State& state, Collection& c) {
   c.cut_welds.clear();
   c.spare.clear();
   c.loosened.clear();
+  c.judged = false;
   c.points = 0;
   for (const std::uint32_t contact : c.block_contact) {
     InternalContact& inner = c.contacts[contact];

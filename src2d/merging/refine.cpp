@@ -29,16 +29,14 @@ class Refinement {
 
   double run(std::span<const std::uint32_t> seeds) {
     constexpr int kRound = 10;  // after so many sweeps the items are chosen anew
-    const int most =
-        std::max(state_.settings.unmerging.disturbed_sweeps, state_.settings.solver.iterations);
     queue_.assign(seeds.begin(), seeds.end());
     for (std::uint32_t b = 0; b < scratch_.restless_bodies.size(); ++b) {
       if (scratch_.restless_bodies[b]) queue_.push_back(b);
       scratch_.restless_bodies[b] = 0;
     }
-    for (int done = 0; done < most && !queue_.empty();) {
+    for (int done = 0; done < scope_.most && !queue_.empty();) {
       walk();
-      const int more = std::max(1, std::min(kRound, most - done) - 1);
+      const int more = std::max(1, std::min(kRound, scope_.most - done) - 1);
       converge(more);
       done += 1 + more;
       queueRestless();

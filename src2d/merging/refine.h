@@ -26,6 +26,7 @@ struct SweepItem {
 struct SweepScope {
   std::vector<SweepItem> loose;          ///< contacts outside collections, and all joints
   std::span<const std::uint8_t> inside;  ///< per collection slot: its contacts too
+  int most = 0;                          ///< sweeps to spend
 };
 
 /// Solves one block of rows, whose frame is turned by `turn`.
@@ -50,8 +51,8 @@ double refinedVelocity(const State& state);
 
 /// Sweeps what is at the seeds and at the bodies marked in `scratch.restless_bodies`, breadth
 /// first; then what is at bodies that the last sweep changed by more than `threshold` [m/s], and so
-/// on, accelerated as in the full solve, until there are none or as many sweeps are spent as the
-/// full solve may take. Returns the largest change that may be left [m/s].
+/// on, accelerated as in the full solve, until there are none or `scope.most` sweeps are
+/// spent. Returns the largest change that may be left [m/s].
 double sweepUntilQuiet(State& state, Scratch& scratch, const SweepScope& scope,
                        std::span<const std::uint32_t> seeds, double threshold);
 

@@ -40,6 +40,7 @@ bool holdsWithout(const State& state, Scratch& scratch, Collection& c,
 }
 
 void spare(Collection& c, const std::vector<std::uint32_t>& welds) {
+  c.judged = true;
   c.spare.assign(welds.begin(), welds.end());
   c.loosened.clear();
 }
@@ -50,8 +51,9 @@ std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collectio
   auto& others = scratch.others;
   listOthers(c, others);
   const std::size_t few = 4 + c.members.size() / 64;  // as long as it is quicker than to judge all
+  if (others.empty() && !anew) return {};
+  anew |= !c.judged;
   if (!anew) {
-    if (others.empty()) return {};
     if (others.size() <= few && heldByDetours(state, c, others)) return {};
   }
   if (!c.spare.empty() && !anew) {

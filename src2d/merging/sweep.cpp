@@ -173,22 +173,32 @@ void sweepBreadthFirst(State& state, Scratch& scratch) {
   }
 }
 
+/// As many sweeps as the full solve may take: where something new enters, and before anything
+/// parts. What comes of a blow in later steps needs fewer, as each step goes on from the last.
+int fullEffort(const State& state) {
+  return std::max(state.settings.unmerging.disturbed_sweeps, state.settings.solver.iterations);
+}
+
 /// Breadth first from what is new, and from what the sweep changed: `blow` at most.
 void refineDisturbed(State& state, Scratch& scratch, double blow) {
   if (!anyDisturbed(scratch)) return releaseBuffers(scratch);
   spreadDisturbance(state, scratch);
   noteOrder(state, scratch);
   const double enough = enoughAfter(state, blow);
-  const SweepScope scope{looseItems(state, scratch), scratch.disturbed};
+  const int effort =
+      scratch.seeds.empty() ? state.settings.unmerging.disturbed_sweeps : fullEffort(state);
+  const SweepScope scope{looseItems(state, scratch), scratch.disturbed, effort};
   const double change = sweepUntilQuiet(state, scratch, scope, scratch.seeds, enough);
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
     layOutPush(state, c);
     c.settled = false;
-    c.residual = static_cast<float>(change);
+    // What is left may be another collection's: twice its own change is all that it is held for.
+    const float left = static_cast<float>(change);
+    c.stubborn = change <= enough ? 0.0F : std::min(left, 2.0F * c.residual);
+    c.residual = left;
     if (change <= enough) c.follow_up = 0;
-    c.stubborn = change <= enough ? 0.0F : c.residual;
   }
 }
 
@@ -253,6 +263,7 @@ void sweepAgain(State& state, Scratch& scratch, Collection& c) {
   std::vector<std::uint8_t> only(state.collections.size(), 0);
   only[index(c.rigid) - state.bodies.size()] = 1;
   scope.inside = only;
+  scope.most = fullEffort(state);
   const double change =
       sweepUntilQuiet(state, scratch, scope, scratch.doubted, residualVelocity(state));
   c.residual = static_cast<float>(change);

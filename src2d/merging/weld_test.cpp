@@ -64,11 +64,17 @@ void WeldTest::testContacts(std::uint32_t b) {
     if (pressed) noteCone(weld, k, i, edge);
     c_.watched[b] |= edge || !pressed;
     if (point.lost && !was_lost) {
-      c_.loosened.push_back(weld);
+      noteLoosened(weld);
       doubt(c_.welds[weld]);
     }
     if (was_lost != point.lost || was_active != point.active) updateGrip(state_, c_, weld);
   }
+}
+
+void WeldTest::noteLoosened(std::uint32_t weld) {
+  const bool known = std::ranges::binary_search(c_.spare, weld) ||
+                     std::ranges::find(c_.loosened, weld) != c_.loosened.end();
+  if (!known) c_.loosened.push_back(weld);
 }
 
 ContactVelocity WeldTest::velocityAt(const ContactBlock& k, int i) const {

@@ -45,6 +45,9 @@ class WeldTest {
   /// Broken (Section 6.3) and on edge (Eqs. (19), (20)).
   void testContacts(std::uint32_t b);
 
+  /// One of its contacts has opened: see Collection::loosened.
+  void noteLoosened(std::uint32_t weld);
+
   /// Velocity at a point after the sweep.
   ContactVelocity velocityAt(const ContactBlock& k, int i) const;
 

@@ -67,7 +67,7 @@ struct UnmergingSettings {
   double sliding = 1e-2;      ///< slip threshold, Eq. (19) [m/s]
   int steps = 3;              ///< consecutive steps above the threshold
   int sweeps = 1;             ///< PGS sweeps per step over the contacts inside collections
-  int disturbed_sweeps = 10;  ///< at most so many where something is new (merging/refine.h)
+  int disturbed_sweeps = 10;  ///< at most so many where a disturbance goes on (merging/refine.h)
   bool ordering = true;       ///< breadth first from what is new (Section 6.2)
 };
 
