@@ -29,20 +29,30 @@ void listOthers(const Collection& c, std::vector<std::uint32_t>& others) {
   sortUnique(others);
 }
 
-/// Whether it would hold together without what is cut and what was spare before, all at once.
-bool holdsWithout(const State& state, Scratch& scratch, Collection& c,
-                  const std::vector<std::uint32_t>& all) {
-  for (const std::uint32_t weld : all) c.welds[weld].cut = true;
-  const bool apart = fallsApart(state, c, judge(state, scratch, c));
-  for (const std::uint32_t weld : all) c.welds[weld].cut = false;
-  for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = true;
-  return !apart;
-}
-
 void spare(Collection& c, const std::vector<std::uint32_t>& welds) {
   c.judged = true;
   c.spare.assign(welds.begin(), welds.end());
   c.loosened.clear();
+}
+
+bool heldAround(const State& state, const Collection& c, const std::vector<std::uint32_t>& others) {
+  const std::size_t few = 4 + c.members.size() / 64;  // more take longer than to judge all
+  return others.size() <= few && heldByDetours(state, c, others);
+}
+
+/// Whether it would hold together without the others and what was spare before, all at once: then
+/// none of them is asked about for a while.
+bool othersAreSpare(const State& state, Scratch& scratch, Collection& c,
+                    std::vector<std::uint32_t>& others) {
+  if (c.spare.empty()) return false;
+  others.insert(others.end(), c.spare.begin(), c.spare.end());
+  sortUnique(others);
+  for (const std::uint32_t weld : others) c.welds[weld].cut = true;
+  const bool apart = fallsApart(state, c, judge(state, scratch, c));
+  for (const std::uint32_t weld : others) c.welds[weld].cut = false;
+  for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = true;
+  if (!apart) spare(c, others);
+  return !apart;
 }
 
 }  // namespace
@@ -50,24 +60,14 @@ void spare(Collection& c, const std::vector<std::uint32_t>& welds) {
 std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collection& c, bool anew) {
   auto& others = scratch.others;
   listOthers(c, others);
-  const std::size_t few = 4 + c.members.size() / 64;  // as long as it is quicker than to judge all
   if (others.empty() && !anew) return {};
-  anew |= !c.judged;
-  if (!anew) {
-    if (others.size() <= few && heldByDetours(state, c, others)) return {};
-  }
-  if (!c.spare.empty() && !anew) {
-    others.insert(others.end(), c.spare.begin(), c.spare.end());
-    sortUnique(others);
-    if (holdsWithout(state, scratch, c, others)) {
-      spare(c, others);
-      return {};
-    }
-  }
-  others.assign(c.cut_welds.begin(), c.cut_welds.end());
-  sortUnique(others);
+  const bool known = c.judged && !anew;  // a layout only assumes that all holds together
+  if (known && heldAround(state, c, others)) return {};
+  if (known && othersAreSpare(state, scratch, c, others)) return {};
   Parts parts = judge(state, scratch, c);
   if (fallsApart(state, c, parts)) return parts;
+  others.assign(c.cut_welds.begin(), c.cut_welds.end());
+  sortUnique(others);
   spare(c, others);
   return {};
 }
