@@ -141,11 +141,11 @@ void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, grip,
          pivots, leaning, cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks,
          welds, weld_at, weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up,
-         stubborn, residual, settled, refuted] = c;
+         lingering, residual, settled, refuted] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, grip,
      pivots, leaning, cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks,
      welds, weld_at, weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up,
-     stubborn, residual, settled, refuted);
+     lingering, residual, settled, refuted);
 }
 
 template <class Ar>

@@ -125,11 +125,11 @@ struct Collection {
   bool stale = false;              ///< contacts changed: welds and blocks must be laid out anew
   Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
   int frame_known = 0;                                     ///< steps since it was formed, up to 2
-  int follow_up = 0;      ///< steps for which a disturbance is still followed, see sweep.cpp
-  float stubborn = 0.0F;  ///< what the last refinement did not quieten [m/s]
-  float residual = 0.0F;  ///< largest change of a member's velocity in the last sweep [m/s]
-  bool settled = false;   ///< inner forces did not change in the last sweep
-  bool refuted = false;   ///< more sweeps did not confirm what seemed to part, and nothing is new
+  int follow_up = 0;       ///< steps for which a disturbance is still followed, see sweep.cpp
+  float lingering = 0.0F;  ///< what the last refinement did not quieten [m/s]
+  float residual = 0.0F;   ///< largest change of a member's velocity in the last sweep [m/s]
+  bool settled = false;    ///< inner forces did not change in the last sweep
+  bool refuted = false;    ///< more sweeps did not confirm what seemed to part, and nothing is new
 };
 
 /// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.

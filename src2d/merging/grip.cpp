@@ -31,8 +31,6 @@ Grip gripOf(const Collection& c, const Weld& weld, double resolution) {
   return hadContact(c, weld) ? Grip::Lost : Grip::None;
 }
 
-bool isPivot(Grip grip) { return grip == Grip::Lost || grip == Grip::Pivot; }
-
 }  // namespace
 
 int activeContacts(const Collection& c, const Weld& weld) {

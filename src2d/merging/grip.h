@@ -18,8 +18,10 @@ double resolutionOf(const State& state, const Collection& c);
 void updateGrip(const State& state, Collection& c, std::uint32_t weld);
 void findGrips(const State& state, Collection& c);
 
-/// Lists the welds with fewer than two contacts that hold and once had one: the only ones that can
-/// turn in 2D.
+/// Fewer than two contacts hold, and there was one: only such a weld can turn in 2D.
+inline bool isPivot(Grip grip) { return grip == Grip::Lost || grip == Grip::Pivot; }
+
+/// Lists those welds.
 void listPivots(Collection& c);
 
 /// Calls `visit(point)` for the contacts of a weld that hold.

@@ -7,12 +7,6 @@
 namespace merge2d {
 namespace {
 
-/// Asks the criterion anew.
-Parts judge(const State& state, Scratch& scratch, const Collection& c) {
-  if (scratch.notes) scratch.notes->judged += static_cast<int>(c.welds.size());
-  return partsWithoutCuts(state, c);
-}
-
 void sortUnique(std::vector<std::uint32_t>& welds) {
   std::ranges::sort(welds);
   welds.erase(std::unique(welds.begin(), welds.end()), welds.end());
@@ -56,6 +50,11 @@ bool othersAreSpare(const State& state, Scratch& scratch, Collection& c,
 }
 
 }  // namespace
+
+Parts judge(const State& state, Scratch& scratch, const Collection& c) {
+  if (scratch.notes) scratch.notes->judged += static_cast<int>(c.welds.size());
+  return partsWithoutCuts(state, c);
+}
 
 std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collection& c, bool anew) {
   auto& others = scratch.others;

@@ -121,10 +121,10 @@ void follow(const State& state, Collection& c, Scratch& scratch, double change) 
   constexpr int kSteps = 10;
   constexpr float kForgets = 0.95F;  // in each step
   std::uint8_t& disturbed = scratch.disturbed[index(c.rigid) - state.bodies.size()];
-  const double stubborn = c.stubborn *= kForgets;
-  const bool anew = disturbed != 0 || change > std::max(refinedVelocity(state), stubborn);
+  const double lingering = c.lingering *= kForgets;
+  const bool anew = disturbed != 0 || change > std::max(refinedVelocity(state), lingering);
   c.follow_up = anew ? kSteps : std::max(0, c.follow_up - 1);
-  const bool followed = c.follow_up > 0 && change > std::max(residualVelocity(state), stubborn);
+  const bool followed = c.follow_up > 0 && change > std::max(residualVelocity(state), lingering);
   disturbed = anew || followed ? 1 : 0;
 }
 
@@ -181,6 +181,7 @@ int fullEffort(const State& state) {
 
 /// Breadth first from what is new, and from what the sweep changed: `blow` at most.
 void refineDisturbed(State& state, Scratch& scratch, double blow) {
+  constexpr float kOwn = 3.0F;  // times its own change: more of what is left is another's
   if (!anyDisturbed(scratch)) return releaseBuffers(scratch);
   spreadDisturbance(state, scratch);
   noteOrder(state, scratch);
@@ -194,9 +195,8 @@ void refineDisturbed(State& state, Scratch& scratch, double blow) {
     if (!scratch.disturbed[slot]) continue;
     layOutPush(state, c);
     c.settled = false;
-    // What is left may be another collection's: twice its own change is all that it is held for.
     const float left = static_cast<float>(change);
-    c.stubborn = change <= enough ? 0.0F : std::min(left, 2.0F * c.residual);
+    c.lingering = change <= enough ? 0.0F : std::min(left, kOwn * c.residual);
     c.residual = left;
     if (change <= enough) c.follow_up = 0;
   }

@@ -47,12 +47,6 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
   scratch.split = true;
 }
 
-/// Asks the criterion anew.
-Parts partsOf(const State& state, Scratch& scratch, const Collection& c) {
-  if (scratch.notes) scratch.notes->judged += static_cast<int>(c.welds.size());
-  return partsWithoutCuts(state, c);
-}
-
 /// Where more sweeps begin for the sake of the joints.
 void doubtJoints(Scratch& scratch, const Collection& c) {
   for (const JointBlock& k : c.joints) {
@@ -67,7 +61,7 @@ bool breakInside(State& state, Scratch& scratch, Collection& c) {
   sweepAgain(state, scratch, c);
   if (!anyJointBreaks(state, c)) return false;
   breakJointsInside(state, scratch, c);
-  const Parts parts = partsOf(state, scratch, c);
+  const Parts parts = judge(state, scratch, c);
   if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, c.rigid, parts);
   scratch.split = true;  // to be laid out anew
   return true;
@@ -134,7 +128,7 @@ void releaseBody(State& state, Scratch& scratch, BodyId body) {
       weld.cut = any = true;
       weld.reason = EventReason::User;
     }
-    if (any) splitAtCuts(state, scratch, c.rigid, partsOf(state, scratch, c));
+    if (any) splitAtCuts(state, scratch, c.rigid, judge(state, scratch, c));
   }
   finishSplits(state, scratch);
 }

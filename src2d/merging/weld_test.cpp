@@ -192,15 +192,11 @@ void WeldTest::leans(std::uint32_t weld) {
 void WeldTest::testLeaning() {
   for (const std::uint32_t weld : leant_) {
     const bool still = std::ranges::find(c_.leaning, weld) != c_.leaning.end();
-    if (!still && !isPivot(weld)) c_.welds[weld].turning = {};
+    if (!still && !isPivot(c_.grip[weld])) c_.welds[weld].turning = {};
   }
   for (const std::uint32_t weld : c_.leaning) {
-    if (!isPivot(weld)) testMotion(c_.welds[weld]);
+    if (!isPivot(c_.grip[weld])) testMotion(c_.welds[weld]);
   }
-}
-
-bool WeldTest::isPivot(std::uint32_t weld) const {
-  return c_.grip[weld] == Grip::Lost || c_.grip[weld] == Grip::Pivot;
 }
 
 bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {

@@ -78,8 +78,6 @@ class WeldTest {
   /// Relative motion of those, long before the contact that carries nothing has opened.
   void testLeaning();
 
-  bool isPivot(std::uint32_t weld) const;
-
   /// As in the paper: fast enough in several consecutive steps.
   bool moveLoudly(Weld& weld, const Turning& now) const;
 

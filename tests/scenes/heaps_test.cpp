@@ -26,12 +26,7 @@ TEST(Pile, MergesWithEachOtherThenWithTheGroundThenFallsAsleep) {
   EXPECT_GT(on_ground_since, floating_since);
   run.until(20.0);
   EXPECT_EQ(run.now().stats.bodies, 180);
-  EXPECT_GE(run.now().stats.asleep, 178);
-  for (const BodyState& body : run.now().bodies) {
-    if (body.asleep || !run.dynamic(body.id)) continue;
-    EXPECT_TRUE(run.nameOf(body.id).starts_with("disc")) << run.nameOf(body.id);
-    EXPECT_LT(body.v.norm(), 1e-3) << "it rolls, and nothing brakes it";
-  }
+  EXPECT_EQ(run.now().stats.asleep, 180);
 }
 
 TEST(Pile, NoPairMergesAndPartsOverAndOver) {
