@@ -99,8 +99,9 @@ FacePair facePair(const b2Manifold& found, const Collider& a, const Collider& b,
   return pair;
 }
 
-/// The contact of a corner at one end of the reference face with the incident edge beside it.
-Manifold cornerContact(const FacePair& pair, int end, double margin) {
+/// The contact of a corner at one end of the reference face with the incident edge, which is beside
+/// the face but for `width` of it.
+Manifold cornerContact(const FacePair& pair, int end, double width, double margin) {
   Manifold m;
   const Vec2& corner = end == 1 ? pair.reference.end : pair.reference.begin;
   const Vec2 along = pair.incident.end - pair.incident.begin;
@@ -112,7 +113,8 @@ Manifold cornerContact(const FacePair& pair, int end, double margin) {
   // corners in one place have no direction between them, but neither do they bear on each other.
   const bool one_place = distance <= kCornerDistance;
   const double height = pair.height(nearest);
-  if (height < (one_place ? -kCornerOverlap : -kCornerDistance)) {
+  const bool beside = one_place && width <= 0.0;
+  if (!beside && height < (one_place ? -kCornerOverlap : -kCornerDistance)) {
     // a true overlap: only the face's own direction ends it
     m.normal = pair.normalFromA();
     addPoint(m, nearest - 0.5 * height * pair.normal, height, pair.feature(end));
@@ -131,8 +133,9 @@ Manifold clippedContact(const FacePair& pair, double margin) {
   const std::array<Vec2, 2> vertices = {pair.incident.end, pair.incident.begin};
   const double low = tangent.dot(vertices[0] - pair.reference.begin);
   const double high = tangent.dot(vertices[1] - pair.reference.begin);
-  if (std::min(high, length) - std::max(low, 0.0) < kCornerWidth) {
-    return cornerContact(pair, low + high > length ? 1 : 0, margin);
+  const double width = std::min(high, length) - std::max(low, 0.0);
+  if (width < kCornerWidth) {
+    return cornerContact(pair, low + high > length ? 1 : 0, width, margin);
   }
   std::array<Vec2, 2> ends = vertices;
   const Vec2 along = (vertices[1] - vertices[0]) / (high - low);
@@ -145,7 +148,7 @@ Manifold clippedContact(const FacePair& pair, double margin) {
   const Vec2& corner = lower == 0 ? pair.reference.begin : pair.reference.end;
   if (pair.height(vertices[lower]) > 0.0 &&
       gaps[lower] > (vertices[lower] - corner).norm() + kCornerDistance) {
-    return cornerContact(pair, static_cast<int>(lower), margin);
+    return cornerContact(pair, static_cast<int>(lower), width, margin);
   }
 
   Manifold m;
