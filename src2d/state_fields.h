@@ -55,17 +55,17 @@ void fields(Ar& ar, Some<Extent> auto& e) {
 template <class Ar>
 void fields(Ar& ar, Some<Rigid> auto& r) {
   auto& [x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
-         inv_inertia, extent, anchor, leaf, quiet_steps, asleep, resized, member] = r;
+         inv_inertia, extent, anchor, leaf, quiet_steps, asleep, resized] = r;
   bool present = r.present();
   ar(x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
-     inv_inertia, extent, anchor, present, quiet_steps, asleep, resized, member);
+     inv_inertia, extent, anchor, present, quiet_steps, asleep, resized);
   if constexpr (!std::is_const_v<std::remove_reference_t<decltype(r)>>) leaf = present ? 0 : -1;
 }
 template <class Ar>
 void fields(Ar& ar, Some<Body> auto& b) {
-  auto& [first_shape, shape_count, rigid, motion, alive, magnet_on, mass, inertia, friction,
+  auto& [first_shape, shape_count, rigid, motion, alive, magnet_on, member, mass, inertia, friction,
          restitution, pinned_until, local_angle, local, local_rotation, load, load_asleep] = b;
-  ar(first_shape, shape_count, rigid, motion, alive, magnet_on, mass, inertia, friction,
+  ar(first_shape, shape_count, rigid, motion, alive, magnet_on, member, mass, inertia, friction,
      restitution, pinned_until, local_angle, local, local_rotation, load, load_asleep);
 }
 

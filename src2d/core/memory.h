@@ -25,6 +25,12 @@ std::size_t bytesOf(const std::vector<T>&... v) {
   return (std::size_t{0} + ... + (v.capacity() * sizeof(T)));
 }
 
+/// Gives back what is more than a sixteenth of what is used.
+template <class T>
+void tighten(std::vector<T>& v) {
+  if (v.capacity() - v.size() > v.size() / 16) v.shrink_to_fit();
+}
+
 /// Gives memory back that is mostly unused.
 template <class... T>
 void trim(std::vector<T>&... v) {

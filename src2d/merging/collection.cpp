@@ -51,6 +51,7 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   saveForces(target);
   saveForces(source);
   for (const BodyId b : source.members) enlist(state, to, b, state.pose(b), state.angle(b));
+  reserveTightly(target.contacts, target.contacts.size() + source.contacts.size());
   for (InternalContact& inner : source.contacts) {
     inner.normal = relative.rotation * inner.normal;
     for (InternalPoint& p : inner.points) p.position = relative * p.position;
@@ -200,7 +201,6 @@ RigidId anchorRigid(State& state, RigidId id, BodyId anchor) {
 FrameId frameOf(const State& state, BodyId body) { return state[rigidOf(body)].anchor; }
 
 void absorbContacts(State& state) {
-  std::vector<RigidId> touched;
   dropContacts(state, [&](const Contact& contact) {
     const RigidId ra = state[contact.key.a].rigid, rb = state[contact.key.b].rigid;
     const bool a_in = state.isCollection(ra), b_in = state.isCollection(rb);
@@ -231,6 +231,7 @@ void absorbContacts(State& state) {
       point.feature = p.feature;
       point.active = p.lambda_n > 0.0 || isBilateral(state, contact.key.a, contact.key.b);
     }
+    reserveTightly(c.contacts, c.contacts.size() + 1);
     c.contacts.push_back(inner);
     return true;
   });

@@ -31,6 +31,12 @@ Grip gripOf(const Collection& c, const Weld& weld, double resolution) {
   return hadContact(c, weld) ? Grip::Lost : Grip::None;
 }
 
+void setGrip(Collection& c, std::uint32_t weld, double resolution) {
+  c.grip[weld] = gripOf(c, c.welds[weld], resolution);
+  if (!isPivot(c.grip[weld])) c.welds[weld].turning = {};
+  c.pivots_stale = true;
+}
+
 }  // namespace
 
 int activeContacts(const Collection& c, const Weld& weld) {
@@ -45,14 +51,13 @@ double resolutionOf(const State& state, const Collection& c) {
 }
 
 void updateGrip(const State& state, Collection& c, std::uint32_t weld) {
-  c.grip[weld] = gripOf(c, c.welds[weld], resolutionOf(state, c));
-  if (!isPivot(c.grip[weld])) c.welds[weld].turning = {};
-  c.pivots_stale = true;
+  setGrip(c, weld, resolutionOf(state, c));
 }
 
 void findGrips(const State& state, Collection& c) {
   c.grip.resize(c.welds.size());
-  for (std::uint32_t i = 0; i < c.welds.size(); ++i) updateGrip(state, c, i);
+  const double resolution = resolutionOf(state, c);
+  for (std::uint32_t i = 0; i < c.welds.size(); ++i) setGrip(c, i, resolution);
 }
 
 void listPivots(Collection& c) {

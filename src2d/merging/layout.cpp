@@ -73,7 +73,8 @@ void fitBox(State& state, RigidId id) {
 
 /// Contacts of one pair of bodies in a row form a weld, and so do its joints.
 void layOutWelds(const State& state, Collection& c) {
-  const std::vector<Weld> old = std::move(c.welds);
+  thread_local std::vector<Weld> old;  // its memory is kept
+  old.assign(c.welds.begin(), c.welds.end());
   c.welds.clear();
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
     const ContactKey& key = c.contacts[i].key;
@@ -90,7 +91,7 @@ void layOutWelds(const State& state, Collection& c) {
     weld.expected &= weld.joints == 0;
     for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) c.contacts[i].weld = w;
   }
-  c.welds.shrink_to_fit();
+  tighten(c.welds);
   c.leaning.clear();
   std::size_t o = 0;
   for (Weld& weld : c.welds) {
@@ -147,7 +148,7 @@ void layOutBlocks(const State& state, Collection& c) {
   std::array<std::uint32_t, 2 * kColours + 1> first{};
   std::vector<std::uint64_t> used(c.members.size(), 0);
   const auto colours = [&](BodyId b) -> std::uint64_t* {
-    return state[b].rigid == c.rigid ? &used[state[rigidOf(b)].member] : nullptr;
+    return state[b].rigid == c.rigid ? &used[state[b].member] : nullptr;
   };
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
     const InternalContact& inner = c.contacts[i];
@@ -171,8 +172,7 @@ void layOutBlocks(const State& state, Collection& c) {
   for (std::uint32_t b = 0; b < c.block_contact.size(); ++b)
     c.contact_block[c.block_contact[b]] = b;
   c.blocks.clear();
-  c.blocks.shrink_to_fit();
-  c.blocks.reserve(c.contacts.size());
+  reserveTightly(c.blocks, c.contacts.size());
   c.watched.assign(c.contacts.size(), 1);
   c.cut_welds.clear();
   c.spare.clear();
@@ -186,6 +186,7 @@ void layOutBlocks(const State& state, Collection& c) {
         c.blocks.back().count);  // points too close to each other count as one
     c.points += inner.count;
   }
+  tighten(c.blocks);
 }
 
 }  // namespace
@@ -196,7 +197,7 @@ void layOutPush(const State& state, Collection& c) {
   c.push.assign(c.members.size(), {});
   const auto add = [&](BodyId b, double sign, const Vec2& impulse, double moment) {
     if (state[b].rigid != c.rigid) return;
-    Twist& push = c.push[state[rigidOf(b)].member];
+    Twist& push = c.push[state[b].member];
     push.vx += sign * impulse.x() / state[b].mass;
     push.vy += sign * impulse.y() / state[b].mass;
     push.omega += sign * moment / state[b].inertia;
@@ -214,13 +215,26 @@ void layOutPush(const State& state, Collection& c) {
   });
 }
 
+namespace {
+
+/// Most are in order: what came in last follows after them.
+void sortContacts(std::vector<InternalContact>& contacts) {
+  const auto byKey = [](const InternalContact& x, const InternalContact& y) {
+    return x.key < y.key;
+  };
+  const auto late = std::is_sorted_until(contacts.begin(), contacts.end(), byKey);
+  std::sort(late, contacts.end(), byKey);
+  std::inplace_merge(contacts.begin(), late, contacts.end(), byKey);
+}
+
+}  // namespace
+
 void layOutCollections(State& state) {
   for (Collection& c : state.collections) {
     if (c.id == kNoCollection || !c.stale) continue;
-    std::sort(c.contacts.begin(), c.contacts.end(),
-              [](const InternalContact& x, const InternalContact& y) { return x.key < y.key; });
-    c.contacts.shrink_to_fit();
-    for (std::uint32_t i = 0; i < c.members.size(); ++i) state[rigidOf(c.members[i])].member = i;
+    sortContacts(c.contacts);
+    tighten(c.contacts);
+    for (std::uint32_t i = 0; i < c.members.size(); ++i) state[c.members[i]].member = i;
     if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
     fitBox(state, c.rigid);
     layOutJoints(state, c);

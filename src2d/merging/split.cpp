@@ -158,15 +158,18 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
   std::vector<std::vector<InternalContact>> kept(members.size());
   std::vector<Released> released;
   {
-    const Collection& c = state.collection(id);
-    const auto partOf = [&](BodyId b) { return part[state[rigidOf(b)].member]; };
+    Collection& c = state.collection(id);
+    std::size_t staying = 0;
+    const auto partOf = [&](BodyId b) { return part[state[b].member]; };
     for (const InternalContact& inner : c.contacts) {
       const BodyId a = inner.key.a, b = inner.key.b;
       const bool a_in = state[a].rigid == id, b_in = state[b].rigid == id;
       const std::uint32_t p = partOf(a_in ? a : b), q = partOf(b_in ? b : a);
       const bool on_frame = frameOf(state, a_in ? b : a) == whole.anchor;
       const bool stays = p == q && ((a_in && b_in) || (anchored[p] && on_frame));
-      if (stays) {
+      if (stays && p == largest) {
+        c.contacts[staying++] = inner;
+      } else if (stays) {
         kept[p].push_back(inner);
       } else {
         const Weld* cut = cutByTest(c, inner);
@@ -174,6 +177,7 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
         if (cut) ++released.back().inner.vain;
       }
     }
+    c.contacts.resize(staying);
   }
 
   // The other parts leave …
@@ -197,7 +201,6 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
   } else {
     Collection& c = state.collection(id);
     c.members = members[largest];
-    c.contacts = std::move(kept[largest]);
     c.blocks.clear();
     c.block_contact.clear();
     c.stale = true;
