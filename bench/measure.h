@@ -13,7 +13,7 @@
 namespace merge2d::bench {
 
 struct Plan {
-  int warmup = 400;  ///< steps before any is timed: by then walls rest, and what merges has merged
+  int warmup = 800;  ///< steps before any is timed: by then walls rest, and what merges has merged
   int rounds = 16;   ///< turns of each engine
   int steps = 24;    ///< timed steps per turn, after one that is not
 };

@@ -55,17 +55,17 @@ void fields(Ar& ar, Some<Extent> auto& e) {
 template <class Ar>
 void fields(Ar& ar, Some<Rigid> auto& r) {
   auto& [x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
-         inv_inertia, extent, anchor, leaf, quiet_steps, asleep, resized] = r;
+         inv_inertia, extent, anchor, leaf, quiet_steps, asleep, resized, member] = r;
   bool present = r.present();
   ar(x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
-     inv_inertia, extent, anchor, present, quiet_steps, asleep, resized);
+     inv_inertia, extent, anchor, present, quiet_steps, asleep, resized, member);
   if constexpr (!std::is_const_v<std::remove_reference_t<decltype(r)>>) leaf = present ? 0 : -1;
 }
 template <class Ar>
 void fields(Ar& ar, Some<Body> auto& b) {
-  auto& [first_shape, shape_count, rigid, motion, alive, magnet_on, member, mass, inertia, friction,
+  auto& [first_shape, shape_count, rigid, motion, alive, magnet_on, mass, inertia, friction,
          restitution, pinned_until, local_angle, local, local_rotation, load, load_asleep] = b;
-  ar(first_shape, shape_count, rigid, motion, alive, magnet_on, member, mass, inertia, friction,
+  ar(first_shape, shape_count, rigid, motion, alive, magnet_on, mass, inertia, friction,
      restitution, pinned_until, local_angle, local, local_rotation, load, load_asleep);
 }
 
@@ -123,13 +123,18 @@ void fields(Ar& ar, Some<Joint> auto& j) {
 
 template <class Ar>
 void fields(Ar& ar, Some<InternalPoint> auto& p) {
-  auto& [position, gap, lambda_n, lambda_t, feature, slip, opening, active, lost] = p;
-  ar(position, gap, lambda_n, lambda_t, feature, slip, opening, active, lost);
+  auto& [position, lambda_n, lambda_t] = p;
+  ar(position, lambda_n, lambda_t);
+}
+template <class Ar>
+void fields(Ar& ar, Some<PointWatch> auto& w) {
+  auto& [slip, opening, active, lost] = w;
+  ar(slip, opening, active, lost);
 }
 template <class Ar>
 void fields(Ar& ar, Some<InternalContact> auto& c) {
-  auto& [key, normal, since, weld, count, vain, points] = c;
-  ar(key, normal, since, weld, count, vain, points);
+  auto& [since, weld, count, vain, watch, feature, key, normal, points, gap] = c;
+  ar(since, weld, count, vain, watch, feature, key, normal, points, gap);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {

@@ -27,28 +27,36 @@ struct Drift {
 
 struct InternalPoint {
   Vec2 position = Vec2::Zero();  ///< in the collection's frame [m]
-  double gap = 0.0;              ///< when the two merged [m]
   double lambda_n = 0.0,
          lambda_t = 0.0;  ///< saved from its block when the blocks are laid out [N s]
-  std::uint32_t feature = 0;
+};
+
+/// What is known of a point's limits.
+struct PointWatch {
   Drift slip;           ///< along the tangent, over consecutive steps on the edge of the cone
   Drift opening;        ///< along the normal, over consecutive steps without a force
   bool active = false;  ///< has carried a force, so that its loss is a break
   bool lost = false;    ///< has opened since
+
+  bool holds() const { return active && !lost; }
 };
 
 /// Instead of the step of a merge: a contact that may close in this step, and holds nothing.
 inline constexpr std::int64_t kExpected = -1;
 
-/// A contact inside a collection: its memory is cold, its block hot.
+/// A contact inside a collection: its memory is cold, its block hot. What the tests of a step look
+/// at comes first.
 struct InternalContact {
-  ContactKey key;
-  Vec2 normal = Vec2::UnitX();  ///< from a to b, in the collection's frame
-  std::int64_t since = 0;       ///< step of the merge that brought it in, or kExpected
-  std::uint32_t weld = 0;       ///< which one it belongs to
+  std::int64_t since = 0;  ///< step of the merge that brought it in, or kExpected
+  std::uint32_t weld = 0;  ///< which one it belongs to
   std::int16_t count = 0;
   std::int16_t vain = 0;  ///< as in Contact
+  std::array<PointWatch, 2> watch;
+  std::array<std::uint32_t, 2> feature{};  ///< of each point
+  ContactKey key;
+  Vec2 normal = Vec2::UnitX();  ///< from a to b, in the collection's frame
   std::array<InternalPoint, 2> points;
+  std::array<double, 2> gap{};  ///< of each point, when the two merged [m]
 
   InternalPoint& point(int i) { return points[static_cast<std::size_t>(i)]; }
   const InternalPoint& point(int i) const { return points[static_cast<std::size_t>(i)]; }
@@ -63,8 +71,8 @@ struct InternalContact {
     for (std::size_t i = 0; i < 2; ++i) {
       ContactPoint& point = contact.points[i];
       point.position = points[i].position;
-      point.gap = points[i].gap;
-      point.feature = points[i].feature;
+      point.gap = gap[i];
+      point.feature = feature[i];
       point.lambda_n = points[i].lambda_n;
       point.lambda_t = points[i].lambda_t;
     }

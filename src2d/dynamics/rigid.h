@@ -44,7 +44,8 @@ struct Rigid {
   int leaf = -1;                             ///< in the broadphase; −1: not simulated as its own
   int quiet_steps = 0;                       ///< consecutive steps below the sleeping threshold
   bool asleep = false;
-  bool resized = false;  ///< bounds changed since the broadphase last looked
+  bool resized = false;      ///< bounds changed since the broadphase last looked
+  std::uint32_t member = 0;  ///< of a body in a collection: its place among the members
 
   bool present() const { return leaf >= 0; }
   bool floating() const { return anchor == kFloating; }
@@ -69,7 +70,6 @@ struct Body {
   Motion motion = Motion::Dynamic;
   bool alive = true;  ///< false before its emission
   bool magnet_on = false;
-  std::uint32_t member = 0;  ///< in a collection: its place among the members
   double mass = 0.0, inertia = 0.0;
   double friction = 0.0, restitution = 0.0;
   double pinned_until = 0.0;

@@ -221,15 +221,12 @@ void absorbContacts(State& state) {
     inner.since = state.step;
     const Pose from_a = state[id].frame().toLocal(state.pose(contact.key.a));
     inner.normal = from_a.rotation * contact.normal;
-    for (int i = 0; i < contact.count; ++i) {
-      const ContactPoint& p = contact.points[static_cast<std::size_t>(i)];
-      InternalPoint& point = inner.point(i);
-      point.position = from_a * p.position;
-      point.gap = p.gap;
-      point.lambda_n = p.lambda_n;
-      point.lambda_t = p.lambda_t;
-      point.feature = p.feature;
-      point.active = p.lambda_n > 0.0 || isBilateral(state, contact.key.a, contact.key.b);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
+      const ContactPoint& p = contact.points[i];
+      inner.points[i] = {from_a * p.position, p.lambda_n, p.lambda_t};
+      inner.gap[i] = p.gap;
+      inner.feature[i] = p.feature;
+      inner.watch[i].active = p.lambda_n > 0.0 || isBilateral(state, contact.key.a, contact.key.b);
     }
     reserveTightly(c.contacts, c.contacts.size() + 1);
     c.contacts.push_back(inner);

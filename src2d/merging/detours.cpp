@@ -88,7 +88,7 @@ class DetourSearch {
 }  // namespace
 
 std::uint32_t nodeOf(const State& state, const Collection& c, BodyId body) {
-  return state[body].rigid == c.rigid ? state[body].member
+  return state[body].rigid == c.rigid ? state[rigidOf(body)].member
                                       : static_cast<std::uint32_t>(c.members.size());
 }
 

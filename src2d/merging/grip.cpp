@@ -8,7 +8,7 @@ namespace {
 bool hadContact(const Collection& c, const Weld& weld) {
   if (weld.joints > 0) return true;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    if (c.contacts[i].points[0].active || c.contacts[i].points[1].active) return true;
+    if (c.contacts[i].watch[0].active || c.contacts[i].watch[1].active) return true;
   }
   return false;
 }

@@ -29,8 +29,8 @@ template <class Visit>
 void forEachHeld(const Collection& c, const Weld& weld, Visit&& visit) {
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const InternalContact& inner = c.contacts[i];
-    for (int p = 0; p < inner.count; ++p) {
-      if (inner.point(p).active && !inner.point(p).lost) visit(inner.point(p));
+    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.count); ++p) {
+      if (inner.watch[p].holds()) visit(inner.points[p]);
     }
   }
 }

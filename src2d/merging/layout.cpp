@@ -130,11 +130,11 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   k.b = static_cast<std::uint32_t>(contact.key.b);
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
   k.bilateral = isBilateral(state, contact.key.a, contact.key.b);
-  for (int i = 0; i < contact.count; ++i) {
-    const InternalPoint& p = contact.point(i);
-    k.lambda_n(i) = p.lambda_n;
-    k.lambda_t(i) = p.lambda_t;
-    k.bias[i] = p.active ? 0.0 : std::max(0.0, p.gap) / state.h;  // may not have met yet
+  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
+    k.lambda[i] = contact.points[i].lambda_n;
+    k.lambda[i + 2] = contact.points[i].lambda_t;
+    const bool has_met = contact.watch[i].active;
+    k.bias[i] = has_met ? 0.0 : std::max(0.0, contact.gap[i]) / state.h;
   }
   prepareBlock(k, g, memberMasses(state, c, contact.key.a), memberMasses(state, c, contact.key.b));
   return k;
@@ -148,7 +148,7 @@ void layOutBlocks(const State& state, Collection& c) {
   std::array<std::uint32_t, 2 * kColours + 1> first{};
   std::vector<std::uint64_t> used(c.members.size(), 0);
   const auto colours = [&](BodyId b) -> std::uint64_t* {
-    return state[b].rigid == c.rigid ? &used[state[b].member] : nullptr;
+    return state[b].rigid == c.rigid ? &used[state[rigidOf(b)].member] : nullptr;
   };
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
     const InternalContact& inner = c.contacts[i];
@@ -157,7 +157,7 @@ void layOutBlocks(const State& state, Collection& c) {
     const auto colour = std::min(static_cast<std::uint32_t>(std::countr_one(taken)), kColours - 1);
     if (a) *a |= std::uint64_t{1} << colour;
     if (b) *b |= std::uint64_t{1} << colour;
-    const bool dormant = !inner.points[0].active && !inner.points[1].active;
+    const bool dormant = !inner.watch[0].active && !inner.watch[1].active;
     colour_of.push_back(colour + (dormant ? kColours : 0));
     ++first[colour_of.back() + 1];
   }
@@ -197,7 +197,7 @@ void layOutPush(const State& state, Collection& c) {
   c.push.assign(c.members.size(), {});
   const auto add = [&](BodyId b, double sign, const Vec2& impulse, double moment) {
     if (state[b].rigid != c.rigid) return;
-    Twist& push = c.push[state[b].member];
+    Twist& push = c.push[state[rigidOf(b)].member];
     push.vx += sign * impulse.x() / state[b].mass;
     push.vy += sign * impulse.y() / state[b].mass;
     push.omega += sign * moment / state[b].inertia;
@@ -234,7 +234,7 @@ void layOutCollections(State& state) {
     if (c.id == kNoCollection || !c.stale) continue;
     sortContacts(c.contacts);
     tighten(c.contacts);
-    for (std::uint32_t i = 0; i < c.members.size(); ++i) state[c.members[i]].member = i;
+    for (std::uint32_t i = 0; i < c.members.size(); ++i) state[rigidOf(c.members[i])].member = i;
     if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
     fitBox(state, c.rigid);
     layOutJoints(state, c);

@@ -112,7 +112,7 @@ class Refinement {
     const std::size_t slot = index(id) - state_.bodies.size();
     if (!scope_.inside[slot]) return;
     Collection& c = state_.collections[slot];
-    const std::uint32_t member = state_.bodies[body].member;
+    const std::uint32_t member = state_[rigidOf(BodyId{body})].member;
     for (std::uint32_t k = c.weld_at[member]; k < c.weld_at[member + 1]; ++k) {
       const Weld& weld = c.welds[c.weld_of[k]];
       for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {

@@ -116,9 +116,11 @@ int patienceAfter(const State& state, const InternalContact& inner, const Weld* 
 
 /// How far ahead to look for its points again: contacts of what was struck may still be open [m].
 double farthestPoint(const InternalContact& inner) {
-  double gap = 0.0;
-  for (int i = 0; i < inner.count; ++i) gap = std::max(gap, inner.point(i).gap);
-  return 1.001 * gap;
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(inner.count); ++i) {
+    farthest = std::max(farthest, inner.gap[i]);
+  }
+  return 1.001 * farthest;
 }
 
 /// Contacts between the parts return to the table with their impulses and today's geometry.
@@ -160,7 +162,7 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
   {
     Collection& c = state.collection(id);
     std::size_t staying = 0;
-    const auto partOf = [&](BodyId b) { return part[state[b].member]; };
+    const auto partOf = [&](BodyId b) { return part[state[rigidOf(b)].member]; };
     for (const InternalContact& inner : c.contacts) {
       const BodyId a = inner.key.a, b = inner.key.b;
       const bool a_in = state[a].rigid == id, b_in = state[b].rigid == id;

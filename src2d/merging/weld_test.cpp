@@ -42,7 +42,7 @@ void WeldTest::testContacts(std::uint32_t b) {
   const std::uint32_t weld = inner.weld;
   c_.watched[b] = 0;
   for (int i = 0; i < k.count; ++i) {
-    InternalPoint& point = inner.point(i);
+    PointWatch& point = inner.watch[static_cast<std::size_t>(i)];
     const bool pressed = !broken(k, i), edge = pressed && onEdge(k, i);
     const bool was_lost = point.lost, was_active = point.active;
     if (pressed && inner.since != kExpected) {
@@ -53,7 +53,7 @@ void WeldTest::testContacts(std::uint32_t b) {
     }
     if (!edge) point.slip = {};
     if (scratch_.notes) {
-      at_ = state_[c_.rigid].frame() * point.position;
+      at_ = state_[c_.rigid].frame() * inner.point(i).position;
     }
     if (!pressed && point.active) leans(weld);
     if (edge || !pressed) {
@@ -206,16 +206,18 @@ bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {
 }
 
 bool WeldTest::turns(Weld& weld, const Turning& now) {
-  // Rigid rows may find a slow motion where soft contacts hold: what is slower is left to them. Not
-  // where nothing else holds: there both know the same forces.
   const UnmergingSettings& settings = state_.settings.unmerging;
-  const double slow = weld.bridge ? 0.0 : 0.1 * settings.velocity;
-  if (now.nearest <= noise() || std::abs(now.fastest) <= slow) {
+  if (now.nearest <= noise() || std::abs(now.fastest) <= slowFor(weld)) {
     weld.turning = {};
     return false;
   }
   return weigh(weld.turning, now.fastest, settings.velocity * caution(weld)).exceeds &&
          weld.turning.steps >= settings.steps;
+}
+
+double WeldTest::slowFor(const Weld& weld) const {
+  if (rule() == Rule::Paper) return state_.settings.unmerging.velocity;
+  return weld.bridge ? 0.0 : 0.1 * state_.settings.unmerging.velocity;
 }
 
 bool WeldTest::slowerThan(double limit, const Weld& weld, const VelocityField& a,
@@ -245,7 +247,7 @@ WeldTest::Turning WeldTest::relativeMotion(const Weld& weld) const {
   };
   const VelocityField a = field(weld.a, Vec2::Zero()), b = field(weld.b, between(weld));
   Turning motion;
-  if (!scratch_.notes && slowerThan(noise(), weld, a, b)) return motion;
+  if (!scratch_.notes && slowerThan(std::max(noise(), slowFor(weld)), weld, a, b)) return motion;
   const Vec2 origin = state_.pose(weld.a).position;
   for (const BodyId id : {weld.a, weld.b}) {
     if (state_[id].rigid != c_.rigid) continue;  // only the box of the body that can move

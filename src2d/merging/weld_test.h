@@ -85,6 +85,11 @@ class WeldTest {
   /// what it would gain is summed, as slip is.
   bool turns(Weld& weld, const Turning& now);
 
+  /// What turns slower than this does not turn: rigid rows may find a slow motion where soft
+  /// contacts hold. Not where nothing else holds: there both know the same forces.
+  double slowFor(const Weld& weld) const;
+
+  /// All zero when no corner can be fast enough to matter.
   Turning relativeMotion(const Weld& weld) const;
 
   /// From the centre of mass of the weld's first body to that of the other.

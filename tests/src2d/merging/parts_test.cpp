@@ -14,7 +14,7 @@ namespace {
 /// node for each member and at last one for the frame.
 Groups groupsOfAllPins(const State& state, const Collection& c) {
   const auto node = [&](BodyId b) {
-    return state[b].rigid == c.rigid ? state[b].member
+    return state[b].rigid == c.rigid ? state[rigidOf(b)].member
                                      : static_cast<std::uint32_t>(c.members.size());
   };
   std::vector<Pin> pins;
