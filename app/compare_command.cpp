@@ -57,7 +57,8 @@ void compare(const CompareOptions& options) {
   check(options);
   const Console console(options);
   catchInterrupts();
-  Comparison comparison(loadScene(options, console), !options.no_timings);
+  Comparison comparison(std::make_shared<const Scene>(loadScene(options, console)),
+                        !options.no_timings);
   std::unique_ptr<OutputFile> csv;  // opened first, so that nobody waits for nothing
   if (!options.csv.empty()) {
     csv = std::make_unique<OutputFile>(

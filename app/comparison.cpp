@@ -110,7 +110,7 @@ double ModeRun::mean(int StepRow::*number) const {
 /// One mode: its world, and what is noted of it.
 class Comparison::Lane {
  public:
-  Lane(const Scene& scene, Mode mode, bool timings, ModeRun& run)
+  Lane(const std::shared_ptr<const Scene>& scene, Mode mode, bool timings, ModeRun& run)
       : simulation_(scene, {.mode = mode, .timings = timings}), run_(run) {
     run_.mode = mode;
     simulation_.world().capture(now_);
@@ -173,13 +173,13 @@ class Comparison::Lane {
   std::vector<Sample> samples_;
 };
 
-Comparison::Comparison(const Scene& scene, bool timings)
-    : scene_(scene),
+Comparison::Comparison(std::shared_ptr<const Scene> scene, bool timings)
+    : scene_(std::move(scene)),
       timings_(timings),
-      steps_(stepCount(scene)),
+      steps_(stepCount(*scene_)),
       stride_(std::max<std::int64_t>(1, steps_ / kSamples)) {
   for (std::size_t i = 0; i < kModes.size(); ++i) {
-    lanes_[i] = std::make_unique<Lane>(scene, kModes[i], timings, runs_[i]);
+    lanes_[i] = std::make_unique<Lane>(scene_, kModes[i], timings, runs_[i]);
   }
 }
 

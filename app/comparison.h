@@ -59,14 +59,14 @@ inline constexpr int kFlickerSteps = 20;
 /// busy for all of them.
 class Comparison {
  public:
-  Comparison(const Scene& scene, bool timings);
+  Comparison(std::shared_ptr<const Scene> scene, bool timings);
   ~Comparison();
 
   /// Takes a turn in each mode. Throws SimulationError, which names the mode, or Interrupted.
   void advance();
   bool done() const;
 
-  const Scene& scene() const { return scene_; }
+  const Scene& scene() const { return *scene_; }
   bool timings() const { return timings_; }
   std::int64_t steps() const { return steps_; }  ///< in all
   std::int64_t stepsDone() const;                ///< of each mode
@@ -78,7 +78,7 @@ class Comparison {
 
   void measureDistances();
 
-  Scene scene_;
+  std::shared_ptr<const Scene> scene_;
   bool timings_;
   std::int64_t steps_ = 0, stride_ = 1;
   std::array<std::unique_ptr<Lane>, kModes.size()> lanes_;

@@ -47,7 +47,8 @@ class Rendering {
   explicit Rendering(const RenderOptions& options)
       : options_(options),
         console_(options),
-        simulation_(loadScene(options, console_), {.mode = options.mode, .timings = false}),
+        simulation_(std::make_shared<const Scene>(loadScene(options, console_)),
+                    {.mode = options.mode, .timings = false}),
         film_(filmOf(scene(), options)),
         folder_(options.folder.empty() ? fs::path("frames") / scene().name
                                        : fs::path(options.folder)),

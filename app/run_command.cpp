@@ -163,7 +163,7 @@ void run(const RunOptions& options) {
   const Console console(options);
   catchInterrupts();
   Simulation simulation(
-      loadScene(options, console),
+      std::make_shared<const Scene>(loadScene(options, console)),
       {.mode = options.mode, .timings = !options.no_timings, .decisions = options.decisions});
   resume(options, simulation);
   Record record(options, simulation.world());

@@ -2,8 +2,10 @@
 /// A scene that is simulated: what `run` and `render` have in common.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/console.h"
@@ -25,8 +27,8 @@ std::int64_t stepCount(const Scene& scene);
 /// A world, the steps it is to take, and how long they took.
 class Simulation {
  public:
-  Simulation(const Scene& scene, const WorldOptions& options)
-      : world_(scene, options), steps_(stepCount(scene)) {}
+  Simulation(std::shared_ptr<const Scene> scene, const WorldOptions& options)
+      : world_(std::move(scene), options), steps_(stepCount(world_.scene())) {}
 
   const World& world() const { return world_; }
   std::int64_t steps() const { return steps_; }

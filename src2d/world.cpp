@@ -20,19 +20,26 @@
 namespace merge2d {
 
 struct World::Impl {
-  Impl(const Scene& of, const WorldOptions& with) : scene(of), options(with) {
-    setUp(scene, options.mode, setup);
+  Impl(std::shared_ptr<const Scene> of, const WorldOptions& with)
+      : scene(std::move(of)), options(with) {
+    setUp(*scene, options.mode, setup);
     countBodies(setup.state, scratch);
   }
 
-  Scene scene;
+  std::shared_ptr<const Scene> scene;
   WorldOptions options;
   Setup setup;
   Scratch scratch;
   Observer* observer = nullptr;
   Notes notes;
+  std::vector<BodyInfo> bodies;  ///< described when somebody asks
 
   void step();
+
+  const std::vector<BodyInfo>& describedBodies() {
+    if (bodies.empty()) bodies = describeBodies(*scene, setup.state);
+    return bodies;
+  }
 
   /// The one place for timings, the observer and checks: nothing of these stands between the lines
   /// of the algorithm.
@@ -46,7 +53,8 @@ struct World::Impl {
       scratch.stats.seconds[static_cast<std::size_t>(stage)] = spent.count();
     }
     if (stage == Stage::AdvanceVelocities || stage == Stage::AdvancePositions) {
-      checkFinite(setup.state, setup.bodies, stage);
+      checkFinite(setup.state, stage,
+                  [this](BodyId b) { return describedBodies()[index(b)].name; });
     }
     if (observer) observer->afterStage(stage, setup.state, scratch);
   }
@@ -78,7 +86,9 @@ void World::Impl::step() {
 }
 
 World::World(const Scene& scene, const WorldOptions& options)
-    : impl_(std::make_unique<Impl>(scene, options)) {}
+    : World(std::make_shared<const Scene>(scene), options) {}
+World::World(std::shared_ptr<const Scene> scene, const WorldOptions& options)
+    : impl_(std::make_unique<Impl>(std::move(scene), options)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -86,19 +96,19 @@ World& World::operator=(World&&) noexcept = default;
 void World::step() { impl_->step(); }
 std::int64_t World::steps() const { return impl_->setup.state.step; }
 double World::time() const { return impl_->setup.state.time; }
-const Scene& World::scene() const { return impl_->scene; }
+const Scene& World::scene() const { return *impl_->scene; }
 Mode World::mode() const { return impl_->options.mode; }
-const std::vector<BodyInfo>& World::bodies() const { return impl_->setup.bodies; }
+const std::vector<BodyInfo>& World::bodies() const { return impl_->describedBodies(); }
 const Stats& World::stats() const { return impl_->scratch.stats; }
 const std::vector<Event>& World::events() const { return impl_->scratch.events; }
 void World::takeNotes(bool on) { impl_->options.decisions = on; }
 const Notes& World::notes() const { return impl_->notes; }
 void World::observe(Observer* observer) { impl_->observer = observer; }
 
-std::string World::save() const { return saveState(impl_->scene, impl_->setup); }
+std::string World::save() const { return saveState(*impl_->scene, impl_->setup); }
 
 void World::restore(std::string_view bytes, const std::string& source) {
-  restoreState(bytes, source, impl_->scene, impl_->setup);
+  restoreState(bytes, source, *impl_->scene, impl_->setup);
   impl_->scratch.events.clear();
   countBodies(impl_->setup.state, impl_->scratch);
 }

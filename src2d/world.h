@@ -32,7 +32,10 @@ struct WorldOptions {
 
 class World {
  public:
+  /// Keeps a copy of the scene.
   explicit World(const Scene& scene, const WorldOptions& options = {});
+  /// Shares the scene with others.
+  explicit World(std::shared_ptr<const Scene> scene, const WorldOptions& options = {});
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;

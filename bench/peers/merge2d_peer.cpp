@@ -6,7 +6,8 @@ void Merge2dPeer::load(const Scene& scene) {
   WorldOptions options;
   options.mode = mode_;
   options.timings = false;
-  world_.emplace(scene, options);
+  // The scene is the caller's, as for the other engines.
+  world_.emplace(std::shared_ptr<const Scene>(std::shared_ptr<const void>(), &scene), options);
 }
 
 std::vector<Vec2> Merge2dPeer::positions() const {

@@ -1,6 +1,7 @@
 #include "src2d/contact/broadphase.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "src2d/contact/approach.h"
 #include "src2d/core/memory.h"
@@ -245,6 +246,16 @@ void compactTree(State& state) {
 
 void dropShapeTree(State& state, RigidId id) { state.broadphase.shape_trees[index(id)].reset(); }
 
+namespace {
+
+/// In a first step or after a crash they are many; their memory is not needed again.
+void releaseMany(std::vector<ContactKey>& keys) {
+  constexpr std::size_t kMany = 256;
+  if (keys.size() > kMany) std::vector<ContactKey>().swap(keys);
+}
+
+}  // namespace
+
 void addContacts(State& state, const std::vector<ContactKey>& keys) {
   auto& table = state.contacts;
   const auto by_key = [&](ContactTable::Slot x, ContactTable::Slot y) {
@@ -254,12 +265,18 @@ void addContacts(State& state, const std::vector<ContactKey>& keys) {
     return table[x].key < key;
   };
   const auto known = table.order.size();
-  reserveTightly(table.order, known + keys.size());
-  reserveTightly(table.slots, known + keys.size());
-  for (const ContactKey& key : keys) {
-    const auto end = table.order.begin() + static_cast<std::ptrdiff_t>(known);
+  const auto end = table.order.end();
+  const auto isNew = [&](const ContactKey& key) {
     const auto at = std::lower_bound(table.order.begin(), end, key, before);
-    if (at != end && table[*at].key == key) continue;
+    return at == end || table[*at].key != key;
+  };
+  thread_local std::vector<ContactKey> fresh;  // its memory is kept
+  fresh.clear();
+  std::copy_if(keys.begin(), keys.end(), std::back_inserter(fresh), isNew);
+  const std::size_t free = std::min(table.free_slots.size(), fresh.size());
+  reserveTightly(table.order, known + fresh.size());
+  reserveTightly(table.slots, table.slots.size() + fresh.size() - free);
+  for (const ContactKey& key : fresh) {
     std::uint32_t slot;
     if (table.free_slots.empty()) {
       slot = static_cast<std::uint32_t>(table.slots.size());
@@ -274,11 +291,12 @@ void addContacts(State& state, const std::vector<ContactKey>& keys) {
   }
   std::inplace_merge(table.order.begin(), table.order.begin() + static_cast<std::ptrdiff_t>(known),
                      table.order.end(), by_key);
+  releaseMany(fresh);
 }
 
 void compactContacts(State& state) {
   auto& table = state.contacts;
-  if (table.order.size() * 2 > table.slots.size()) return;
+  if (table.free_slots.size() * 4 < table.slots.size()) return;
   std::vector<Contact> slots;
   slots.reserve(table.order.size());
   for (ContactTable::Slot& slot : table.order) {
@@ -300,10 +318,9 @@ void updateBroadphase(State& state, Scratch& scratch) {
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   dropParted(state, scratch);
+  compactContacts(state);
   if (!candidates.empty()) addContacts(state, candidates);
-  // In a first step or after a crash they are many; their memory is not needed again.
-  constexpr std::size_t kMany = 256;
-  if (candidates.size() > kMany) std::vector<ContactKey>().swap(candidates);
+  releaseMany(candidates);
 }
 
 }  // namespace merge2d

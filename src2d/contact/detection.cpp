@@ -115,13 +115,15 @@ void updateManifold(const State& state, Contact& contact, double ahead) {
 void collectPairs(const State& state, Scratch& scratch) {
   const auto& order = state.contacts.order;
   scratch.pairs.clear();
-  reserveTightly(scratch.pairs, order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     const Contact& contact = state.contacts[order[i]];
     if (contact.count == 0) continue;
     const bool same = !scratch.pairs.empty() && scratch.pairs.back().a == contact.key.a &&
                       scratch.pairs.back().b == contact.key.b;
-    if (!same) scratch.pairs.push_back({contact.key.a, contact.key.b, i, 0});
+    if (!same) {
+      appendTightly(scratch.pairs);
+      scratch.pairs.back() = {contact.key.a, contact.key.b, i, 0};
+    }
     scratch.pairs.back().count = i + 1 - scratch.pairs.back().first;
   }
 }

@@ -36,18 +36,18 @@ void advancePositions(State& state, Scratch& scratch) {
   followAnchors(state);
 }
 
-void checkFinite(const State& state, const std::vector<BodyInfo>& bodies, Stage stage) {
+void checkFinite(const State& state, Stage stage,
+                 const std::function<std::string(BodyId)>& nameOf) {
   for (const RigidId id : state.present) {
     const Rigid& r = state[id];
     const double sum = r.x.sum() + r.v.sum() + r.angle + r.omega;
     if (std::isfinite(sum)) continue;
     const BodyId body = state.isCollection(id) ? state.collection(id).members.front()
                                                : BodyId{static_cast<std::uint32_t>(id)};
-    throw SimulationError(
-        fmt::format("body '{}' is no longer at a finite place after {} in step {} "
-                    "(x = {}, {}; v = {}, {}; omega = {}); try a smaller step or softer springs",
-                    bodies[index(body)].name, name(stage), state.step + 1, r.x.x(), r.x.y(),
-                    r.v.x(), r.v.y(), r.omega));
+    throw SimulationError(fmt::format(
+        "body '{}' is no longer at a finite place after {} in step {} "
+        "(x = {}, {}; v = {}, {}; omega = {}); try a smaller step or softer springs",
+        nameOf(body), name(stage), state.step + 1, r.x.x(), r.x.y(), r.v.x(), r.v.y(), r.omega));
   }
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 /// AdvanceVelocities and AdvancePositions: symplectic Euler, Eq. (8).
 
+#include <functional>
+#include <string>
+
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
@@ -13,6 +16,6 @@ void advanceVelocities(State& state, const Scratch& scratch);
 void advancePositions(State& state, Scratch& scratch);
 
 /// Throws SimulationError naming body, stage and step when a velocity or position is not finite.
-void checkFinite(const State& state, const std::vector<BodyInfo>& bodies, Stage stage);
+void checkFinite(const State& state, Stage stage, const std::function<std::string(BodyId)>& nameOf);
 
 }  // namespace merge2d

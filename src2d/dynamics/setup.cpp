@@ -22,7 +22,7 @@ class Builder {
   }
 
   void build() {
-    for (const BodyDesc& desc : scene_.bodies) addBody(desc, desc.name, desc.at, true);
+    for (const BodyDesc& desc : scene_.bodies) addBody(desc, desc.at, true);
     for (const EmitterDesc& emitter : scene_.emitters) addEmitter(emitter);
     for (const SpringDesc& spring : scene_.springs) addSpring(spring);
     for (const JointDesc& joint : scene_.joints) addJoint(joint);
@@ -37,15 +37,14 @@ class Builder {
     std::stable_sort(setup_.actions.emissions.begin(), setup_.actions.emissions.end(),
                      [](const auto& x, const auto& y) { return x.time < y.time; });
     setup_.actions.magnets = scene_.magnets;
-    for (const MagnetDesc& magnet : scene_.magnets) setup_.bodies[magnet.body].magnet = true;
     enterWorld();
   }
 
  private:
-  BodyId addBody(const BodyDesc& desc, const std::string& name, const Vec2& at, bool alive) {
+  BodyId addBody(const BodyDesc& desc, const Vec2& at, bool alive) {
     State& s = setup_.state;
     const auto id = static_cast<std::uint32_t>(s.bodies.size());
-    MERGE2D_ASSERT(!desc.shapes.empty(), "body '{}' has no shape", name);
+    MERGE2D_ASSERT(!desc.shapes.empty(), "body '{}' has no shape", desc.name);
     const AreaProperties area = areaProperties(desc.shapes);
 
     Body body;
@@ -84,7 +83,6 @@ class Builder {
     s.bodies.push_back(body);
     s.rigids.push_back(r);
     centers_.push_back(area.centroid);
-    describe(desc, name, body);
     if (desc.pinned_until > 0.0) launch_.push_back({BodyId{id}, desc.velocity, desc.spin});
     return BodyId{id};
   }
@@ -143,26 +141,13 @@ class Builder {
     return kFloating;
   }
 
-  void describe(const BodyDesc& desc, const std::string& name, const Body& body) {
-    BodyInfo info;
-    info.name = name;
-    info.motion = desc.motion;
-    info.mass = body.mass;
-    info.inertia = body.inertia;
-    for (std::uint32_t i = 0; i < body.shape_count; ++i) {
-      info.shapes.push_back(setup_.state.collider(body.first_shape + i).shape());
-    }
-    setup_.bodies.push_back(std::move(info));
-  }
-
   void addEmitter(const EmitterDesc& emitter) {
     std::mt19937_64 random(scene_.seed * 0x9e3779b97f4a7c15u + emitter.seed);
     const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
     for (int i = 0; i < emitter.count; ++i) {
       const double dx = uniform(), dy = uniform();
       const Vec2 at = emitter.body.at + Vec2(dx * emitter.spread.x(), dy * emitter.spread.y());
-      const BodyId id =
-          addBody(emitter.body, emitter.body.name + "[" + std::to_string(i) + "]", at, false);
+      const BodyId id = addBody(emitter.body, at, false);
       setup_.actions.emissions.push_back({emitter.start + i * emitter.every, id});
     }
   }
@@ -231,6 +216,11 @@ class Builder {
       if (s.bodies[i].alive) bringIn(s, BodyId{i});
     }
     setup_.actions.launches = launch_;
+    for (auto* numbers : {&s.shape_collider, &s.first_sibling}) numbers->shrink_to_fit();
+    s.bodies.shrink_to_fit();
+    s.rigids.shrink_to_fit();
+    s.extents.shrink_to_fit();
+    s.shape_body.shrink_to_fit();
   }
 
   const Scene& scene_;
@@ -244,6 +234,31 @@ class Builder {
 }  // namespace
 
 void setUp(const Scene& scene, Mode mode, Setup& out) { Builder(scene, mode, out).build(); }
+
+std::vector<BodyInfo> describeBodies(const Scene& scene, const State& state) {
+  std::vector<BodyInfo> infos;
+  infos.reserve(state.bodies.size());
+  const auto describe = [&](const BodyDesc& desc, const std::string& name) {
+    const Body& body = state.bodies[infos.size()];
+    BodyInfo info{.name = name,
+                  .motion = desc.motion,
+                  .mass = body.mass,
+                  .inertia = body.inertia,
+                  .shapes = {}};
+    for (std::uint32_t i = 0; i < body.shape_count; ++i) {
+      info.shapes.push_back(state.collider(body.first_shape + i).shape());
+    }
+    infos.push_back(std::move(info));
+  };
+  for (const BodyDesc& desc : scene.bodies) describe(desc, desc.name);
+  for (const EmitterDesc& emitter : scene.emitters) {
+    for (int i = 0; i < emitter.count; ++i) {
+      describe(emitter.body, emitter.body.name + "[" + std::to_string(i) + "]");
+    }
+  }
+  for (const MagnetDesc& magnet : scene.magnets) infos[magnet.body].magnet = true;
+  return infos;
+}
 
 void bringIn(State& state, BodyId body) {
   state[body].alive = true;

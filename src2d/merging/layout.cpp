@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <numeric>
+#include <utility>
 
 #include "src2d/core/memory.h"
 #include "src2d/merging/bridges.h"
@@ -60,8 +61,7 @@ void fitBox(State& state, RigidId id) {
     extent.box = {{extent.bounds.center(), {}}, 0.5 * extent.bounds.extent()};
     return;
   }
-  thread_local std::vector<Vec2> points;
-  points.clear();
+  std::vector<Vec2> points;
   for (const BodyId b : state.collection(id).members) {
     const Body& body = state[b];
     for (const Vec2& corner : state.extent(rigidOf(b)).box.corners()) {
@@ -73,9 +73,8 @@ void fitBox(State& state, RigidId id) {
 
 /// Contacts of one pair of bodies in a row form a weld, and so do its joints.
 void layOutWelds(const State& state, Collection& c) {
-  thread_local std::vector<Weld> old;  // its memory is kept
-  old.assign(c.welds.begin(), c.welds.end());
-  c.welds.clear();
+  const std::vector<Weld> old = std::exchange(c.welds, {});
+  c.welds.reserve(old.size());
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
     const ContactKey& key = c.contacts[i].key;
     if (c.welds.empty() || c.welds.back().a != key.a || c.welds.back().b != key.b) {

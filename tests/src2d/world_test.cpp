@@ -163,12 +163,20 @@ TEST(World, AContactsForcesActEquallyOnBothBodies) {
 }
 
 TEST(World, ItHoldsLessThanTwoKilobytesPerBody) {
-  for (const Mode mode : {Mode::Reference, Mode::MergeSleep}) {
-    const Scene scene = wall(31, 32);
-    World world(scene, inMode(mode));
-    runSteps(world, 150);
-    EXPECT_LT(world.memoryBytes() / scene.bodies.size(), 2000u) << name(mode);
+  for (const auto& [width, height] : {std::pair(9, 11), std::pair(31, 32)}) {
+    for (const Mode mode : {Mode::Reference, Mode::MergeSleep}) {
+      const Scene scene = wall(width, height);
+      World world(scene, inMode(mode));
+      runSteps(world, 150);
+      EXPECT_LT(world.memoryBytes() / scene.bodies.size(), 2000u) << name(mode) << " " << width;
+    }
   }
+}
+
+TEST(World, AGivenSceneIsSharedNotCopied) {
+  const auto scene = std::make_shared<const Scene>(column(2));
+  const World world(scene, inMode(Mode::Reference));
+  EXPECT_EQ(&world.scene(), scene.get());
 }
 
 TEST(World, AWorldCanBeMoved) {
