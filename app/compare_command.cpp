@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/comparison.h"
@@ -7,6 +8,7 @@
 #include "app/console.h"
 #include "app/interrupt.h"
 #include "app/output_file.h"
+#include "app/parse.h"
 #include "app/progress.h"
 #include "app/simulation.h"
 #include "app/usage_error.h"
@@ -20,6 +22,7 @@ namespace fs = std::filesystem;
 constexpr const char* kCompareExamples = R"(Examples:
   merge2d compare tower-platform
   merge2d compare dominoes --seconds 5 --json --no-charts
+  merge2d compare tower-platform --window 1,5.9
   merge2d compare pile --csv pile.csv -o charts --theme print
 
 The four modes take turns of 50 steps. Distances are those of the bodies' centres from where they
@@ -31,9 +34,31 @@ struct CompareOptions : SceneOptions {
   std::string csv;     ///< file, or empty
   std::string folder;  ///< of the charts; empty: frames/<scene>/compare
   ChartStyle charts;
+  std::optional<Window> window;
   bool no_charts = false;
   bool no_timings = false;
 };
+
+Window readWindow(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) {
+    throw UsageError(
+        fmt::format("--window needs FROM,TO in seconds, such as 1,5, but got '{}'", text));
+  }
+  const Window window{readNumber("--window FROM,TO", text.substr(0, comma), 0.0),
+                      readNumber("--window FROM,TO", text.substr(comma + 1), 0.0)};
+  if (window.to <= window.from) {
+    throw UsageError(fmt::format("--window {}: it ends before it begins", text));
+  }
+  return window;
+}
+
+/// A window that the run does not reach would be empty.
+void check(const Window& window, const Comparison& comparison) {
+  const double end = static_cast<double>(comparison.steps()) * comparison.scene().step;
+  if (window.to <= end + 0.5 * comparison.scene().step) return;
+  throw UsageError(fmt::format("--window ends at {} s, but the run at {} s", window.to, end));
+}
 
 Theme readTheme(const std::string& text) {
   try {
@@ -59,6 +84,7 @@ void compare(const CompareOptions& options) {
   catchInterrupts();
   Comparison comparison(std::make_shared<const Scene>(loadScene(options, console)),
                         !options.no_timings);
+  if (options.window) check(*options.window, comparison);
   std::unique_ptr<OutputFile> csv;  // opened first, so that nobody waits for nothing
   if (!options.csv.empty()) {
     csv = std::make_unique<OutputFile>(
@@ -72,7 +98,7 @@ void compare(const CompareOptions& options) {
     }
   }
   if (csv) csv->stream() << comparisonCsv(comparison), csv->finish();
-  if (!options.json && options.csv != "-") print(comparisonTable(comparison));
+  if (!options.json && options.csv != "-") print(comparisonTable(comparison, options.window));
   std::vector<std::string> charts;
   if (!options.no_charts) {
     const fs::path folder = options.folder.empty()
@@ -80,7 +106,7 @@ void compare(const CompareOptions& options) {
                                 : fs::path(options.folder);
     charts = drawComparison(comparison, folder, options.charts);
   }
-  if (options.json) print(comparisonJson(comparison, charts));
+  if (options.json) print(comparisonJson(comparison, options.window, charts));
   for (const std::string& chart : charts) console.note(chart);
 }
 
@@ -93,6 +119,11 @@ void addCompareCommand(CLI::App& program, Action& action) {
   const auto options = std::make_shared<CompareOptions>();
   addSceneOptions(*command, *options);
   command->remove_option(command->get_option("--mode"));
+  addOption(
+      *command, "--window", "FROM,TO",
+      [options](const std::string& s) { options->window = readWindow(s); },
+      "Also tell the means of a part of the run, in seconds")
+      ->group("Simulation");
   constexpr const char* kGroup = "Files";
   addOption(
       *command, "-o,--output", "DIR",

@@ -69,16 +69,31 @@ Distance between(const Sample& reference, const Sample& other,
 
 }  // namespace
 
-double ModeRun::meanMs() const {
+double meanMs(std::span<const StepRow> steps) {
   double sum = 0.0;
   for (const StepRow& row : steps) sum += row.ms;
   return steps.empty() ? 0.0 : sum / static_cast<double>(steps.size());
 }
 
-double ModeRun::medianMs() const {
+double medianMs(std::span<const StepRow> steps) {
   std::vector<double> all;
   for (const StepRow& row : steps) all.push_back(row.ms);
   return median(std::move(all));
+}
+
+double mean(std::span<const StepRow> steps, int StepRow::*number) {
+  double sum = 0.0;
+  for (const StepRow& row : steps) sum += row.*number;
+  return steps.empty() ? 0.0 : sum / static_cast<double>(steps.size());
+}
+
+std::span<const StepRow> ModeRun::within(const Window& window, double h) const {
+  const auto step = [&](double time) {
+    const auto k = static_cast<std::size_t>(std::llround(time / h));
+    return std::min(k, steps.size());
+  };
+  const std::size_t first = step(window.from);
+  return std::span(steps).subspan(first, step(window.to) - first);
 }
 
 int ModeRun::merges() const {
@@ -99,12 +114,6 @@ int ModeRun::lateEvents() const {
     sum += steps[i].merges + steps[i].unmerges;
   }
   return sum;
-}
-
-double ModeRun::mean(int StepRow::*number) const {
-  double sum = 0.0;
-  for (const StepRow& row : steps) sum += row.*number;
-  return steps.empty() ? 0.0 : sum / static_cast<double>(steps.size());
 }
 
 /// One mode: its world, and what is noted of it.

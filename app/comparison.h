@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,16 @@ struct Distance {
   double largest = 0.0;  ///< [m]
 };
 
+double meanMs(std::span<const StepRow> steps);
+double medianMs(std::span<const StepRow> steps);
+/// The mean over the steps of one of their numbers.
+double mean(std::span<const StepRow> steps, int StepRow::*number);
+
+/// A part of the run, after `from` and up to `to` [s].
+struct Window {
+  double from = 0.0, to = 0.0;
+};
+
 /// What a mode did.
 struct ModeRun {
   Mode mode = Mode::Reference;
@@ -43,14 +54,12 @@ struct ModeRun {
   Stats last;                    ///< after the last step
   double max_penetration = 0.0;  ///< in the samples [m]
 
-  double meanMs() const;
-  double medianMs() const;
+  /// The steps that end in the window, of `h` seconds each.
+  std::span<const StepRow> within(const Window& window, double h) const;
   int merges() const;
   int unmerges() const;
   /// Merges and unmerges in the last quarter of the run: none, once a scene has settled.
   int lateEvents() const;
-  /// The mean over the steps of one of their numbers.
-  double mean(int StepRow::*number) const;
 };
 
 inline constexpr int kFlickerSteps = 20;

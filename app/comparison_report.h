@@ -1,6 +1,7 @@
 #pragma once
 /// A comparison as text, as JSON and as a table for spreadsheets.
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -11,12 +12,13 @@ namespace merge2d {
 /// How every table of a comparison begins.
 inline constexpr std::string_view kComparisonCsvStart = "mode,step,t,active_bodies,";
 
-/// A column per mode, the numbers with their units.
-std::string comparisonTable(const Comparison& comparison);
+/// A column per mode, the numbers with their units; with a window, also the means within it.
+std::string comparisonTable(const Comparison& comparison, const std::optional<Window>& window);
 
 /// One object; `charts` are the files that were drawn. Without timings, what was measured in
 /// seconds is null.
-std::string comparisonJson(const Comparison& comparison, const std::vector<std::string>& charts);
+std::string comparisonJson(const Comparison& comparison, const std::optional<Window>& window,
+                           const std::vector<std::string>& charts);
 
 /// A row per mode and step; distances only in rows where they were measured.
 std::string comparisonCsv(const Comparison& comparison);

@@ -56,6 +56,28 @@ TEST_F(Compare, PutsTheFourModesIntoOneTable) {
   EXPECT_THAT(files(), ElementsAre("stack.toml", "toppled.toml"));
 }
 
+TEST_F(Compare, TellsTheMeansOfAWindow) {
+  const Words command = {"compare", "toppled.toml", "--no-charts", "--window", "0.6,0.99"};
+  EXPECT_THAT(run(command).out, HasSubstr("\nfrom 0.6 s to 0.99 s\ntime per step, mean"));
+  Words as_json = command;
+  as_json.push_back("--json");
+  const Json all = run(as_json).json();
+  EXPECT_EQ(all["window"], Json({0.6, 0.99}));
+  const Json& merged = all["modes"][2];
+  EXPECT_EQ(merged["window"]["contacts"]["mean"], 0.0) << "merged, before the push";
+  EXPECT_GT(merged["contacts"]["mean"], 0.0) << "in the whole run";
+  EXPECT_GT(merged["window"]["ms_per_step"]["mean"], 0.0);
+  EXPECT_EQ(all["modes"][1]["window"]["speedup"]["sleep"], 1.0);
+}
+
+TEST_F(Compare, RefusesAWindowThatIsNone) {
+  for (const char* window : {"1", "2,1", "1,1", "a,b", "-1,2", "0,3.1"}) {
+    const Outcome outcome = run({"compare", "toppled.toml", "--no-charts", "--window", window});
+    EXPECT_EQ(outcome.code, 2) << window;
+    EXPECT_THAT(outcome.err, HasSubstr("--window")) << window;
+  }
+}
+
 TEST_F(Compare, GivesAllOfItAsJson) {
   const Json all = compared("stack.toml");
   EXPECT_THAT(keysOf(all),
