@@ -21,7 +21,10 @@ void findGrips(const State& state, Collection& c);
 /// Fewer than two contacts hold, and there was one: only such a weld can turn in 2D.
 inline bool isPivot(Grip grip) { return grip == Grip::Lost || grip == Grip::Pivot; }
 
-/// Lists those welds.
+/// At least one contact holds, or a joint.
+inline bool holds(Grip grip) { return grip != Grip::None && grip != Grip::Lost; }
+
+/// Lists the welds that are pivots.
 void listPivots(Collection& c);
 
 /// Calls `visit(point)` for the contacts of a weld that hold.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src2d/merging/detours.h"
+#include "src2d/merging/grip.h"
 
 namespace merge2d {
 namespace {
@@ -56,11 +57,27 @@ Parts judge(const State& state, Scratch& scratch, const Collection& c) {
   return partsWithoutCuts(state, c);
 }
 
+bool losesAMember(const State& state, const Collection& c) {
+  const auto holdsNothing = [&](BodyId body) {
+    if (state[body].rigid != c.rigid) return false;  // of the frame
+    const std::uint32_t node = nodeOf(state, c, body);
+    return std::none_of(c.weld_of.begin() + c.weld_at[node],
+                        c.weld_of.begin() + c.weld_at[node + 1], [&](std::uint32_t weld) {
+                          return !c.welds[weld].cut && !c.welds[weld].expected &&
+                                 holds(c.grip[weld]);
+                        });
+  };
+  return std::ranges::any_of(c.cut_welds, [&](std::uint32_t weld) {
+    return holdsNothing(c.welds[weld].a) || holdsNothing(c.welds[weld].b);
+  });
+}
+
 std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collection& c, bool anew) {
   auto& others = scratch.others;
   listOthers(c, others);
   if (others.empty() && !anew) return {};
-  const bool known = c.judged && !anew;  // a layout only assumes that all holds together
+  // A layout only assumes that all holds together.
+  const bool known = c.judged && !anew && !losesAMember(state, c);
   if (known && heldAround(state, c, others)) return {};
   if (known && othersAreSpare(state, scratch, c, others)) return {};
   Parts parts = judge(state, scratch, c);

@@ -11,6 +11,9 @@ namespace merge2d {
 /// The parts at the welds that are cut, by asking the criterion.
 Parts judge(const State& state, Scratch& scratch, const Collection& c);
 
+/// True when some member has lost all that held it: then it falls apart, and nobody need be asked.
+bool losesAMember(const State& state, const Collection& c);
+
 /// The parts into which the welds that are cut divide the collection; nothing while it holds
 /// together. `anew`: something else has changed too, and what was found before does not help.
 std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collection& c, bool anew);

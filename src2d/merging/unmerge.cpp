@@ -79,10 +79,14 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   const std::size_t first = scratch.notes ? scratch.notes->decisions.size() : 0;
   WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
   test.testAll();
-  std::optional<Parts> parts = partsAtCuts(state, scratch, c, joints_loosened);
-  if (!parts) return;
   const UnmergingSettings& settings = state.settings.unmerging;
-  if (settings.rule == Rule::Default && settings.ordering) {
+  const bool confirms = settings.rule == Rule::Default && settings.ordering;
+  std::optional<Parts> parts;
+  if (!confirms || !losesAMember(state, c)) {
+    parts = partsAtCuts(state, scratch, c, joints_loosened);
+    if (!parts) return;
+  }
+  if (confirms) {
     // One sweep may not have converged: before anything parts, look again after more.
     restate(state, scratch.notes, first, "recheck");
     sweepAgain(state, scratch, c);

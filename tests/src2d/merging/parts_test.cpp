@@ -4,6 +4,7 @@
 
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/grip.h"
+#include "src2d/merging/spare_welds.h"
 #include "src2d/world.h"
 #include "tests/support/scenes.h"
 
@@ -38,8 +39,14 @@ class EachWeldCut : public Observer {
       for (std::size_t i = 0; i < c.welds.size(); ++i) {
         Collection without = c;
         without.welds[i].cut = true;
+        without.cut_welds = {static_cast<std::uint32_t>(i)};
         const Parts parts = partsWithoutCuts(state, without);
-        parted += fallsApart(state, without, parts) ? 1 : 0;
+        const bool apart = fallsApart(state, without, parts);
+        parted += apart ? 1 : 0;
+        if (losesAMember(state, without)) {
+          ++alone;
+          EXPECT_TRUE(apart);
+        }
         ++welds;
         expectEqual(parts, groupsOfAllPins(state, without), c.members.size());
       }
@@ -58,6 +65,7 @@ class EachWeldCut : public Observer {
     }
   }
   int welds = 0, parted = 0;
+  int alone = 0;  ///< cuts that leave a member without anything that holds it
 };
 
 EachWeldCut watched(const Scene& scene, int steps) {
@@ -80,6 +88,7 @@ TEST(Parts, AColumnFallsApartAtAnyWeldAndAWallHardlyAnywhere) {
   const EachWeldCut in_column = watched(column(5), 1);
   EXPECT_EQ(in_column.welds, 5);
   EXPECT_EQ(in_column.parted, 5);
+  EXPECT_EQ(in_column.alone, 1) << "the uppermost";
   const EachWeldCut in_wall = watched(wall(6, 5), 1);
   EXPECT_LT(in_wall.parted, in_wall.welds / 4);
 }
