@@ -84,12 +84,14 @@ struct InternalContact {
 struct Weld {
   BodyId a{}, b{};
   std::uint32_t first = 0, count = 0;
-  Drift turning{};          ///< of a pivot, over consecutive steps
-  std::int16_t joints = 0;  ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
-  std::int16_t vain = 0;    ///< welds of the pair before it that were cut in vain
-  bool bridge = false;      ///< its cut would leave two parts
-  bool expected = false;    ///< only contacts that may close in this step: no weld yet
-  bool cut = false;         ///< found broken, sliding or moving in this step
+  std::uint32_t node_a = 0,
+                node_b = 0;  ///< each body's place among the members; the frame's is last
+  Drift turning{};           ///< of a pivot, over consecutive steps
+  std::int16_t joints = 0;   ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
+  std::int16_t vain = 0;     ///< welds of the pair before it that were cut in vain
+  bool bridge = false;       ///< its cut would leave two parts
+  bool expected = false;     ///< only contacts that may close in this step: no weld yet
+  bool cut = false;          ///< found broken, sliding or moving in this step
   EventReason reason = EventReason::None;
 };
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "src2d/merging/detours.h"
-
 namespace merge2d {
 namespace {
 
@@ -11,8 +9,7 @@ namespace {
 /// no other edge leads from beyond it to where the walk came from (Tarjan 1974).
 class BridgeSearch {
  public:
-  BridgeSearch(const State& state, Collection& c)
-      : state_(state), c_(c), next_(c.weld_at.begin(), c.weld_at.end() - 1) {
+  explicit BridgeSearch(Collection& c) : c_(c), next_(c.weld_at.begin(), c.weld_at.end() - 1) {
     visited_.assign(nodes(), 0);
     lowest_.assign(nodes(), 0);
     came_by_.assign(nodes(), kNone);
@@ -50,8 +47,7 @@ class BridgeSearch {
 
   void follow(std::uint32_t node, std::uint32_t weld) {
     if (weld == came_by_[node]) return;
-    const std::uint32_t a = nodeOf(state_, c_, c_.welds[weld].a);
-    const std::uint32_t b = nodeOf(state_, c_, c_.welds[weld].b);
+    const std::uint32_t a = c_.welds[weld].node_a, b = c_.welds[weld].node_b;
     const std::uint32_t other = a == node ? b : a;
     if (!visited_[other]) return visit(other, weld);
     lowest_[node] = std::min(lowest_[node], visited_[other]);
@@ -62,7 +58,6 @@ class BridgeSearch {
     lowest_[parent] = std::min(lowest_[parent], lowest_[node]);
   }
 
-  const State& state_;
   Collection& c_;
   std::vector<std::uint32_t> next_;     ///< per node: the weld to follow next, in weld_of
   std::vector<std::uint32_t> visited_;  ///< per node: when, from 1 on
@@ -74,9 +69,9 @@ class BridgeSearch {
 
 }  // namespace
 
-void markBridges(const State& state, Collection& collection) {
+void markBridges(Collection& collection) {
   for (Weld& weld : collection.welds) weld.bridge = false;
-  BridgeSearch(state, collection).run();
+  BridgeSearch(collection).run();
 }
 
 }  // namespace merge2d

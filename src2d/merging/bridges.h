@@ -8,6 +8,6 @@ namespace merge2d {
 /// Marks the welds whose cut would leave two parts that nothing else joins. What such a weld
 /// carries follows from the weight of either part, so rigid rows and soft contacts agree about it.
 /// Bodies of the frame count as one. The welds of each node must be listed.
-void markBridges(const State& state, Collection& collection);
+void markBridges(Collection& collection);
 
 }  // namespace merge2d

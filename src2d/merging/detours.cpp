@@ -14,14 +14,13 @@ namespace {
 class DetourSearch {
  public:
   DetourSearch(const State& state, const Collection& c)
-      : state_(state),
-        c_(c),
+      : c_(c),
         frame_(static_cast<std::uint32_t>(c.members.size())),
         resolution_(resolutionOf(state, c)),
         by_two_(state.settings.merging.cycles != CycleCriterion::Triangle) {}
 
   bool leadsAround(const Weld& weld) {
-    const std::uint32_t a = nodeOf(state_, c_, weld.a), b = nodeOf(state_, c_, weld.b);
+    const std::uint32_t a = weld.node_a, b = weld.node_b;
     return (a != frame_ && growsTo(a, b)) || (b != frame_ && growsTo(b, a));
   }
 
@@ -41,8 +40,7 @@ class DetourSearch {
       for (std::uint32_t k = c_.weld_at[node]; k < c_.weld_at[node + 1]; ++k) {
         const std::uint32_t number = c_.weld_of[k];
         const Weld& weld = c_.welds[number];
-        const std::uint32_t a = nodeOf(state_, c_, weld.a), b = nodeOf(state_, c_, weld.b);
-        const std::uint32_t other = a == node ? b : a;
+        const std::uint32_t other = weld.node_a == node ? weld.node_b : weld.node_a;
         const bool through_frame = other == frame_ && to != frame_;
         if (weld.cut || weld.expected || through_frame || contains(other)) continue;
         if (c_.grip[number] != Grip::Firm && !hingeTwice(other, weld)) continue;
@@ -75,7 +73,6 @@ class DetourSearch {
 
   static constexpr std::size_t kMost = 48;  ///< few detours look at more bodies
 
-  const State& state_;
   const Collection& c_;
   std::uint32_t frame_;  ///< its node
   double resolution_;
@@ -85,18 +82,21 @@ class DetourSearch {
   std::size_t count_ = 0, hinged_count_ = 0;
 };
 
-}  // namespace
-
+/// A member by its place, or the frame.
 std::uint32_t nodeOf(const State& state, const Collection& c, BodyId body) {
   return state[body].rigid == c.rigid ? state[rigidOf(body)].member
                                       : static_cast<std::uint32_t>(c.members.size());
 }
 
+}  // namespace
+
 void indexWelds(const State& state, Collection& c) {
   c.weld_at.assign(c.members.size() + 2, 0);
-  for (const Weld& weld : c.welds) {
-    ++c.weld_at[nodeOf(state, c, weld.a) + 1];
-    ++c.weld_at[nodeOf(state, c, weld.b) + 1];
+  for (Weld& weld : c.welds) {
+    weld.node_a = nodeOf(state, c, weld.a);
+    weld.node_b = nodeOf(state, c, weld.b);
+    ++c.weld_at[weld.node_a + 1];
+    ++c.weld_at[weld.node_b + 1];
   }
   for (std::size_t n = 1; n < c.weld_at.size(); ++n) c.weld_at[n] += c.weld_at[n - 1];
   reserveTightly(c.weld_of, c.weld_at.back());
@@ -104,8 +104,8 @@ void indexWelds(const State& state, Collection& c) {
   thread_local std::vector<std::uint32_t> next;  // its memory is kept
   next.assign(c.weld_at.begin(), c.weld_at.end() - 1);
   for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
-    c.weld_of[next[nodeOf(state, c, c.welds[w].a)]++] = w;
-    c.weld_of[next[nodeOf(state, c, c.welds[w].b)]++] = w;
+    c.weld_of[next[c.welds[w].node_a]++] = w;
+    c.weld_of[next[c.welds[w].node_b]++] = w;
   }
 }
 

@@ -8,10 +8,8 @@
 
 namespace merge2d {
 
-/// A node of the graph of welds: a member by its number, or the frame, which stands last.
-std::uint32_t nodeOf(const State& state, const Collection& c, BodyId body);
-
-/// Lists the welds of each node.
+/// Numbers the nodes of the graph of welds, a member by its place and the frame last, and lists the
+/// welds of each node.
 void indexWelds(const State& state, Collection& c);
 
 /// True when welds near each of these, what is left of it included and none of them cut, hold its

@@ -146,12 +146,13 @@ void layOutBlocks(const State& state, Collection& c) {
   std::vector<std::uint32_t> colour_of;  // dormant contacts follow after all others
   std::array<std::uint32_t, 2 * kColours + 1> first{};
   std::vector<std::uint64_t> used(c.members.size(), 0);
-  const auto colours = [&](BodyId b) -> std::uint64_t* {
-    return state[b].rigid == c.rigid ? &used[state[rigidOf(b)].member] : nullptr;
+  const auto colours = [&](std::uint32_t node) -> std::uint64_t* {
+    return node < used.size() ? &used[node] : nullptr;  // the frame's bodies wait for nothing
   };
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
     const InternalContact& inner = c.contacts[i];
-    std::uint64_t *a = colours(inner.key.a), *b = colours(inner.key.b);
+    const Weld& weld = c.welds[inner.weld];
+    std::uint64_t *a = colours(weld.node_a), *b = colours(weld.node_b);
     const std::uint64_t taken = (a ? *a : 0) | (b ? *b : 0);
     const auto colour = std::min(static_cast<std::uint32_t>(std::countr_one(taken)), kColours - 1);
     if (a) *a |= std::uint64_t{1} << colour;
@@ -239,7 +240,7 @@ void layOutCollections(State& state) {
     layOutJoints(state, c);
     layOutWelds(state, c);
     indexWelds(state, c);
-    markBridges(state, c);
+    markBridges(c);
     layOutBlocks(state, c);
     findGrips(state, c);
     layOutPush(state, c);

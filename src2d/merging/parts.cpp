@@ -2,7 +2,6 @@
 
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
-#include "src2d/merging/detours.h"
 #include "src2d/merging/grip.h"
 #include "src2d/merging/joint_welds.h"
 
@@ -10,10 +9,11 @@ namespace merge2d {
 namespace {
 
 /// Whether a weld that is not cut joins two members firmly: then the theory need not ask.
-bool joinsFirmly(const State& state, const Collection& c, std::uint32_t number) {
+bool joinsFirmly(const Collection& c, std::uint32_t number) {
   const Weld& weld = c.welds[number];
-  return c.grip[number] == Grip::Firm && !weld.cut && !weld.expected &&
-         state[weld.a].rigid == c.rigid && state[weld.b].rigid == c.rigid;
+  const auto frame = static_cast<std::uint32_t>(c.members.size());
+  return c.grip[number] == Grip::Firm && !weld.cut && !weld.expected && weld.node_a != frame &&
+         weld.node_b != frame;
 }
 
 /// Per member, and at last for the frame, its node: 0 is the frame; members that are joined firmly
@@ -23,13 +23,13 @@ struct Nodes {
   std::uint32_t count = 1;
 };
 
-Nodes nodesOf(const State& state, const Collection& c) {
+Nodes nodesOf(const Collection& c) {
   const auto members = static_cast<std::uint32_t>(c.members.size());
   DisjointSets sets;
   sets.reset(members);
   for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
-    if (!joinsFirmly(state, c, i)) continue;
-    sets.unite(nodeOf(state, c, c.welds[i].a), nodeOf(state, c, c.welds[i].b));
+    if (!joinsFirmly(c, i)) continue;
+    sets.unite(c.welds[i].node_a, c.welds[i].node_b);
   }
   Nodes nodes{std::vector<std::uint32_t>(members + 1, 0)};
   for (std::uint32_t m = 0; m < members; ++m) {
@@ -57,11 +57,11 @@ void addPins(const State& state, const Collection& c, const Weld& weld, std::uin
 }  // namespace
 
 Parts partsWithoutCuts(const State& state, const Collection& c) {
-  const Nodes nodes = nodesOf(state, c);
+  const Nodes nodes = nodesOf(c);
   std::vector<Pin> pins;
   for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
     const Weld& weld = c.welds[i];
-    const auto a = nodes.of[nodeOf(state, c, weld.a)], b = nodes.of[nodeOf(state, c, weld.b)];
+    const auto a = nodes.of[weld.node_a], b = nodes.of[weld.node_b];
     if (a != b && !weld.cut && !weld.expected) addPins(state, c, weld, a, b, pins);
   }
   const CycleCriterion criterion = state.settings.unmerging.rule == Rule::Paper

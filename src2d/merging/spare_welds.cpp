@@ -57,10 +57,9 @@ Parts judge(const State& state, Scratch& scratch, const Collection& c) {
   return partsWithoutCuts(state, c);
 }
 
-bool losesAMember(const State& state, const Collection& c) {
-  const auto holdsNothing = [&](BodyId body) {
-    if (state[body].rigid != c.rigid) return false;  // of the frame
-    const std::uint32_t node = nodeOf(state, c, body);
+bool losesAMember(const Collection& c) {
+  const auto holdsNothing = [&](std::uint32_t node) {
+    if (node == c.members.size()) return false;  // the frame
     return std::none_of(c.weld_of.begin() + c.weld_at[node],
                         c.weld_of.begin() + c.weld_at[node + 1], [&](std::uint32_t weld) {
                           return !c.welds[weld].cut && !c.welds[weld].expected &&
@@ -68,7 +67,7 @@ bool losesAMember(const State& state, const Collection& c) {
                         });
   };
   return std::ranges::any_of(c.cut_welds, [&](std::uint32_t weld) {
-    return holdsNothing(c.welds[weld].a) || holdsNothing(c.welds[weld].b);
+    return holdsNothing(c.welds[weld].node_a) || holdsNothing(c.welds[weld].node_b);
   });
 }
 
@@ -77,7 +76,7 @@ std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collectio
   listOthers(c, others);
   if (others.empty() && !anew) return {};
   // A layout only assumes that all holds together.
-  const bool known = c.judged && !anew && !losesAMember(state, c);
+  const bool known = c.judged && !anew && !losesAMember(c);
   if (known && heldAround(state, c, others)) return {};
   if (known && othersAreSpare(state, scratch, c, others)) return {};
   Parts parts = judge(state, scratch, c);

@@ -12,7 +12,7 @@ namespace merge2d {
 Parts judge(const State& state, Scratch& scratch, const Collection& c);
 
 /// True when some member has lost all that held it: then it falls apart, and nobody need be asked.
-bool losesAMember(const State& state, const Collection& c);
+bool losesAMember(const Collection& c);
 
 /// The parts into which the welds that are cut divide the collection; nothing while it holds
 /// together. `anew`: something else has changed too, and what was found before does not help.

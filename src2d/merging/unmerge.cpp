@@ -82,7 +82,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   const UnmergingSettings& settings = state.settings.unmerging;
   const bool confirms = settings.rule == Rule::Default && settings.ordering;
   std::optional<Parts> parts;
-  if (!confirms || !losesAMember(state, c)) {
+  if (!confirms || !losesAMember(c)) {
     parts = partsAtCuts(state, scratch, c, joints_loosened);
     if (!parts) return;
   }

@@ -43,7 +43,7 @@ class EachWeldCut : public Observer {
         const Parts parts = partsWithoutCuts(state, without);
         const bool apart = fallsApart(state, without, parts);
         parted += apart ? 1 : 0;
-        if (losesAMember(state, without)) {
+        if (losesAMember(without)) {
           ++alone;
           EXPECT_TRUE(apart);
         }
