@@ -138,7 +138,8 @@ void fields(Ar& ar, Some<InternalContact> auto& c) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {
-  auto& [a, b, first, count, node_a, node_b, turning, joints, vain, bridge, expected, cut, reason] = w;
+  auto& [a, b, first, count, node_a, node_b, turning, joints, vain, bridge, expected, cut, reason] =
+      w;
   ar(a, b, first, count, node_a, node_b, turning, joints, vain, bridge, expected, cut, reason);
 }
 template <class Ar>

@@ -102,6 +102,19 @@ TEST(Collide, SeesNothingBetweenBoxesThatTouchAtACornerOnly) {
   }
 }
 
+TEST(Collide, ACornerBesideAFaceDoesNotOverlapIt) {
+  // The point of a wedge is just beside the box's corner, and a little lower. The wedge's left face
+  // parts them by 16 µm, but Box2D prefers the box's own upper face by up to half a millimetre.
+  const Collider square(Polygon{{{-1.0, -1.0}, {0.0, -1.0}, {0.0, 0.0}, {-1.0, 0.0}}});
+  const auto wedge = [](double x) {
+    return Collider(Polygon{{{x, -2e-4}, {1.0, 3.0}, {-0.5, 3.0}}});
+  };
+  EXPECT_EQ(collide(square, wedge(5e-5), at(0.0, 0.0), kMargin).count, 0);
+  const Manifold overlapping = collide(square, wedge(-0.1), at(0.0, 0.0), kMargin);
+  ASSERT_EQ(overlapping.count, 1);
+  EXPECT_NEAR(overlapping.points[0].gap, -2e-4, 1e-12);
+}
+
 TEST(Collide, SeesACornerThatPointsAtAFace) {
   const double half_diagonal = std::numbers::sqrt2 / 2.0;
   const Manifold m = collide(box(10.0, 1.0), box(1.0, 1.0),
