@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src2d/core/memory.h"
+#include "src2d/dynamics/solver.h"
 #include "src2d/merging/bridges.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/detours.h"
@@ -110,6 +111,14 @@ SolverVelocity memberMasses(const State& state, const Collection& c, BodyId b) {
   return u;
 }
 
+/// Zero, unless a point may not have met yet; with the paper's rule that of the full solve.
+double innerBias(const State& state, const InternalContact& contact, std::size_t i) {
+  if (state.settings.unmerging.rule == Rule::Paper) {
+    return contactBias(state.settings.solver, state.h, contact.gap[i]);
+  }
+  return contact.watch[i].active ? 0.0 : std::max(0.0, contact.gap[i]) / state.h;
+}
+
 /// Deviation: contacts inside a collection are rigid rows, without bias and softness: their overlap
 /// is frozen, and would ask for a ghost velocity whenever the load changes.
 /// Guarded by Sweep.HoldsAColumnsWeightExactly.
@@ -117,9 +126,14 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   const auto origin = [&](BodyId b) {
     return state[b].rigid == c.rigid ? state[b].local : Vec2(Vec2::Zero());
   };
+  const SolverVelocity ua = memberMasses(state, c, contact.key.a);
+  const SolverVelocity ub = memberMasses(state, c, contact.key.b);
   BlockGeometry g;
   g.normal = contact.normal;
   g.count = contact.count;
+  if (state.settings.unmerging.rule == Rule::Paper) {
+    g.softness = contactSoftness(state.settings.solver, ua.inv_mass, ub.inv_mass);
+  }
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
     g.arm_a[i] = contact.points[i].position - origin(contact.key.a);
     g.arm_b[i] = contact.points[i].position - origin(contact.key.b);
@@ -132,10 +146,9 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
     k.lambda[i] = contact.points[i].lambda_n;
     k.lambda[i + 2] = contact.points[i].lambda_t;
-    const bool has_met = contact.watch[i].active;
-    k.bias[i] = has_met ? 0.0 : std::max(0.0, contact.gap[i]) / state.h;
+    k.bias[i] = innerBias(state, contact, i);
   }
-  prepareBlock(k, g, memberMasses(state, c, contact.key.a), memberMasses(state, c, contact.key.b));
+  prepareBlock(k, g, ua, ub);
   return k;
 }
 

@@ -14,10 +14,11 @@ bool isMember(const State& state, BodyId b) { return state.isCollection(state[b]
 
 /// Velocity of a member before the last position update: Deviation from the start with today's
 /// velocity, which would miss the force that keeps the member on its circle.
-/// Guarded by Sweep.HoldsASpinningMemberOnItsCircle.
+/// The paper's rule has it. Guarded by Sweep.HoldsASpinningMemberOnItsCircle.
 void startMembers(const State& state, const Collection& c, Scratch& scratch) {
   const Rigid& r = state[c.rigid];
-  const Rotation before = r.previous_rotation;
+  const bool literal = state.settings.unmerging.rule == Rule::Paper;
+  const Rotation before = literal ? r.rotation : r.previous_rotation;
   for (std::size_t i = 0; i < c.members.size(); ++i) {
     const Body& body = state[c.members[i]];
     const Vec2 arm = before * (body.local - r.center);
