@@ -26,9 +26,9 @@ std::size_t bytesOf(const std::vector<T>&... v) {
 }
 
 /// Gives back what is more than a sixteenth of what is used.
-template <class T>
-void tighten(std::vector<T>& v) {
-  if (v.capacity() - v.size() > v.size() / 16) v.shrink_to_fit();
+template <class... T>
+void tighten(std::vector<T>&... v) {
+  (..., (v.capacity() - v.size() > v.size() / 16 ? v.shrink_to_fit() : void()));
 }
 
 /// Gives memory back that is mostly unused.

@@ -7,6 +7,7 @@
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/internal_edges.h"
 #include "src2d/core/assert.h"
+#include "src2d/core/memory.h"
 
 namespace merge2d {
 namespace {
@@ -216,11 +217,7 @@ class Builder {
       if (s.bodies[i].alive) bringIn(s, BodyId{i});
     }
     setup_.actions.launches = launch_;
-    for (auto* numbers : {&s.shape_collider, &s.first_sibling}) numbers->shrink_to_fit();
-    s.bodies.shrink_to_fit();
-    s.rigids.shrink_to_fit();
-    s.extents.shrink_to_fit();
-    s.shape_body.shrink_to_fit();
+    tighten(s.bodies, s.rigids, s.extents, s.shape_collider, s.shape_body, s.first_sibling);
   }
 
   const Scene& scene_;
