@@ -31,7 +31,8 @@ void wakeAround(const State& state, Scratch& scratch, BodyId body) {
     if (b == body) scratch.stirred.push_back(a);
   };
   for (const ContactTable::Slot slot : state.contacts.order) {
-    wakeOther(state.contacts[slot].key.a, state.contacts[slot].key.b);
+    const Contact& contact = state.contacts[slot];
+    if (contact.count > 0) wakeOther(contact.key.a, contact.key.b);
   }
   for (const Collection& c : state.collections) {
     for (const Weld& weld : c.welds) wakeOther(weld.a, weld.b);

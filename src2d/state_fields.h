@@ -85,9 +85,14 @@ void fields(Ar& ar, Some<Contact> auto& c) {
   ar(key, normal, count, vain, quiet_steps, apart, points);
 }
 template <class Ar>
+void fields(Ar& ar, Some<IdlePair> auto& p) {
+  auto& [key, apart] = p;
+  ar(key, apart);
+}
+template <class Ar>
 void fields(Ar& ar, Some<ContactTable> auto& t) {
-  auto& [slots, free_slots, order] = t;
-  ar(slots, free_slots, order);
+  auto& [slots, free_slots, order, idle] = t;
+  ar(slots, free_slots, order, idle);
 }
 template <class Ar>
 void fields(Ar& ar, Some<NearPair> auto& p) {

@@ -1,10 +1,9 @@
 #include "src2d/contact/broadphase.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "src2d/contact/approach.h"
-#include "src2d/core/memory.h"
+#include "src2d/contact/table.h"
 
 namespace merge2d {
 namespace {
@@ -176,12 +175,13 @@ void refineNearPairs(State& state, Scratch& scratch) {
   }
 }
 
-/// Contacts whose rigid things parted, or that a new pairing of their shapes no longer names.
+/// Contacts and idle pairs whose rigid things parted, or that a new pairing of their shapes no
+/// longer names.
 void dropParted(State& state, Scratch& scratch) {
   const auto& near = state.broadphase.near;
   const auto& candidates = scratch.candidates;
-  dropContacts(state, [&](const Contact& contact) {
-    const RigidId ra = state[contact.key.a].rigid, rb = state[contact.key.b].rigid;
+  const auto parted = [&](const ContactKey& key) {
+    const RigidId ra = state[key.a].rigid, rb = state[key.b].rigid;
     const Rigid &a = state[ra], &b = state[rb];
     if (!a.present() || !b.present()) return true;
     const bool one_moved = scratch.moved_flag[index(ra)] || scratch.moved_flag[index(rb)];
@@ -191,8 +191,10 @@ void dropParted(State& state, Scratch& scratch) {
     const auto pair = std::lower_bound(near.begin(), near.end(), wanted);
     if (pair == near.end() || !(*pair == wanted)) return canTouch(state, ra, rb);
     if (!scratch.near_refined[static_cast<std::size_t>(pair - near.begin())]) return false;
-    return !std::binary_search(candidates.begin(), candidates.end(), contact.key);
-  });
+    return !std::binary_search(candidates.begin(), candidates.end(), key);
+  };
+  dropContacts(state.contacts, [&](const Contact& contact) { return parted(contact.key); });
+  std::erase_if(state.contacts.idle, [&](const IdlePair& pair) { return parted(pair.key); });
 }
 
 }  // namespace
@@ -246,69 +248,6 @@ void compactTree(State& state) {
 
 void dropShapeTree(State& state, RigidId id) { state.broadphase.shape_trees[index(id)].reset(); }
 
-namespace {
-
-/// In a first step or after a crash they are many; their memory is not needed again.
-void releaseMany(std::vector<ContactKey>& keys) {
-  constexpr std::size_t kMany = 256;
-  if (keys.size() > kMany) std::vector<ContactKey>().swap(keys);
-}
-
-}  // namespace
-
-void addContacts(State& state, const std::vector<ContactKey>& keys) {
-  auto& table = state.contacts;
-  const auto by_key = [&](ContactTable::Slot x, ContactTable::Slot y) {
-    return table[x].key < table[y].key;
-  };
-  const auto before = [&](ContactTable::Slot x, const ContactKey& key) {
-    return table[x].key < key;
-  };
-  const auto known = table.order.size();
-  const auto end = table.order.end();
-  const auto isNew = [&](const ContactKey& key) {
-    const auto at = std::lower_bound(table.order.begin(), end, key, before);
-    return at == end || table[*at].key != key;
-  };
-  thread_local std::vector<ContactKey> fresh;  // its memory is kept
-  fresh.clear();
-  std::copy_if(keys.begin(), keys.end(), std::back_inserter(fresh), isNew);
-  const std::size_t free = std::min(table.free_slots.size(), fresh.size());
-  reserveTightly(table.order, known + fresh.size());
-  reserveTightly(table.slots, table.slots.size() + fresh.size() - free);
-  for (const ContactKey& key : fresh) {
-    std::uint32_t slot;
-    if (table.free_slots.empty()) {
-      slot = static_cast<std::uint32_t>(table.slots.size());
-      table.slots.emplace_back();
-    } else {
-      slot = table.free_slots.back();
-      table.free_slots.pop_back();
-    }
-    table.slots[slot] = {};
-    table.slots[slot].key = key;
-    table.order.push_back(slot);
-  }
-  std::inplace_merge(table.order.begin(), table.order.begin() + static_cast<std::ptrdiff_t>(known),
-                     table.order.end(), by_key);
-  releaseMany(fresh);
-}
-
-void compactContacts(State& state) {
-  auto& table = state.contacts;
-  if (table.free_slots.size() * 4 < table.slots.size()) return;
-  std::vector<Contact> slots;
-  slots.reserve(table.order.size());
-  for (ContactTable::Slot& slot : table.order) {
-    slots.push_back(table.slots[slot]);
-    slot = static_cast<std::uint32_t>(slots.size() - 1);
-  }
-  table.slots = std::move(slots);
-  table.free_slots.clear();
-  trim(table.free_slots);
-  trim(table.order);
-}
-
 void updateBroadphase(State& state, Scratch& scratch) {
   moveLeaves(state, scratch);
   findNeighbours(state, scratch);
@@ -318,8 +257,8 @@ void updateBroadphase(State& state, Scratch& scratch) {
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   dropParted(state, scratch);
-  compactContacts(state);
-  if (!candidates.empty()) addContacts(state, candidates);
+  compactContacts(state.contacts);
+  addIdlePairs(state.contacts, candidates);
   releaseMany(candidates);
 }
 

@@ -21,26 +21,7 @@ void dropShapeTree(State& state, RigidId id);
 void compactTree(State& state);
 
 /// Follows the motion of all rigid things and brings the contact table up to date with the pairs of
-/// shapes whose boxes meet: contacts of pairs that parted are dropped, new ones start empty.
+/// shapes whose boxes meet: pairs that parted are dropped, new ones start idle.
 void updateBroadphase(State& state, Scratch& scratch);
-
-/// Adds many keys at once (ascending, unique); those already there are left alone.
-void addContacts(State& state, const std::vector<ContactKey>& keys);
-/// Gives back the memory of dropped contacts when most were; slots move.
-void compactContacts(State& state);
-/// Drops all contacts for which `gone(contact)` holds.
-template <class Gone>
-void dropContacts(State& state, Gone&& gone) {
-  auto& table = state.contacts;
-  std::size_t kept = 0;
-  for (const ContactTable::Slot slot : table.order) {
-    if (gone(table[slot])) {
-      table.free_slots.push_back(slot);
-    } else {
-      table.order[kept++] = slot;
-    }
-  }
-  table.order.resize(kept);
-}
 
 }  // namespace merge2d

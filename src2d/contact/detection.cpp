@@ -5,6 +5,7 @@
 #include "src2d/contact/approach.h"
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/internal_edges.h"
+#include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
 
 namespace merge2d {
@@ -27,12 +28,12 @@ bool sameFrame(const Rigid& a, const Rigid& b) {
 
 /// Most of those that do not touch stay apart however fast they are, and many need no look at all:
 /// they were farther apart than what has moved since.
-bool staysApart(const State& state, Contact& contact, double farthest) {
-  contact.apart -= static_cast<float>(2.0 * state.moved);
-  if (contact.apart > reach(state, farthest)) return true;
-  const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
-  contact.apart = static_cast<float>(boxDistance(state, contact.key, b_in_a));
-  return contact.apart > reach(state, farthest);
+bool staysApart(const State& state, const ContactKey& key, float& apart, double farthest) {
+  apart -= static_cast<float>(2.0 * state.moved);
+  if (apart > reach(state, farthest)) return true;
+  const Pose b_in_a = state.pose(key.a).toLocal(state.pose(key.b));
+  apart = static_cast<float>(boxDistance(state, key, b_in_a));
+  return apart > reach(state, farthest);
 }
 
 void loseTouch(Contact& contact) {
@@ -87,6 +88,44 @@ void holdBreath(Contact& contact) {
 
 bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
 
+/// Follows the contacts that there are.
+void followContacts(State& state, const Scratch& scratch, double farthest) {
+  for (const ContactTable::Slot slot : state.contacts.order) {
+    Contact& contact = state.contacts[slot];
+    const ContactKey& key = contact.key;
+    const Rigid &a = state.rigid(key.a), &b = state.rigid(key.b);
+    const bool fixed = resting(a) && resting(b);
+    if (fixed) holdBreath(contact);
+    if (fixed || (contact.count == 0 && sameFrame(a, b))) {
+      contact.apart = 0.0F;  // what they have moved before is not counted from here on
+    } else if (contact.count == 0 && staysApart(state, key, contact.apart, farthest)) {
+      loseTouch(contact);
+    } else {
+      updateManifold(state, contact, approach(state, scratch, key.a, key.b));
+    }
+  }
+}
+
+/// Finds the idle pairs that touch now.
+void findTouching(State& state, Scratch& scratch, double farthest) {
+  scratch.touching.clear();
+  for (IdlePair& pair : state.contacts.idle) {
+    const Rigid &a = state.rigid(pair.key.a), &b = state.rigid(pair.key.b);
+    if ((resting(a) && resting(b)) || sameFrame(a, b)) {
+      pair.apart = 0.0F;  // as above
+      continue;
+    }
+    if (staysApart(state, pair.key, pair.apart, farthest)) continue;
+    Contact contact;
+    contact.key = pair.key;
+    updateManifold(state, contact, approach(state, scratch, pair.key.a, pair.key.b));
+    pair.apart = contact.apart;
+    if (contact.count > 0) scratch.touching.push_back(contact);
+  }
+  addContacts(state.contacts, scratch.touching);
+  releaseMany(scratch.touching);
+}
+
 }  // namespace
 
 void updateManifold(const State& state, Contact& contact, double ahead) {
@@ -131,22 +170,9 @@ void collectPairs(const State& state, Scratch& scratch) {
 void detectContacts(State& state, Scratch& scratch) {
   updateBroadphase(state, scratch);
   const double farthest = farthestApproach(state, scratch);
-  for (const ContactTable::Slot slot : state.contacts.order) {
-    const ContactKey key = state.contacts[slot].key;
-    const Rigid &a = state.rigid(key.a), &b = state.rigid(key.b);
-    Contact& contact = state.contacts[slot];
-    const bool fixed = resting(a) && resting(b);
-    if (fixed) holdBreath(contact);
-    if (fixed || (contact.count == 0 && sameFrame(a, b))) {
-      contact.apart = 0.0F;  // what they have moved before is not counted from here on
-      continue;
-    }
-    if (contact.count == 0 && staysApart(state, contact, farthest)) {
-      loseTouch(contact);
-      continue;
-    }
-    updateManifold(state, contact, approach(state, scratch, key.a, key.b));
-  }
+  followContacts(state, scratch, farthest);
+  findTouching(state, scratch, farthest);
+  retireContacts(state.contacts);
   collectPairs(state, scratch);
   for (const BodyPair& pair : scratch.pairs) {
     if (pair.count > 1) prune(state, pair, scratch.notes);

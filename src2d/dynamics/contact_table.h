@@ -43,15 +43,23 @@ struct Contact {
   std::array<ContactPoint, 2> points;
 };
 
+/// Two shapes near each other that do not touch: all that is kept of most pairs of a heap.
+struct IdlePair {
+  ContactKey key;
+  float apart = 0.0F;  ///< as in Contact
+};
+
 /// A point of a contact in the table: twice its slot, plus which of the two it is.
 using PointIndex = std::uint32_t;
 
-/// Contacts between different rigid things: slots that stay in place, and their order by key.
+/// Contacts between different rigid things: slots that stay in place, and their order by key; and
+/// the pairs that may become one.
 struct ContactTable {
   using Slot = std::uint32_t;
   std::vector<Contact> slots;
   std::vector<Slot> free_slots;
-  std::vector<Slot> order;  ///< ascending by key
+  std::vector<Slot> order;     ///< ascending by key
+  std::vector<IdlePair> idle;  ///< likewise; no key is in both
 
   Contact& operator[](Slot slot) { return slots[slot]; }
   const Contact& operator[](Slot slot) const { return slots[slot]; }

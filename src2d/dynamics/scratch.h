@@ -95,6 +95,7 @@ struct Scratch {
   std::vector<RigidId> moved;
   std::vector<std::uint8_t> moved_flag;
   std::vector<ContactKey> candidates;
+  std::vector<Contact> touching;  ///< idle pairs that have become contacts
   std::vector<NearPair> near_candidates;
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
 

@@ -1,8 +1,10 @@
 #include "src2d/merging/collection.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "src2d/contact/broadphase.h"
+#include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
 
 namespace merge2d {
@@ -200,17 +202,29 @@ RigidId anchorRigid(State& state, RigidId id, BodyId anchor) {
 
 FrameId frameOf(const State& state, BodyId body) { return state[rigidOf(body)].anchor; }
 
+namespace {
+
+/// The collection within which two bodies are now, a member and its frame included.
+std::optional<RigidId> commonCollection(const State& state, const ContactKey& key) {
+  const RigidId ra = state[key.a].rigid, rb = state[key.b].rigid;
+  const bool a_in = state.isCollection(ra), b_in = state.isCollection(rb);
+  const bool with_frame =
+      a_in != b_in && !state[ra].floating() && state[ra].anchor == state[rb].anchor;
+  if (ra != rb && !with_frame) return std::nullopt;
+  return a_in ? ra : rb;
+}
+
+}  // namespace
+
 void absorbContacts(State& state) {
-  dropContacts(state, [&](const Contact& contact) {
-    const RigidId ra = state[contact.key.a].rigid, rb = state[contact.key.b].rigid;
-    const bool a_in = state.isCollection(ra), b_in = state.isCollection(rb);
-    const bool inside = ra == rb;
-    const bool with_frame =
-        a_in != b_in && !state[ra].floating() && state[ra].anchor == state[rb].anchor;
-    if (!inside && !with_frame) return false;
+  std::erase_if(state.contacts.idle, [&](const IdlePair& pair) {
+    return commonCollection(state, pair.key).has_value();
+  });
+  dropContacts(state.contacts, [&](const Contact& contact) {
+    const std::optional<RigidId> id = commonCollection(state, contact.key);
+    if (!id) return false;
     if (contact.count == 0) return true;
-    const RigidId id = a_in ? ra : rb;
-    Collection& c = state.collection(id);
+    Collection& c = state.collection(*id);
     if (!c.stale) saveForces(c);
     c.stale = true;
 
@@ -219,7 +233,7 @@ void absorbContacts(State& state) {
     inner.count = contact.count;
     inner.vain = contact.vain;
     inner.since = state.step;
-    const Pose from_a = state[id].frame().toLocal(state.pose(contact.key.a));
+    const Pose from_a = state[*id].frame().toLocal(state.pose(contact.key.a));
     inner.normal = from_a.rotation * contact.normal;
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
       const ContactPoint& p = contact.points[i];

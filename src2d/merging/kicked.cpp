@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
+#include "src2d/contact/table.h"
 #include "src2d/merging/collection.h"
 
 namespace merge2d {
@@ -61,13 +61,19 @@ void expectContactsOfKicked(State& state, Scratch& scratch) {
   if (keys.empty()) return;
   std::ranges::sort(keys);
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  addContacts(state, keys);
-  for (const ContactTable::Slot slot : state.contacts.order) {
-    Contact& contact = state.contacts[slot];
-    if (!std::ranges::binary_search(keys, contact.key)) continue;
-    const double way = wayOf(state, scratch, contact.key.a) + wayOf(state, scratch, contact.key.b);
+  std::vector<Contact> found;
+  for (const ContactKey& key : keys) {
+    const double way = wayOf(state, scratch, key.a) + wayOf(state, scratch, key.b);
+    if (const auto* slot = findContact(state.contacts, key)) {
+      updateManifold(state, state.contacts[*slot], way);
+      continue;
+    }
+    Contact contact;
+    contact.key = key;
     updateManifold(state, contact, way);
+    if (contact.count > 0) found.push_back(contact);
   }
+  addContacts(state.contacts, found);
   absorbContacts(state);
   for (Collection& c : state.collections) {
     for (InternalContact& inner : c.contacts) {

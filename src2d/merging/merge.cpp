@@ -4,6 +4,7 @@
 
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
+#include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
@@ -66,7 +67,7 @@ void merge(State& state, Scratch& scratch) {
   absorbContacts(state);
   layOutCollections(state);
   dropFreeSlots(state);
-  compactContacts(state);
+  compactContacts(state.contacts);
   collectPairs(state, scratch);
   releaseRows(state, scratch);
 }

@@ -4,6 +4,7 @@
 
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
+#include "src2d/contact/table.h"
 #include "src2d/merging/collection.h"
 
 namespace merge2d {
@@ -125,21 +126,14 @@ double farthestPoint(const InternalContact& inner) {
 
 /// Contacts between the parts return to the table with their impulses and today's geometry.
 void releaseContacts(State& state, const std::vector<Released>& released) {
-  std::vector<ContactKey> keys;
-  for (const Released& r : released) keys.push_back(r.inner.key);
-  std::sort(keys.begin(), keys.end());
-  addContacts(state, keys);
+  std::vector<Contact> contacts;
   for (const auto& [inner, patience] : released) {
-    const auto& order = state.contacts.order;
-    const auto at = std::lower_bound(order.begin(), order.end(), inner.key,
-                                     [&](ContactTable::Slot slot, const ContactKey& key) {
-                                       return state.contacts[slot].key < key;
-                                     });
-    Contact& contact = state.contacts[*at];
-    contact = inner.released();
+    Contact& contact = contacts.emplace_back(inner.released());
     contact.quiet_steps = -patience;
     updateManifold(state, contact, farthestPoint(inner));
   }
+  std::ranges::sort(contacts, {}, &Contact::key);
+  addContacts(state.contacts, contacts);
 }
 
 }  // namespace

@@ -16,11 +16,12 @@ std::size_t bytesOfBroadphase(const Broadphase& b) {
 }
 
 std::size_t bytesOfState(const State& s) {
-  std::size_t total = bytesOf(s.colliders, s.collider_bounds, s.shape_collider, s.shape_body,
-                              s.first_sibling, s.siblings, s.bodies, s.rigids, s.present, s.extents,
-                              s.collections, s.joints, s.joined_pairs, s.ready_before) +
-                      bytesOf(s.contacts.slots, s.contacts.free_slots, s.contacts.order) +
-                      bytesOfBroadphase(s.broadphase);
+  std::size_t total =
+      bytesOf(s.colliders, s.collider_bounds, s.shape_collider, s.shape_body, s.first_sibling,
+              s.siblings, s.bodies, s.rigids, s.present, s.extents, s.collections, s.joints,
+              s.joined_pairs, s.ready_before) +
+      bytesOf(s.contacts.slots, s.contacts.free_slots, s.contacts.order, s.contacts.idle) +
+      bytesOfBroadphase(s.broadphase);
   for (const Collection& c : s.collections) {
     total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.contact_block, c.watched,
                      c.grip, c.pivots, c.leaning, c.cut_welds, c.spare, c.loosened, c.welds,
@@ -31,8 +32,8 @@ std::size_t bytesOfState(const State& s) {
 
 std::size_t bytesOfScratch(const Scratch& s) {
   return bytesOf(s.loads, s.kicks, s.springs, s.pairs, s.events, s.moved, s.moved_flag,
-                 s.candidates, s.near_candidates, s.near_refined, s.seeds, s.stirred, s.restless,
-                 s.island_awake) +
+                 s.candidates, s.touching, s.near_candidates, s.near_refined, s.seeds, s.stirred,
+                 s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
                  s.others, s.leant, s.ready, s.restless_bodies) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,

@@ -1,0 +1,103 @@
+#include "src2d/contact/table.h"
+
+#include <algorithm>
+
+#include "src2d/core/memory.h"
+
+namespace merge2d {
+namespace {
+
+ContactTable::Slot takeSlot(ContactTable& table) {
+  if (table.free_slots.empty()) {
+    table.slots.emplace_back();
+    return static_cast<ContactTable::Slot>(table.slots.size() - 1);
+  }
+  const ContactTable::Slot slot = table.free_slots.back();
+  table.free_slots.pop_back();
+  return slot;
+}
+
+/// True for a quarter or more.
+bool many(std::size_t some, std::size_t all) { return some > 0 && 4 * some >= all; }
+
+bool retires(const Contact& contact) { return contact.count == 0 && contact.vain == 0; }
+
+/// Puts what stands behind `middle` in its place, by key.
+template <class T, class KeyOf>
+void mergeTail(std::vector<T>& list, std::size_t middle, KeyOf&& key) {
+  std::ranges::inplace_merge(list, list.begin() + static_cast<std::ptrdiff_t>(middle), {}, key);
+}
+
+}  // namespace
+
+const ContactTable::Slot* findContact(const ContactTable& table, const ContactKey& key) {
+  const auto keyAt = [&](ContactTable::Slot slot) -> const ContactKey& { return table[slot].key; };
+  const auto at = std::ranges::lower_bound(table.order, key, {}, keyAt);
+  return at != table.order.end() && table[*at].key == key ? &*at : nullptr;
+}
+
+void addContacts(ContactTable& table, const std::vector<Contact>& contacts) {
+  if (contacts.empty()) return;
+  const auto isIdle = [&](const Contact& contact) {
+    return std::ranges::binary_search(table.idle, contact.key, {}, &IdlePair::key);
+  };
+  if (std::ranges::any_of(contacts, isIdle)) {
+    std::erase_if(table.idle, [&](const IdlePair& pair) {
+      return std::ranges::binary_search(contacts, pair.key, {}, &Contact::key);
+    });
+  }
+  const std::size_t known = table.order.size();
+  const std::size_t free = std::min(table.free_slots.size(), contacts.size());
+  reserveTightly(table.order, known + contacts.size());
+  reserveTightly(table.slots, table.slots.size() + contacts.size() - free);
+  for (const Contact& contact : contacts) {
+    const ContactTable::Slot slot = takeSlot(table);
+    table[slot] = contact;
+    table.order.push_back(slot);
+  }
+  mergeTail(table.order, known, [&](ContactTable::Slot slot) { return table[slot].key; });
+}
+
+void addIdlePairs(ContactTable& table, const std::vector<ContactKey>& keys) {
+  const std::size_t known = table.idle.size();
+  const auto isNew = [&](const ContactKey& key) {
+    const auto end = table.idle.begin() + static_cast<std::ptrdiff_t>(known);
+    const auto at = std::ranges::lower_bound(table.idle.begin(), end, key, {}, &IdlePair::key);
+    return (at == end || at->key != key) && !findContact(table, key);
+  };
+  for (const ContactKey& key : keys) {
+    if (isNew(key)) table.idle.push_back({key});
+  }
+  if (table.idle.size() > known) mergeTail(table.idle, known, &IdlePair::key);
+}
+
+void retireContacts(ContactTable& table) {
+  const auto count = std::ranges::count_if(
+      table.order, [&](ContactTable::Slot slot) { return retires(table[slot]); });
+  if (!many(static_cast<std::size_t>(count), table.order.size())) return;
+  const std::size_t known = table.idle.size();
+  reserveTightly(table.idle, known + static_cast<std::size_t>(count));
+  dropContacts(table, [&](const Contact& contact) {
+    if (!retires(contact)) return false;
+    table.idle.push_back({contact.key, contact.apart});
+    return true;
+  });
+  mergeTail(table.idle, known, &IdlePair::key);
+}
+
+void compactContacts(ContactTable& table) {
+  trim(table.idle);
+  if (!many(table.free_slots.size(), table.slots.size())) return;
+  std::vector<Contact> slots;
+  slots.reserve(table.order.size());
+  for (ContactTable::Slot& slot : table.order) {
+    slots.push_back(table.slots[slot]);
+    slot = static_cast<ContactTable::Slot>(slots.size() - 1);
+  }
+  table.slots = std::move(slots);
+  table.free_slots.clear();
+  trim(table.free_slots);
+  trim(table.order);
+}
+
+}  // namespace merge2d
