@@ -17,7 +17,8 @@ class DetourSearch {
       : c_(c),
         frame_(static_cast<std::uint32_t>(c.members.size())),
         resolution_(resolutionOf(state, c)),
-        by_two_(state.settings.merging.cycles != CycleCriterion::Triangle) {}
+        by_two_(state.settings.merging.cycles != CycleCriterion::Triangle),
+        floors_join_(state.settings.merging.rule == Rule::Paper) {}
 
   bool leadsAround(const Weld& weld) {
     const std::uint32_t a = weld.node_a, b = weld.node_b;
@@ -41,7 +42,7 @@ class DetourSearch {
         const std::uint32_t number = c_.weld_of[k];
         const Weld& weld = c_.welds[number];
         const std::uint32_t other = weld.node_a == node ? weld.node_b : weld.node_a;
-        const bool through_frame = other == frame_ && to != frame_;
+        const bool through_frame = other == frame_ && (to != frame_ || floors_join_);
         if (weld.cut || weld.expected || through_frame || contains(other)) continue;
         if (c_.grip[number] != Grip::Firm && !hingeTwice(other, weld)) continue;
         if (other == to) return true;
@@ -76,7 +77,8 @@ class DetourSearch {
   const Collection& c_;
   std::uint32_t frame_;  ///< its node
   double resolution_;
-  bool by_two_;  ///< two contacts with different bodies of a rigid group hold a body
+  bool by_two_;       ///< two contacts with different bodies of a rigid group hold a body
+  bool floors_join_;  ///< which body of the frame holds a part matters
   std::array<std::uint32_t, kMost> group_{};
   std::array<Hinged, kMost> hinged_{};
   std::size_t count_ = 0, hinged_count_ = 0;

@@ -1,6 +1,7 @@
 #include "src2d/merging/merge.h"
 
 #include <algorithm>
+#include <map>
 
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
@@ -33,8 +34,37 @@ std::vector<BodyPair> pairsToWeld(State& state, Scratch& scratch) {
   return held;
 }
 
+/// What is welded to a body of a frame stays apart from what else is welded to it. Deviation: in
+/// the paper a pinned body is a member like any other, so that two piles on one floor are one
+/// collection. Its rule brings them together. Guarded by Collection.TwoPilesOnOneFloorStayTwo.
+class Floors {
+ public:
+  explicit Floors(State& state) : state_(state) {
+    for (const Collection& c : state.collections) {
+      if (c.id == kNoCollection || !shared()) continue;
+      for (const Weld& weld : c.welds) {
+        const bool a_in = state[weld.a].rigid == c.rigid, b_in = state[weld.b].rigid == c.rigid;
+        if (a_in != b_in) on_[a_in ? weld.b : weld.a] = a_in ? weld.a : weld.b;
+      }
+    }
+  }
+
+  void add(BodyId floor, BodyId member) {
+    if (!shared()) return;
+    const auto [other, first] = on_.emplace(floor, member);
+    const RigidId one = state_[member].rigid, two = state_[other->second].rigid;
+    if (!first && one != two) mergeRigids(state_, one, two);
+  }
+
+ private:
+  bool shared() const { return state_.settings.merging.rule == Rule::Paper; }
+
+  State& state_;
+  std::map<BodyId, BodyId> on_;  ///< a member that is welded to each of them
+};
+
 /// Welds one pair, unless what they are fixed to moves differently.
-bool weld(State& state, const BodyPair& pair) {
+bool weld(State& state, Floors& floors, const BodyPair& pair) {
   const RigidId ra = state[pair.a].rigid, rb = state[pair.b].rigid;
   const Rigid &a = state[ra], &b = state[rb];
   if (ra == rb) return false;
@@ -43,8 +73,10 @@ bool weld(State& state, const BodyPair& pair) {
   const bool b_frame = !b.floating() && !state.isCollection(rb);
   if (a_frame) {
     anchorRigid(state, rb, pair.a);
+    floors.add(pair.a, pair.b);
   } else if (b_frame) {
     anchorRigid(state, ra, pair.b);
+    floors.add(pair.b, pair.a);
   } else {
     mergeRigids(state, ra, rb);
   }
@@ -57,8 +89,9 @@ void merge(State& state, Scratch& scratch) {
   if (!merges(state.mode)) return;
   const auto pairs = pairsToWeld(state, scratch);
   if (pairs.empty()) return;
+  Floors floors(state);
   for (const BodyPair& pair : pairs) {
-    if (!weld(state, pair)) continue;
+    if (!weld(state, floors, pair)) continue;
     const RigidId id =
         state.isCollection(state[pair.a].rigid) ? state[pair.a].rigid : state[pair.b].rigid;
     scratch.events.push_back(

@@ -1,5 +1,7 @@
 #include "src2d/merging/parts.h"
 
+#include <map>
+
 #include "src2d/merging/collection.h"
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/grip.h"
@@ -54,6 +56,20 @@ void addPins(const State& state, const Collection& c, const Weld& weld, std::uin
   }
 }
 
+/// With the paper's rule, what one body of the frame holds is one part (see Floors in merge.cpp).
+void uniteOnFloors(const Collection& c, const Nodes& nodes, const Groups& group,
+                   DisjointSets& parts) {
+  std::map<BodyId, std::uint32_t> on;  // per body of the frame: a node that it holds
+  const auto frame = static_cast<std::uint32_t>(c.members.size());
+  for (const Weld& weld : c.welds) {
+    const bool to_frame = weld.node_a == frame || weld.node_b == frame;
+    if (!to_frame || weld.cut || weld.expected) continue;
+    const std::uint32_t node = nodes.of[weld.node_a == frame ? weld.node_b : weld.node_a];
+    if (group[node] != group[0]) continue;
+    parts.unite(node, on.emplace(weld.node_a == frame ? weld.a : weld.b, node).first->second);
+  }
+}
+
 }  // namespace
 
 Parts partsWithoutCuts(const State& state, const Collection& c) {
@@ -75,6 +91,7 @@ Parts partsWithoutCuts(const State& state, const Collection& c) {
   for (const Pin& pin : pins) {
     if (pin.a != 0 && pin.b != 0 && group[pin.a] == group[pin.b]) parts.unite(pin.a, pin.b);
   }
+  if (state.settings.merging.rule == Rule::Paper) uniteOnFloors(c, nodes, group, parts);
   Parts result;
   std::vector<std::uint32_t> number(nodes.count, ~0u);
   for (std::size_t m = 0; m < c.members.size(); ++m) {

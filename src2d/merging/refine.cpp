@@ -209,18 +209,21 @@ void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMeth
   solveJoint(*item.joint, item.turn, u[item.joint->a], u[item.joint->b]);
 }
 
-std::vector<SweepItem> orderedFrom(std::span<const std::uint32_t> seeds, const Scratch& scratch,
-                                   const std::vector<SweepItem>& items,
-                                   std::vector<std::uint32_t>* depth) {
+std::vector<SweepItem> orderedFromSeeds(const State& state, const Scratch& scratch,
+                                        const std::vector<SweepItem>& items,
+                                        std::vector<std::uint32_t>* depth) {
   std::vector<GraphEdge> edges;
   edges.reserve(items.size());
   for (const SweepItem& item : items) edges.push_back({item.a(), item.b()});
+  // Deviation: not through what does not respond to forces, or a floor would pass everything on to
+  // everything at once. The paper's rule does. Guarded by Sweep.TheWalkDoesNotPassTheFloor.
+  const bool literal = state.settings.unmerging.rule == Rule::Paper;
   std::vector<std::uint8_t> passable(scratch.sweep_u.size());
   for (std::size_t i = 0; i < passable.size(); ++i) {
-    passable[i] = scratch.sweep_u[i].inv_mass > 0.0;
+    passable[i] = literal || scratch.sweep_u[i].inv_mass > 0.0;
   }
-  const auto order =
-      breadthFirst(static_cast<std::uint32_t>(passable.size()), edges, seeds, passable, depth);
+  const auto order = breadthFirst(static_cast<std::uint32_t>(passable.size()), edges, scratch.seeds,
+                                  passable, depth);
   std::vector<SweepItem> ordered;
   std::vector<std::uint32_t> depth_in_order;
   ordered.reserve(order.size());

@@ -35,11 +35,11 @@ void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocit
 
 void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method);
 
-/// The items in breadth-first order from the seed bodies (Section 6.2). `depth`, when given, gets
+/// The items in breadth-first order from `scratch.seeds` (Section 6.2). `depth`, when given, gets
 /// per item, in that order, what breadthFirst says of it.
-std::vector<SweepItem> orderedFrom(std::span<const std::uint32_t> seeds, const Scratch& scratch,
-                                   const std::vector<SweepItem>& items,
-                                   std::vector<std::uint32_t>* depth = nullptr);
+std::vector<SweepItem> orderedFromSeeds(const State& state, const Scratch& scratch,
+                                        const std::vector<SweepItem>& items,
+                                        std::vector<std::uint32_t>* depth = nullptr);
 
 /// Velocities below this are what a sweep leaves for the next one: a thousandth of what gravity
 /// adds in a step [m/s].

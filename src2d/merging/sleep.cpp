@@ -109,7 +109,9 @@ Awake reasonToStay(const State& state, std::size_t i, bool restless) {
   if (r.asleep) return kNothing;
   if (r.quiet_steps < state.settings.sleeping.steps) return kMotion;
   const bool collection = i >= state.bodies.size();
-  const bool settled = !collection || state.collections[i - state.bodies.size()].settled;
+  // The paper does not wait for the forces inside.
+  const bool waits = collection && state.settings.unmerging.rule == Rule::Default;
+  const bool settled = !waits || state.collections[i - state.bodies.size()].settled;
   return settled ? kNothing : kInnerForces;
 }
 

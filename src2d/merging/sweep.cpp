@@ -38,13 +38,20 @@ std::vector<SweepItem> looseItems(State& state, Scratch& scratch) {
   return items;
 }
 
-/// All that a disturbed step may sweep.
+/// All that a disturbed step may sweep. A contact that carried nothing when its pair merged is no
+/// part of the paper's contact graph (Section 6.3).
 std::vector<SweepItem> disturbedItems(State& state, Scratch& scratch) {
+  const bool literal = state.settings.unmerging.rule == Rule::Paper;
   std::vector<SweepItem> items = looseItems(state, scratch);
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
-    for (ContactBlock& k : c.blocks) items.push_back({&k, nullptr, state[c.rigid].rotation});
+    for (std::size_t i = 0; i < c.blocks.size(); ++i) {
+      const bool dormant =
+          i >= c.active_blocks && c.contacts[c.block_contact[i]].since != kExpected;
+      if (literal && dormant) continue;
+      items.push_back({&c.blocks[i], nullptr, state[c.rigid].rotation});
+    }
   }
   return items;
 }
@@ -53,7 +60,7 @@ std::vector<SweepItem> disturbedItems(State& state, Scratch& scratch) {
 void noteOrder(State& state, Scratch& scratch) {
   if (!scratch.notes) return;
   std::vector<std::uint32_t> depth;
-  const auto ordered = orderedFrom(scratch.seeds, scratch, disturbedItems(state, scratch), &depth);
+  const auto ordered = orderedFromSeeds(state, scratch, disturbedItems(state, scratch), &depth);
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     const std::uint32_t a = ordered[i].a(), b = ordered[i].b();
     if (std::max(a, b) >= state.bodies.size()) continue;  // to the world
@@ -157,12 +164,14 @@ bool anyDisturbed(const Scratch& scratch) {
                      [](std::uint8_t d) { return d != 0; });
 }
 
-/// As in the paper: one sweep over all of a disturbed collection, breadth first from what is new.
+/// As in the paper: one sweep over everything, breadth first from what is new.
 void sweepBreadthFirst(State& state, Scratch& scratch) {
-  spreadDisturbance(state, scratch);
+  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
+    scratch.disturbed[slot] = isSwept(state, state.collections[slot]) ? 1 : 0;
+  }
   noteOrder(state, scratch);
   const std::vector<SweepItem> ordered =
-      orderedFrom(scratch.seeds, scratch, disturbedItems(state, scratch));
+      orderedFromSeeds(state, scratch, disturbedItems(state, scratch));
   for (int s = 0; s < state.settings.unmerging.sweeps; ++s) {
     for (const SweepItem& item : ordered) {
       sweepItem(item, scratch.sweep_u, state.settings.solver.method);
@@ -202,6 +211,22 @@ void refineDisturbed(State& state, Scratch& scratch, double blow) {
   }
 }
 
+/// One sweep over what shares no body in a row, and more where something is new.
+void sweepByColours(State& state, Scratch& scratch) {
+  scratch.restless_bodies.assign(scratch.sweep_u.size(), 0);
+  for (JointBlock& k : scratch.sweep_joints) {
+    solveJoint(k, {}, scratch.sweep_u[k.a], scratch.sweep_u[k.b]);
+  }
+  for (SweepContact& outer : scratch.sweep_contacts) {
+    sweepBlock(outer.block, {}, scratch.sweep_u, state.settings.solver.method);
+  }
+  double blow = 0.0;
+  for (Collection& c : state.collections) {
+    if (isSwept(state, c)) blow = std::max(blow, sweepOnce(state, c, scratch));
+  }
+  if (refines(state.settings.unmerging)) refineDisturbed(state, scratch, blow);
+}
+
 /// Between two collections that are fixed to a frame the full solve has no row: what the sweep
 /// found there is all that is known.
 void keepFixedContacts(State& state, const Scratch& scratch) {
@@ -229,24 +254,12 @@ bool isSwept(const State& state, const Collection& c) {
 
 void sweepCollections(State& state, Scratch& scratch) {
   if (!scratch.sweeping) return;
-  const UnmergingSettings& settings = state.settings.unmerging;
-  const bool paper = settings.rule == Rule::Paper;
-  scratch.restless_bodies.assign(scratch.sweep_u.size(), 0);
-  if (paper && anyDisturbed(scratch)) sweepBreadthFirst(state, scratch);
-  for (JointBlock& k : scratch.sweep_joints) {
-    solveJoint(k, {}, scratch.sweep_u[k.a], scratch.sweep_u[k.b]);
+  const bool literal = state.settings.unmerging.rule == Rule::Paper;
+  if (literal && !scratch.seeds.empty()) {
+    sweepBreadthFirst(state, scratch);
+  } else {
+    sweepByColours(state, scratch);
   }
-  for (SweepContact& outer : scratch.sweep_contacts) {
-    sweepBlock(outer.block, {}, scratch.sweep_u, state.settings.solver.method);
-  }
-  double blow = 0.0;
-  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
-    Collection& c = state.collections[slot];
-    const bool disturbed = scratch.disturbed[slot] != 0;
-    if (!isSwept(state, c) || (paper && disturbed)) continue;
-    blow = std::max(blow, sweepOnce(state, c, scratch));
-  }
-  if (refines(settings)) refineDisturbed(state, scratch, blow);
   keepFixedContacts(state, scratch);
   if (!state.joints.empty()) keepJointForces(state, scratch);
 }

@@ -9,7 +9,7 @@
 namespace merge2d {
 
 /// Sweeps the contacts of each collection once, then goes on where something is new or still
-/// changes much (merging/refine.h). `unmerging.rule = "paper"`: disturbed collections once, breadth
+/// changes much (merging/refine.h). `unmerging.rule = "paper"`: everything once, breadth
 /// first from the seeds, and no more.
 void sweepCollections(State& state, Scratch& scratch);
 

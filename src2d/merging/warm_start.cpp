@@ -122,12 +122,21 @@ void applyAsLoad(const State& state, const Contact& contact, std::vector<SolverV
 }
 
 /// Contacts at swept collections, and fresh ones, get rows; the others of the free bodies there
-/// keep pushing with the impulses of the last step.
+/// keep pushing with the impulses of the last step. Deviation: in the paper all contacts are swept,
+/// those of free bodies too, which costs a second solve. Its rule does so.
+/// Guarded by Sweep.LooksOnlyAtTheContactsOfCollections.
 void warmStartOuter(const State& state, Scratch& scratch) {
   scratch.sweep_contacts.clear();
   auto& near = scratch.near_collection;
   near.assign(state.bodies.size(), 0);
-  const auto swept = [&](BodyId b) { return isMember(state, b) && !state.rigid(b).asleep; };
+  const bool literal = state.settings.unmerging.rule == Rule::Paper;
+  const auto asleep = [&](BodyId b) { return state.rigid(b).asleep; };
+  const auto swept = [&](BodyId b) { return isMember(state, b) && !asleep(b); };
+  const auto hasRows = [&](const Contact& contact) {
+    const BodyId a = contact.key.a, b = contact.key.b;
+    if (literal) return !asleep(a) && !asleep(b);
+    return swept(a) || swept(b) || closesAnew(state, contact);
+  };
   const auto forEach = [&](auto&& visit) {
     for (const BodyPair& pair : scratch.pairs) {
       for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
@@ -137,9 +146,8 @@ void warmStartOuter(const State& state, Scratch& scratch) {
     }
   };
   forEach([&](ContactTable::Slot slot, const Contact& contact) {
-    const BodyId a = contact.key.a, b = contact.key.b;
-    if (!swept(a) && !swept(b) && !closesAnew(state, contact)) return;
-    near[index(a)] = near[index(b)] = 1;
+    if (!hasRows(contact)) return;
+    near[index(contact.key.a)] = near[index(contact.key.b)] = 1;
     addOuterContact(state, contact, slot, scratch);
   });
   if (!state.joints.empty()) listSweepJoints(state, scratch);

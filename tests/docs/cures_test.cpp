@@ -50,23 +50,32 @@ TEST(Cures, UnderThePapersRuleItsFirstLostContactBreaksTheWeld) {
   EXPECT_EQ(reasonOfUnmerge(run, 30), EventReason::Broken);
 }
 
-TEST(Cures, AContactThatCarriedNothingWhenItsPairMergedTakesALoadLater) {
-  // The box touches a post and is then knocked against it.
-  Simulation run(kBox + R"(
+// The box touches a post and is then knocked against it.
+const std::string kAtPost = kBox + R"(
 friction = 0.1
 [[body]]
 name = "post"
 motion = "pinned"
 at = [1, 0.5]
 box = [1, 1]
-)",
-                 Mode::Merge);
+)";
+
+TEST(Cures, AContactThatCarriedNothingWhenItsPairMergedTakesALoadLater) {
+  Simulation run(kAtPost, Mode::Merge);
   run.until(2.0);
   ASSERT_TRUE(run.merged("box"));
   const double before = run.body("box").x.x();
   run.kick("box", {2.0, 0.0});
   EXPECT_EQ(reasonOfUnmerge(run, 50), EventReason::None);
   EXPECT_EQ(run.body("box").x.x(), before);
+}
+
+TEST(Cures, UnderThePapersRuleAContactThatCarriedNothingIsForgotten) {
+  Simulation run(kAtPost, Mode::Merge, {{"unmerging.rule", "\"paper\""}});
+  run.until(2.0);
+  ASSERT_TRUE(run.merged("box"));
+  run.kick("box", {2.0, 0.0});
+  EXPECT_NE(reasonOfUnmerge(run, 50), EventReason::None);
 }
 
 /// The largest force [N] that is missing for a body to stay where it is.
@@ -92,6 +101,21 @@ TEST(Cures, ACollectionSleepsWhenTheForcesInsideCarryItsWeight) {
   while (run.world().stats().asleep < bodies && run.world().time() < 10.0) run.steps(1);
   ASSERT_EQ(run.world().stats().asleep, bodies);
   EXPECT_LT(largestImbalance(run.world(), run.now()), 0.1 * kGravity);  // boxes weigh 1 kg
+}
+
+TEST(Cures, UnderThePapersRuleACollectionSleepsWhateverTheForcesInside) {
+  Simulation run(wall(5, 40), Mode::MergeSleep);
+  Scene literal = wall(5, 40);
+  literal.settings.unmerging.rule = Rule::Paper;
+  Simulation paper(literal, Mode::MergeSleep);
+  const auto timeToSleep = [](Simulation& s) {
+    while (s.world().stats().asleep < s.world().stats().bodies && s.world().time() < 10.0) {
+      s.steps(1);
+    }
+    return s.world().time();
+  };
+  EXPECT_LT(timeToSleep(paper), timeToSleep(run));
+  EXPECT_GT(largestImbalance(paper.world(), paper.now()), largestImbalance(run.world(), run.now()));
 }
 
 }  // namespace

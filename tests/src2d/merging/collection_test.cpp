@@ -165,8 +165,7 @@ TEST(Collection, MembersDoNotDriftInTenThousandSteps) {
   EXPECT_NEAR(at_last.angular_momentum, at_first.angular_momentum, 1e-9);
 }
 
-TEST(Collection, TwoPilesOnOneFloorStayTwo) {
-  Simulation run(kGround + R"(
+const std::string kTwoPiles = kGround + R"(
 [[body]]
 name = "left"
 at = [-3, 0.5]
@@ -177,8 +176,10 @@ name = "right"
 at = [3, 0.5]
 box = [1, 1]
 repeat = { count = [1, 3], spacing = [1, 1] }
-)",
-                 Mode::Merge);
+)";
+
+TEST(Collection, TwoPilesOnOneFloorStayTwo) {
+  Simulation run(kTwoPiles, Mode::Merge);
   run.until(2.0);
   const Snapshot now = run.now();
   ASSERT_EQ(now.collections.size(), 2u);
@@ -191,6 +192,45 @@ repeat = { count = [1, 3], spacing = [1, 1] }
   }
   EXPECT_NE(run.collectionOf("left[0,0]"), run.collectionOf("right[0,0]"));
   EXPECT_FALSE(run.merged("ground"));
+}
+
+TEST(Collection, UnderThePapersRuleTwoPilesOnOneFloorAreOne) {
+  Simulation run(kTwoPiles, Mode::Merge, kPaper);
+  run.until(2.0);
+  const Snapshot now = run.now();
+  ASSERT_EQ(now.collections.size(), 1u);
+  EXPECT_EQ(now.collections[0].bodies.size(), 6u);
+  EXPECT_EQ(run.count(EventType::Merge), 6);
+  EXPECT_EQ(run.count(EventType::Unmerge), 0);
+}
+
+TEST(Collection, UnderThePapersRuleWhatComesFreeLeavesTheRestOnTheFloorTogether) {
+  Simulation run(kTwoPiles, Mode::Merge, kPaper);
+  run.until(2.0);
+  run.kick("left[0,2]", {5.0, 0.0});
+  run.steps(5);
+  EXPECT_FALSE(run.merged("left[0,2]"));
+  ASSERT_EQ(run.now().collections.size(), 1u);
+  EXPECT_EQ(run.now().collections[0].bodies.size(), 5u);
+}
+
+TEST(Collection, UnderThePapersRulePilesOnTwoFloorsStayTwo) {
+  Simulation run(kTwoPiles + R"(
+[[body]]
+name = "shelf"
+motion = "pinned"
+at = [0, 10]
+box = [4, 1]
+[[body]]
+name = "book"
+at = [0, 11]
+box = [1, 1]
+)",
+                 Mode::Merge, kPaper);
+  run.until(2.0);
+  ASSERT_EQ(run.now().collections.size(), 2u);
+  EXPECT_NE(run.collectionOf("book"), run.collectionOf("left[0,0]"));
+  EXPECT_EQ(run.collectionOf("right[0,0]"), run.collectionOf("left[0,0]"));
 }
 
 TEST(Collection, WeldedToAScriptedBodyFollowsItExactly) {

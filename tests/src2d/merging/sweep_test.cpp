@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "src2d/trace/recorder.h"
 #include "tests/src2d/merging/merging_testing.h"
 
 namespace merge2d {
@@ -200,6 +201,72 @@ velocity = [6, 0]
   run.steps(300);
   EXPECT_TRUE(run.merged("box[0,0]"));
   EXPECT_GT(guard.looked(), 100u);
+}
+
+/// Counts the contacts of a disc, which is in no collection, that the sweep looks at.
+class DiscWatch : public Observer {
+ public:
+  explicit DiscWatch(BodyId disc) : disc_(static_cast<std::uint32_t>(disc)) {}
+  void afterStage(Stage stage, const State&, const Scratch& scratch) override {
+    if (stage != Stage::SingleIterationPGS || !scratch.sweeping) return;
+    for (const SweepContact& c : scratch.sweep_contacts) {
+      rows_ += c.block.a == disc_ || c.block.b == disc_;
+    }
+  }
+  int rows() const { return rows_; }
+
+ private:
+  std::uint32_t disc_;
+  int rows_ = 0;
+};
+
+int sweptContactsOfDisc(const std::string& rule) {
+  Simulation run(kColumn + R"(
+[[body]]
+name = "disc"
+at = [5, 0.5]
+circle = 0.5
+)",
+                 Mode::Merge, {{"unmerging.rule", rule}});
+  run.until(2.0);
+  EXPECT_TRUE(run.merged("box[0,0]"));
+  EXPECT_FALSE(run.merged("disc"));
+  DiscWatch watch(run.id("disc"));
+  run.world().observe(&watch);
+  run.steps(10);
+  return watch.rows();
+}
+
+TEST(Sweep, LooksOnlyAtTheContactsOfCollections) {
+  EXPECT_EQ(sweptContactsOfDisc("\"default\""), 0);
+}
+
+TEST(Sweep, UnderThePapersRuleLooksAtAllContacts) {
+  EXPECT_EQ(sweptContactsOfDisc("\"paper\""), 10);
+}
+
+/// How many contacts away from the blow on the left pile the walk finds the foot of the right one,
+/// both on one floor; 0: never.
+int depthOfOtherPile(Rule rule) {
+  Scene scene = onGround();
+  for (const double x : {-3.0, 3.0}) {
+    add(scene, box(1, 1, {x, 0.5}));
+    add(scene, box(1, 1, {x, 1.5}));
+  }
+  scene.settings.unmerging.rule = rule;
+  scene.impulses.push_back({.body = 2, .at = {-3.0, 1.5}, .impulse = {0.0, -1.0}, .time = 2.0});
+  Recorder recorder(scene, Mode::Merge);
+  recorder.skipTo(200);
+  for (const NotedVisit& visit : recorder.record().notes.order) {
+    if (visit.a == BodyId{0} && visit.b == BodyId{3}) return visit.depth;
+  }
+  return 0;
+}
+
+TEST(Sweep, TheWalkDoesNotPassTheFloor) { EXPECT_EQ(depthOfOtherPile(Rule::Default), 0); }
+
+TEST(Sweep, UnderThePapersRuleTheWalkPassesTheFloor) {
+  EXPECT_EQ(depthOfOtherPile(Rule::Paper), 3);
 }
 
 TEST(Sweep, OfASettledColumnChangesNothing) {
