@@ -56,7 +56,9 @@ struct World::Impl {
       checkFinite(setup.state, stage,
                   [this](BodyId b) { return describedBodies()[index(b)].name; });
     }
-    if (observer) observer->afterStage(stage, setup.state, scratch);
+    if (!observer) return;
+    layOutCollections(setup.state);  // which would be done later
+    observer->afterStage(stage, setup.state, scratch);
   }
 };
 

@@ -30,6 +30,10 @@ void gatherMass(State& state, RigidId id);
 /// Lays out what changed: welds, blocks and boxes of all collections whose contacts changed.
 void layOutCollections(State& state);
 
+/// The same, but for what is fixed to a frame: the solver needs nothing of that, and it may change
+/// once more before the next sweep.
+void layOutFloating(State& state);
+
 /// Computes anew what the inner forces do to each member.
 void layOutPush(const State& state, Collection& collection);
 

@@ -91,9 +91,10 @@ void forgetExpectedContacts(State& state, const Scratch& scratch) {
     if (std::ranges::none_of(c.contacts, expected)) continue;
     if (!c.stale) saveForces(c);
     c.stale = true;
+    c.blocks.clear();
     std::erase_if(c.contacts, expected);
   }
-  layOutCollections(state);
+  layOutFloating(state);
 }
 
 }  // namespace merge2d

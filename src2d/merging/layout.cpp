@@ -240,25 +240,34 @@ void sortContacts(std::vector<InternalContact>& contacts) {
   std::inplace_merge(contacts.begin(), late, contacts.end(), byKey);
 }
 
+void layOut(State& state, Collection& c) {
+  sortContacts(c.contacts);
+  tighten(c.contacts);
+  for (std::uint32_t i = 0; i < c.members.size(); ++i) state[rigidOf(c.members[i])].member = i;
+  if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
+  fitBox(state, c.rigid);
+  layOutJoints(state, c);
+  layOutWelds(state, c);
+  indexWelds(state, c);
+  markBridges(c);
+  layOutBlocks(state, c);
+  findGrips(state, c);
+  layOutPush(state, c);
+  c.stale = false;
+  c.settled = c.refuted = false;
+}
+
 }  // namespace
 
 void layOutCollections(State& state) {
   for (Collection& c : state.collections) {
-    if (c.id == kNoCollection || !c.stale) continue;
-    sortContacts(c.contacts);
-    tighten(c.contacts);
-    for (std::uint32_t i = 0; i < c.members.size(); ++i) state[rigidOf(c.members[i])].member = i;
-    if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
-    fitBox(state, c.rigid);
-    layOutJoints(state, c);
-    layOutWelds(state, c);
-    indexWelds(state, c);
-    markBridges(c);
-    layOutBlocks(state, c);
-    findGrips(state, c);
-    layOutPush(state, c);
-    c.stale = false;
-    c.settled = c.refuted = false;
+    if (c.id != kNoCollection && c.stale) layOut(state, c);
+  }
+}
+
+void layOutFloating(State& state) {
+  for (Collection& c : state.collections) {
+    if (c.id != kNoCollection && c.stale && state[c.rigid].floating()) layOut(state, c);
   }
 }
 

@@ -88,7 +88,7 @@ bool weld(State& state, Floors& floors, const BodyPair& pair) {
 void merge(State& state, Scratch& scratch) {
   if (!merges(state.mode)) return;
   const auto pairs = pairsToWeld(state, scratch);
-  if (pairs.empty()) return;
+  if (pairs.empty()) return layOutCollections(state);
   Floors floors(state);
   for (const BodyPair& pair : pairs) {
     if (!weld(state, floors, pair)) continue;

@@ -136,6 +136,16 @@ void releaseContacts(State& state, const std::vector<Released>& released) {
   addContacts(state.contacts, contacts);
 }
 
+/// What parted is not remembered, should it come back before the collection is laid out.
+void forgetPartedWelds(const State& state, Collection& c, FrameId frame) {
+  std::erase_if(c.welds, [&](const Weld& weld) {
+    const bool a_in = state[weld.a].rigid == c.rigid, b_in = state[weld.b].rigid == c.rigid;
+    const bool on_frame =
+        a_in != b_in && frame != kFloating && frameOf(state, a_in ? weld.b : weld.a) == frame;
+    return !(a_in && b_in) && !on_frame;
+  });
+}
+
 }  // namespace
 
 std::vector<RigidId> splitCollection(State& state, RigidId id,
@@ -199,6 +209,7 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
     c.members = members[largest];
     c.blocks.clear();
     c.block_contact.clear();
+    forgetPartedWelds(state, c, anchored[largest] != 0 ? whole.anchor : kFloating);
     c.stale = true;
     const bool new_frame = whole.anchor == kWorldFrame && !anchored[largest];
     if (new_frame) removeShapes(state, id, c.members);

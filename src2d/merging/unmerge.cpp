@@ -102,7 +102,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
 void finishSplits(State& state, Scratch& scratch) {
   if (!scratch.split) return;
   scratch.split = false;
-  layOutCollections(state);
+  layOutFloating(state);
   collectPairs(state, scratch);
 }
 
@@ -135,6 +135,7 @@ void releaseBody(State& state, Scratch& scratch, BodyId body) {
     if (any) splitAtCuts(state, scratch, c.rigid, judge(state, scratch, c));
   }
   finishSplits(state, scratch);
+  layOutCollections(state);
 }
 
 }  // namespace merge2d
