@@ -4,6 +4,7 @@
 
 #include "src2d/begin_step.h"
 #include "src2d/contact/detection.h"
+#include "src2d/dynamics/finite.h"
 #include "src2d/dynamics/integrate.h"
 #include "src2d/dynamics/setup.h"
 #include "src2d/dynamics/solver.h"
@@ -52,10 +53,8 @@ struct World::Impl {
       const std::chrono::duration<double> spent = Clock::now() - begin;
       scratch.stats.seconds[static_cast<std::size_t>(stage)] = spent.count();
     }
-    if (stage == Stage::AdvanceVelocities || stage == Stage::AdvancePositions) {
-      checkFinite(setup.state, stage,
-                  [this](BodyId b) { return describedBodies()[index(b)].name; });
-    }
+    checkFinite(setup.state, scratch, stage,
+                [this](BodyId b) { return describedBodies()[index(b)].name; });
     if (!observer) return;
     layOutCollections(setup.state);  // which would be done later
     observer->afterStage(stage, setup.state, scratch);

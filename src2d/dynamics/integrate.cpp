@@ -1,9 +1,6 @@
 #include "src2d/dynamics/integrate.h"
 
-#include <fmt/format.h>
-
 #include "src2d/contact/approach.h"
-#include "src2d/core/error.h"
 #include "src2d/dynamics/stabilise.h"
 #include "src2d/merging/collection.h"
 
@@ -34,21 +31,6 @@ void advancePositions(State& state, Scratch& scratch) {
   }
   correctPositions(state, scratch);
   followAnchors(state);
-}
-
-void checkFinite(const State& state, Stage stage,
-                 const std::function<std::string(BodyId)>& nameOf) {
-  for (const RigidId id : state.present) {
-    const Rigid& r = state[id];
-    const double sum = r.x.sum() + r.v.sum() + r.angle + r.omega;
-    if (std::isfinite(sum)) continue;
-    const BodyId body = state.isCollection(id) ? state.collection(id).members.front()
-                                               : BodyId{static_cast<std::uint32_t>(id)};
-    throw SimulationError(fmt::format(
-        "body '{}' is no longer at a finite place after {} in step {} "
-        "(x = {}, {}; v = {}, {}; omega = {}); try a smaller step or softer springs",
-        nameOf(body), name(stage), state.step + 1, r.x.x(), r.x.y(), r.v.x(), r.v.y(), r.omega));
-  }
 }
 
 }  // namespace merge2d

@@ -1,9 +1,6 @@
 #pragma once
 /// AdvanceVelocities and AdvancePositions: symplectic Euler, Eq. (8).
 
-#include <functional>
-#include <string>
-
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
@@ -14,8 +11,5 @@ void advanceVelocities(State& state, const Scratch& scratch);
 /// x₊ = x₋ + h u₊, and the correction of post-step stabilisation; anchored collections follow their
 /// frames.
 void advancePositions(State& state, Scratch& scratch);
-
-/// Throws SimulationError naming body, stage and step when a velocity or position is not finite.
-void checkFinite(const State& state, Stage stage, const std::function<std::string(BodyId)>& nameOf);
 
 }  // namespace merge2d

@@ -123,38 +123,5 @@ TEST(Integrate, BodiesThatMeetHeadOnWithoutBounceGoOnTogether) {
   EXPECT_NEAR(see(world, BodyId{1}).v.x(), 1.0, 2e-3);
 }
 
-TEST(Integrate, ABodyThatLeavesTheFiniteNumbersEndsTheRunAndIsNamed) {
-  Scene scene = onGround();
-  add(scene, named("kite", box(1, 1, {0, 5})));
-  scene.forces.push_back(
-      {.body = 1, .force = {std::numeric_limits<double>::infinity(), 0}, .from = 0.045});
-  World world = reference(scene);
-  runSteps(world, 4);
-  try {
-    runSteps(world, 2);
-    FAIL() << "the run went on";
-  } catch (const SimulationError& error) {
-    EXPECT_THAT(error.what(),
-                AllOf(HasSubstr("'kite'"), HasSubstr("AdvanceVelocities"), HasSubstr("step 5")));
-  }
-}
-
-TEST(Integrate, ASpringWhoseForceOverflowsEndsTheRunAndIsNamed) {
-  Scene scene = noGravity();
-  add(scene, box(1, 1, {-5, 0}));
-  add(scene, named("bob", box(1, 1, {0, 0})));
-  scene.springs.push_back({.body = 1, .to = {100, 0}, .to_body = {}, .stiffness = 1e308});
-  for (const Mode mode : {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {
-    World world(scene, inMode(mode));
-    try {
-      runSteps(world, 3);
-      FAIL() << "the run went on in mode " << name(mode);
-    } catch (const SimulationError& error) {
-      EXPECT_THAT(error.what(),
-                  AllOf(HasSubstr("'bob'"), HasSubstr("Advance"), HasSubstr("step 1")));
-    }
-  }
-}
-
 }  // namespace
 }  // namespace merge2d
