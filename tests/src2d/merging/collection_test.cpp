@@ -364,6 +364,38 @@ box = [0.6, 0.4]
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Lively, testing::Values(1, 2, 3));
 
+/// A wall of any size and mass that any ball hits, under some rain; each run is another one.
+Scene anyStorm() {
+  const int rows = *rc::gen::inRange(1, 6), columns = *rc::gen::inRange(1, 6);
+  Scene scene = wall(rows, columns);
+  for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
+    scene.bodies[i].friction = 0.1 * *rc::gen::inRange(1, 9);
+    scene.bodies[i].density = 0.25 * *rc::gen::inRange(1, 9);
+  }
+  BodyDesc ball = disc(0.4, {-6.0 - columns, 0.1 * *rc::gen::inRange(5, 45)});
+  ball.velocity = {0.5 * *rc::gen::inRange(2, 40), 2.0};
+  add(scene, std::move(ball));
+  const int drops = *rc::gen::inRange(0, 6);
+  for (int i = 0; i < drops; ++i) {
+    const Vec2 at(0.1 * *rc::gen::inRange(-30, 30), rows + 1.0 + 1.2 * i);
+    BodyDesc drop = box(0.6, 0.4, at);
+    drop.angle = 0.1 * *rc::gen::inRange(0, 31);
+    add(scene, std::move(drop));
+  }
+  return scene;
+}
+
+RC_GTEST_PROP(Storm, CollectionsAreTheComponentsOfTheWeldsAtEveryStep, ()) {
+  const Mode mode = *rc::gen::element(Mode::Merge, Mode::MergeSleep);
+  Simulation run(anyStorm(), mode);
+  run.steps(250, [&] {
+    const Snapshot now = run.now();
+    std::set<std::vector<BodyId>> collections;
+    for (const CollectionView& c : now.collections) collections.insert(c.bodies);
+    RC_ASSERT(collections == weldComponents(now, run.world()));
+  });
+}
+
 /// Boxes that springs pull together, without gravity: it merges, is hit, parts and merges again.
 const std::string kCluster = R"(
 format = 1
