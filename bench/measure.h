@@ -24,7 +24,7 @@ struct Measurement {
   double ms_per_step = 0.0;  ///< median over the rounds
   double ratio = 1.0;        ///< median over the rounds of its time by the first engine's
   double drift = 0.0;        ///< how far a body moved against body 0 after the warm-up, at most [m]
-  int lost = 0;              ///< bodies that ever moved more than half a box, left out of `drift`
+  int lost = 0;  ///< bodies that went more than half a box sideways, left out of `drift`
   std::size_t heap_bytes = 0;  ///< more on the heap than before loading
   std::size_t own_bytes = 0;   ///< by its own account; 0 when it gives none
 };

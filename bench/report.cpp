@@ -56,7 +56,7 @@ std::string markdown(const std::vector<Comparison>& comparisons) {
   text += table(comparisons, always, timeCell);
   text +=
       "\n## What the boxes did meanwhile\nThe farthest that any moved against what it stands on, "
-      "and how many were lost (moved by more than half a box).\n\n";
+      "and how many were lost (went more than half a box sideways).\n\n";
   text += table(comparisons, shouldStand, driftCell);
   text += "\n## Memory\nBytes per body.\n\n";
   text += table(comparisons, always, memoryCell);
