@@ -19,12 +19,6 @@ class PngReader {
 
   void readHeader(const std::string& bytes) {
     if (png_image_begin_read_from_memory(&image_, bytes.data(), bytes.size()) == 0) fail();
-    const auto pixels = static_cast<std::uint64_t>(image_.width) * image_.height;
-    if (pixels > SceneLimits::kDrawingPixels) {
-      throw InputError(fmt::format("{}: a drawing has at most {} pixels, this one has {} x {}",
-                                   name_, SceneLimits::kDrawingPixels, image_.width,
-                                   image_.height));
-    }
   }
 
   Image readPixels() {
@@ -44,30 +38,54 @@ class PngReader {
   png_image image_{};
 };
 
+constexpr std::string_view kSignature{"\x89PNG\r\n\x1a\n", 8};
+
+/// The four bytes at `at`, highest first.
+std::uint32_t numberAt(std::string_view bytes, std::size_t at) {
+  std::uint32_t number = 0;
+  for (const char c : bytes.substr(at, 4)) number = 256 * number + static_cast<unsigned char>(c);
+  return number;
+}
+
 /// libpng is content once it has all pixels; a file that was cut off behind them is still not
 /// whole.
 bool endsAsPng(std::string_view bytes) {
-  std::size_t at = 8;  // behind the signature, chunks: length, type, data, checksum
+  std::size_t at = kSignature.size();  // then chunks: length, type, data, checksum
   while (bytes.size() >= at + 12) {
-    std::size_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      length = 256 * length + static_cast<unsigned char>(bytes[at + i]);
-    }
     if (bytes.substr(at + 4, 4) == "IEND") return true;
-    at += 12 + length;
+    at += std::size_t{12} + numberAt(bytes, at);
   }
   return false;
+}
+
+/// What libpng would say in words of its own, or not at all.
+void checkWhole(std::string_view bytes, const std::string& name) {
+  const auto fail = [&](std::string_view sentence) {
+    throw InputError(fmt::format("{}: {}", name, sentence));
+  };
+  if (bytes.empty()) fail("the file is empty");
+  if (!kSignature.starts_with(bytes.substr(0, kSignature.size()))) fail("not a PNG picture");
+  if (!endsAsPng(bytes)) fail("not a whole PNG picture (its end is missing)");
+}
+
+/// What the header of a whole PNG claims, before anybody believes it.
+void checkSize(std::string_view bytes, const std::string& name) {
+  const std::size_t header = kSignature.size() + 4;
+  if (bytes.substr(header, 4) != "IHDR") return;  // libpng says so
+  const std::uint64_t width = numberAt(bytes, header + 4), height = numberAt(bytes, header + 8);
+  if (width * height <= SceneLimits::kDrawingPixels) return;
+  throw InputError(fmt::format("{}: a drawing has at most {} pixels, this one has {} x {}", name,
+                               SceneLimits::kDrawingPixels, width, height));
 }
 
 }  // namespace
 
 Image decodePng(const std::string& bytes, const std::string& name) {
   static_assert(sizeof(Image::Pixel) == 4, "libpng writes four bytes per pixel");
+  checkWhole(bytes, name);
+  checkSize(bytes, name);
   PngReader reader(name);
   reader.readHeader(bytes);
-  if (!endsAsPng(bytes)) {
-    throw InputError(fmt::format("{}: not a whole PNG picture (its end is missing)", name));
-  }
   return reader.readPixels();
 }
 
