@@ -38,6 +38,15 @@ bool isAmong(std::string_view word, const Words& known) {
   return std::find(known.begin(), known.end(), word) != known.end();
 }
 
+/// How far `word` is from a known one, or from its plural where that changes more than an s: who
+/// writes "bodies" means "body".
+inline std::size_t distanceToMeant(std::string_view word, std::string_view known) {
+  const std::size_t plain = editDistance(word, known);
+  if (!known.ends_with('y')) return plain;
+  const std::string plural = std::string(known.substr(0, known.size() - 1)) + "ies";
+  return std::min(plain, editDistance(word, plural));
+}
+
 /// The candidate nearest to `word`, or nothing when none is near enough to be meant. The first one
 /// wins a tie.
 template <class Words>
@@ -48,7 +57,7 @@ std::string_view nearest(std::string_view word, const Words& candidates) {
   if (word.size() > kLongest) return best;
   for (const std::string_view candidate : candidates) {
     if (candidate.size() > kLongest) continue;
-    const std::size_t distance = editDistance(word, candidate);
+    const std::size_t distance = distanceToMeant(word, candidate);
     if (distance < least && distance < word.size()) {
       least = distance;
       best = candidate;

@@ -32,5 +32,12 @@ TEST(Suggest, OnlyWhatIsNearIsSuggested) {
   EXPECT_EQ(didYouMean(std::string(100'000, 'a'), keys), "");
 }
 
+TEST(Suggest, APluralMeansItsWord) {
+  const std::array<std::string_view, 3> keys{"boy", "body", "velocity"};
+  EXPECT_EQ(nearest("bodies", keys), "body");
+  EXPECT_EQ(nearest("Bodys", keys), "body");
+  EXPECT_EQ(nearest("velocities", keys), "velocity");
+}
+
 }  // namespace
 }  // namespace merge2d
