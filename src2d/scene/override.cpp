@@ -32,6 +32,18 @@ toml::table* tableAt(toml::array& array, std::size_t i) {
   return i < array.size() ? array[i].as_table() : nullptr;
 }
 
+[[noreturn]] void failForm(const std::string& place, std::string_view kind) {
+  fail(place, fmt::format("write {0}[3].key or {0}.NAME.key", kind));
+}
+
+/// " (a number stands in brackets: body[1].mass)" for `1.mass` after `body.`.
+std::string bracketsHint(std::string_view kind, std::string_view word, std::string_view rest) {
+  const bool number =
+      !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+  if (!number) return "";
+  return fmt::format(" (a number stands in brackets: {}[{}]{})", kind, word, rest);
+}
+
 /// `[3].mass` after `body`.
 Target byNumber(toml::array& array, std::string_view rest, std::string_view kind,
                 const std::string& place) {
@@ -40,7 +52,7 @@ Target byNumber(toml::array& array, std::string_view rest, std::string_view kind
   const bool well_formed = !digits.empty() && digits.size() < 9 &&
                            std::all_of(digits.begin(), digits.end(), ::isdigit) &&
                            rest.substr(close + 1).starts_with('.');
-  if (!well_formed) fail(place, fmt::format("write {0}[3].key or {0}.NAME.key", kind));
+  if (!well_formed) failForm(place, kind);
   toml::table* table = tableAt(array, std::stoul(digits));
   if (table == nullptr) {
     fail(place, fmt::format("there is no {}[{}]; the scene has {} of them, numbered from 0", kind,
@@ -67,8 +79,12 @@ Target byName(toml::array& array, std::string_view rest, std::string_view kind,
     }
   }
   if (best == nullptr) {
-    const std::string_view word = rest.substr(0, rest.find('.'));
-    fail(place, fmt::format("no {} is called '{}'{}", kind, word, didYouMean(word, names)));
+    const std::size_t dot = rest.find('.');
+    if (dot == std::string_view::npos) failForm(place, kind);
+    const std::string_view word = rest.substr(0, dot);
+    const std::string hint = bracketsHint(kind, word, rest.substr(dot));
+    fail(place, fmt::format("no {} is called '{}'{}", kind, word,
+                            hint.empty() ? didYouMean(word, names) : hint));
   }
   return {best, rest.substr(length + 1)};
 }

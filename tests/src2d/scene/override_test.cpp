@@ -89,6 +89,13 @@ TEST(Override, MistakesNameTheOptionAsTyped) {
             "--set gravity=[0, 1: '[0, 1' is not a number, true or false, \"a text\" or [a, "
             "list]");
   EXPECT_EQ(error("body.b.mass", "1"), "--set body.b.mass=1: no body is called 'b'");
+  EXPECT_EQ(error("body.1.mass", "2"),
+            "--set body.1.mass=2: no body is called '1' (a number stands in brackets: "
+            "body[1].mass)");
+  EXPECT_EQ(error("spring.0.stiffness", "2"),
+            "--set spring.0.stiffness=2: no spring is called '0' (a number stands in brackets: "
+            "spring[0].stiffness)");
+  EXPECT_EQ(error("body.mass", "2"), "--set body.mass=2: write body[3].key or body.NAME.key");
   EXPECT_EQ(error("body[2].mass", "1"),
             "--set body[2].mass=1: there is no body[2]; the scene has "
             "2 of them, numbered from 0");
