@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/doubts.h"
 #include "app/json.h"
 #include "app/output_file.h"
 #include "app/simulation.h"
@@ -50,28 +51,6 @@ Inventory inventoryOf(const Scene& scene) {
   }
   for (const EmitterDesc& emitter : scene.emitters) found.emitted += emitter.count;
   return found;
-}
-
-/// Bodies that overlap from the start jump apart, which is seldom what was meant.
-void warnOfOverlaps(Scene& scene) {
-  World world(scene, {.mode = Mode::Reference, .timings = false});
-  world.step();  // finds the contacts of the starting poses
-  const Snapshot snapshot = world.capture();
-  const double tolerance = std::max(scene.settings.solver.margin, 1e-3);
-  std::map<std::pair<BodyId, BodyId>, double> overlaps;  // [m]
-  for (const ContactView& contact : snapshot.contacts) {
-    if (-contact.gap <= tolerance) continue;
-    double& deepest = overlaps[{contact.a, contact.b}];
-    deepest = std::max(deepest, -contact.gap);
-  }
-  if (overlaps.empty()) return;
-  const auto& [pair, depth] = *std::ranges::max_element(
-      overlaps, [](const auto& x, const auto& y) { return x.second < y.second; });
-  const auto& bodies = world.bodies();
-  scene.warnings.push_back(fmt::format(
-      "'{}' and '{}' overlap by {:.3g} m at the start{}", bodies[index(pair.first)].name,
-      bodies[index(pair.second)].name, depth,
-      overlaps.size() > 1 ? fmt::format(", and {} more pairs by less", overlaps.size() - 1) : ""));
 }
 
 /// The rows of the report: what, and how much of it.
@@ -150,6 +129,7 @@ void validate(const ValidateOptions& options) {
   const Console console(options);
   Scene scene = loadScene(options, Console({.json = false, .quiet = true, .verbose = false}));
   warnOfOverlaps(scene);
+  warnOfWhatComesTooLate(scene);
   const Inventory found = inventoryOf(scene);
   if (!options.to.empty()) writeFile(options.to, toToml(scene), {.everything = options.force});
   if (options.json) {

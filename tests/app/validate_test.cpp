@@ -42,6 +42,43 @@ TEST_F(Validate, WarnsOfBodiesThatOverlapFromTheStart) {
   EXPECT_THAT(outcome.out, HasSubstr("warning: 'ground' and 'box[0,0]' overlap by 0.1 m"));
 }
 
+TEST_F(Validate, WarnsOfWhatComesAfterTheEnd) {
+  write("late.toml", std::string(kStack) + R"(
+[[impulse]]
+body = "box[0,0]"
+at = [0, 0]
+impulse = [1, 0]
+time = 0.4
+[[impulse]]
+body = "box[0,1]"
+at = [0, 0]
+impulse = [1, 0]
+time = 20
+[[force]]
+body = "box[0,0]"
+force = [1, 0]
+from = 0.5
+[[magnet]]
+body = "ground"
+on = [[0, 0.2], [3, 4]]
+[[emitter]]
+name = "rain"
+at = [0, 8]
+circle = 0.2
+every = 1
+start = 7.5
+count = 2
+)");
+  const Words expected = {"impulse[1] of 'box[0,1]' is due at 20 s, but the scene ends at 0.5 s",
+                          "force[0] of 'box[0,0]' is due at 0.5 s, but the scene ends at 0.5 s",
+                          "magnet[0] of 'ground' is due at 3 s, but the scene ends at 0.5 s",
+                          "emitter[0] of 'rain' is due at 7.5 s, but the scene ends at 0.5 s"};
+  EXPECT_EQ(run({"validate", "late.toml", "--json"}).json()["warnings"], Json(expected));
+  EXPECT_THAT(run({"validate", "late.toml"}).out, HasSubstr("warning: " + expected[0] + "\n"));
+  EXPECT_THAT(run({"validate", "late.toml", "--set", "duration=30", "--json"}).json()["warnings"],
+              IsEmpty());
+}
+
 TEST_F(Validate, WritesATextSceneThatMeansTheSame) {
   EXPECT_EQ(run({"validate", "stack.toml", "--to", "copy.toml"}).code, 0);
   EXPECT_THAT(files(), ElementsAre("copy.toml", "stack.toml"));
