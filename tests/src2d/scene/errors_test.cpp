@@ -59,6 +59,7 @@ TEST(Errors, UnknownKeysAndTablesAreErrors) {
        "1:2: unknown key 'mergin' in the scene (did you mean 'merging'?)"},
       {"[[joints]]\nkind = \"weld\"",
        "1:3: unknown key 'joints' in the scene (did you mean 'joint'?)"},
+      {"[[bodies]]\ncircle = 1", "1:3: unknown key 'bodies' in the scene (did you mean 'body'?)"},
       {"[merging]\nvelocty = 1",
        "2:1: unknown key 'velocty' in [merging] (did you mean 'velocity'?)"},
       {body("script = { priod = 1 }"),
