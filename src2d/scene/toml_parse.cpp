@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "src2d/core/error.h"
+#include "src2d/core/utf8.h"
 #include "src2d/scene/scene.h"
 #include "src2d/scene/toml_scan.h"
 
@@ -86,7 +87,6 @@ class SyntaxError {
     if (says("expected '='") || (says("key-value pair") && says("end-of-file"))) return keyOnly();
     if (says("expected value, saw")) return "the value after '=' is missing";
     if (says("expected a comment or whitespace")) return afterValue();
-    if (says("utf-8")) return "this is not a text file (or not in UTF-8)";
     if (says("parsing root table")) return "a line is key = value, or a [heading]";
     const bool value =
         says("boolean") || says("value") || says("integer") || says("floating-point");
@@ -226,6 +226,23 @@ toml::source_index trippingLine(std::string_view text) {
   return static_cast<toml::source_index>(first - ends.begin() + 1);
 }
 
+/// The place of the first byte that belongs to no character.
+std::optional<toml::source_position> firstBrokenCharacter(std::string_view text) {
+  toml::source_position place{1, 1};
+  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte order mark takes no column
+  while (at < text.size()) {
+    const std::size_t bytes = characterBytes(text, at);
+    if (bytes == 0) return place;
+    if (text[at] == '\n') {
+      ++place.line;
+      place.column = 0;
+    }
+    ++place.column;
+    at += bytes;
+  }
+  return std::nullopt;
+}
+
 /// The parser's assertions tell no place.
 [[noreturn]] void reportAssertion(const SourceText& source, std::string_view text,
                                   const TomlScan& scan) {
@@ -240,6 +257,10 @@ toml::source_index trippingLine(std::string_view text) {
 }  // namespace
 
 toml::table parseToml(const SourceText& source) {
+  if (const auto broken = firstBrokenCharacter(source.text())) {
+    throw InputError(
+        source.message(*broken, "this is not valid UTF-8 (is it text, and saved as UTF-8?)"));
+  }
   constexpr toml::source_position kEnd{std::numeric_limits<toml::source_index>::max(), 1};
   const TomlScan scan = scanToml(source.text(), kEnd, SceneLimits::kNesting);
   if (scan.too_deep) {

@@ -366,8 +366,22 @@ TEST(Errors, SyntaxErrorsSayWhatToDo) {
       {"x = 45°", "1:5: '45°' is not a number (numbers have no units)"},
       {"grün = 3", "1:3: letters beyond a-z stand in \"quotes\" or after a #"},
       {"= 3", "1:1: a line is key = value, or a [heading]"},
-      {"x = \"\xff\"", "1:5: this is not a text file (or not in UTF-8)"},
   });
+}
+
+TEST(Errors, WhatIsNotUtf8IsShownWhereItIs) {
+  constexpr std::string_view kSentence =
+      "this is not valid UTF-8 (is it text, and saved as UTF-8?)";
+  const auto expectAt = [&](std::string_view place, std::string_view toml) {
+    EXPECT_EQ(firstLineOf(toml), fmt::format("s.toml:{}: {}", place, kSentence)) << toml;
+  };
+  expectAt("1:6", "x = \"\xff\"");
+  expectAt("3:10", "[[body]]\ncircle = 1\nname = \"b\xe4r\"\n");
+  expectAt("1:12", "title = \"µ€\xc3\"");
+  expectAt("1:6", "\xEF\xBB\xBFx = \"\xed\xa0\x80\"");
+  expectAt("2:3", "step = 0.1\n# \x80\n");
+  expectAt("1:1", "\x89PNG\r\n\x1a\n");
+  expectAt("1:1", "\xff\xfe[");
 }
 
 }  // namespace
