@@ -188,7 +188,8 @@ class SyntaxError {
     if (std::isalpha(first) != 0 || first == '/' || first == '_') {
       return fmt::format("a text needs quotes: \"{}\"", word_);
     }
-    if (says("not representable")) return fmt::format("{} is too large", word_);
+    const bool beyond_double = says("floating-point: '") && says("could not be interpreted");
+    if (says("not representable") || beyond_double) return fmt::format("{} is too large", word_);
     if (says("leading zeroes")) return "a number does not begin with 0";
     if (says("decimal digit, saw '.'") || word_.ends_with('.')) {
       return "a number has digits on both sides of its point: 0.5, 1.0";

@@ -350,6 +350,7 @@ TEST(Errors, SyntaxErrorsSayWhatToDo) {
       {"[[body]]\n[body]", "2:1: 'body' is a list of tables elsewhere: write [[body]] each time"},
       {"step = 0,01", "1:9: one value only: decimals have a point, lists stand in [ ]"},
       {"step = .5", "1:8: a number has digits on both sides of its point: 0.5, 1.0"},
+      {"step = 1e999", "1:8: 1e999 is too large"},
       {"step = 10ms", "1:8: '10ms' is not a number (numbers have no units)"},
       {"step = 10 ms", "1:11: only a # comment may follow the value (numbers have no units)"},
       {"step = 1 seed = 2", "1:10: each key stands in a line of its own"},
