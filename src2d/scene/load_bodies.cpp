@@ -67,10 +67,19 @@ class BodyList {
     }
   }
 
-  void checkRoom(const TableReader& table, std::int64_t more) const {
-    if (scene_.bodies.size() + static_cast<std::size_t>(more) > SceneLimits::kBodies) {
+  void checkRoom(const TableReader& table) const {
+    if (scene_.bodies.size() == SceneLimits::kBodies) {
       table.fail(fmt::format("a scene has at most {} bodies", SceneLimits::kBodies));
     }
+  }
+
+  void checkRoom(const TableReader& table, const Repeat& repeat) const {
+    const auto copies = static_cast<std::size_t>(repeat.columns * repeat.rows);
+    const std::size_t all = scene_.bodies.size() + copies;
+    if (all <= SceneLimits::kBodies) return;
+    table.failAt("repeat", fmt::format("{} x {} copies make {} bodies in all, but a scene has at "
+                                       "most {}",
+                                       repeat.columns, repeat.rows, all, SceneLimits::kBodies));
   }
 
   BodyNames names() && { return std::move(names_); }
@@ -85,8 +94,11 @@ void addBody(TableReader& table, BodyList& list, const BodyDesc& defaults) {
   const std::optional<Repeat> repeat = readRepeat(table);
   table.done();
   checkBody(table, body);
-  list.checkRoom(table, repeat ? repeat->columns * repeat->rows : 1);
-  if (!repeat) return list.add(table, body);
+  if (!repeat) {
+    list.checkRoom(table);
+    return list.add(table, body);
+  }
+  list.checkRoom(table, *repeat);
   if (body.script && std::holds_alternative<Keyframes>(*body.script)) {
     table.failAt("repeat", "key frames are places in the world, so all copies would be in one");
   }

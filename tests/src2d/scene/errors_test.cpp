@@ -241,7 +241,12 @@ TEST(Errors, RepeatIsChecked) {
       {body("repeat = { count = [0, 2], spacing = [1, 1] }"),
        "3:21: 'count[0]' in 'repeat' of [[body]] must be between 1 and 100000, but is 0"},
       {body("repeat = { count = [1000, 1000], spacing = [1, 1] }"),
-       "1:1: a scene has at most 100000 bodies"},
+       "3:10: 1000 x 1000 copies make 1000000 bodies in all, but a scene has at most 100000"},
+      {body("repeat = { count = [100000, 100000], spacing = [1, 1] }"),
+       "3:10: 100000 x 100000 copies make 10000000000 bodies in all, but a scene has at most "
+       "100000"},
+      {body("[[body]]\ncircle = 1\nrepeat = { count = [1000, 100], spacing = [1, 1] }"),
+       "5:10: 1000 x 100 copies make 100001 bodies in all, but a scene has at most 100000"},
       {body("repeat = { count = [9223372036854775807, 1], spacing = [1, 1] }"),
        "3:21: 'count[0]' in 'repeat' of [[body]] must be between 1 and 100000, but is "
        "9223372036854775807"},
