@@ -39,7 +39,7 @@ std::vector<ConvexShape> readSimpleShape(TableReader& table) {
     given = key;
   }
   if (const auto box = table.get("box")) {
-    const Vec2 size = box->vector(kLength);
+    const Vec2 size = box->vector(kLength, "[width, height]");
     return {makeBox(size.x(), size.y())};
   }
   if (const auto circle = table.get("circle")) {

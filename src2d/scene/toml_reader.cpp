@@ -93,9 +93,9 @@ std::string Value::text() const {
   return *text;
 }
 
-Vec2 Value::vector(const Range& range) const {
-  const std::vector<Value> both = elements("[x, y]");
-  if (both.size() != 2) failMustBe("[x, y]");
+Vec2 Value::vector(const Range& range, std::string_view form) const {
+  const std::vector<Value> both = elements(form);
+  if (both.size() != 2) failMustBe(form);
   return {both[0].number(range), both[1].number(range)};
 }
 

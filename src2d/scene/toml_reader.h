@@ -30,8 +30,8 @@ class Value {
   std::int64_t integer(const Range& range) const;
   bool boolean() const;
   std::string text() const;
-  /// [x, y], each within the range.
-  Vec2 vector(const Range& range = kAnyNumber) const;
+  /// Two numbers, each within the range; `form` tells what they are: "[width, height]".
+  Vec2 vector(const Range& range = kAnyNumber, std::string_view form = "[x, y]") const;
   /// `count` numbers; `form` tells how they should look: "[from, until]".
   std::vector<double> numbers(std::size_t count, std::string_view form) const;
   /// The values of an array; `form` tells how it should look.

@@ -111,6 +111,8 @@ TEST(Errors, TypesMustBeRight) {
       {body("at = [1, 2, 3]"), "3:6: 'at' in [[body]] must be [x, y], but is a list of 3"},
       {body("at = [1, \"2\"]"),
        "3:10: 'at[1]' in [[body]] must be a number, but is the text \"2\""},
+      {"[[body]]\nbox = [1]", "2:7: 'box' in [[body]] must be [width, height], but is a list of 1"},
+      {"[[body]]\nbox = 2", "2:7: 'box' in [[body]] must be [width, height], but is 2"},
       {body("script = 3"), "3:10: 'script' in [[body]] must be a table { … }, but is 3"},
       {"[solver]\niterations = 10.0",
        "2:14: 'iterations' in [solver] must be a whole number, but is 10.0"},
