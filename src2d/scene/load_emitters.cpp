@@ -40,7 +40,7 @@ EmitterDesc readEmitter(TableReader& table, const Scene& scene) {
   defaults.name = fmt::format("emitted{}", number + 1);
   emitter.body = readBody(table, defaults);
   readSchedule(table, emitter);
-  table.read("spread", emitter.spread, {0, SceneLimits::kCoordinate, "0 or more"});
+  table.read("spread", emitter.spread, {0, SceneLimits::kCoordinate, "between 0 and 1e6 m"});
   table.read("seed", emitter.seed, kSeed);
   const bool ends = table.has("count") || table.has("until");
   table.done();

@@ -15,11 +15,11 @@ struct Range {
 };
 
 inline constexpr Range kAnyNumber{};
-inline constexpr Range kPositive{1e-12, SceneLimits::kNumber, "positive"};
+inline constexpr Range kPositive{1e-12, SceneLimits::kNumber, "positive (1e-12 to 1e12)"};
 inline constexpr Range kNotNegative{0, SceneLimits::kNumber, "0 or more"};
 inline constexpr Range kFraction{0, 1, "between 0 and 1"};
-inline constexpr Range kAtLeastOne{1, 1e6, "1 or more"};
-inline constexpr Range kSeed{0, 9.2e18, "0 or more"};
+inline constexpr Range kAtLeastOne{1, 1e6, "between 1 and 1000000"};
+inline constexpr Range kSeed{0, 9.2e18, "between 0 and 9.2e18"};
 inline constexpr Range kPosition{-SceneLimits::kCoordinate, SceneLimits::kCoordinate,
                                  "between -1e6 and 1e6 m"};
 inline constexpr Range kLength{SceneLimits::kSmallest, SceneLimits::kCoordinate,

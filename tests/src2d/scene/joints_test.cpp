@@ -152,7 +152,7 @@ TEST(Joints, SayWhatIsWrongWithTheirNumbers) {
   expectError("kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nmotor = { speed = 1 }",
               "20:9: [motor] needs the key 'torque'");
   expectError("kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nbreak_force = 0",
-              "20:15: 'break_force' in [[joint]] must be positive, but is 0");
+              "20:15: 'break_force' in [[joint]] must be positive (1e-12 to 1e12), but is 0");
 }
 
 }  // namespace
