@@ -38,10 +38,7 @@ class BodyPainter {
 
   void draw(const BodyState& body) {
     const Silhouette& look = scene_.looks.silhouettes[index(body.id)];
-    pose_ = body.pose();
-    if (!scene_.view.visible(8.0).grown(look.radius).contains({pose_.position, pose_.position})) {
-      return;
-    }
+    if (!place(body, look)) return;
     const Finish finish = finishOf(scene_, body);
     const float line = scene_.outlineWidth();
     Paint paint{.fill = finish.fill, .outline = finish.outline, .line = line};
@@ -61,7 +58,20 @@ class BodyPainter {
     }
   }
 
+  /// Its shape in one colour, `grow` pixels larger all around.
+  void drawShadow(const BodyState& body, float grow, Color color) {
+    const Silhouette& look = scene_.looks.silhouettes[index(body.id)];
+    if (!place(body, look)) return;
+    for (const Piece& piece : look.pieces) drawPiece(piece, grow, {.fill = color});
+  }
+
  private:
+  /// False when nothing of it can be seen.
+  bool place(const BodyState& body, const Silhouette& look) {
+    pose_ = body.pose();
+    return scene_.view.visible(8.0).grown(look.radius).contains({pose_.position, pose_.position});
+  }
+
   /// Fills that overlap a little, so that no seam shines through, and one boundary around them.
   void drawUnion(const Silhouette& look, Paint paint) {
     const float line = paint.line;
@@ -114,8 +124,8 @@ class BodyPainter {
 
 }  // namespace
 
-Font FrameScene::font(float design, Weight weight) const {
-  return {std::max(11, static_cast<int>(std::lround(px(design)))), weight};
+Font FrameScene::font(float design, Weight weight, int least) const {
+  return {std::max(least, static_cast<int>(std::lround(px(design)))), weight};
 }
 
 const BodyState* FrameScene::body(BodyId id) const {
@@ -159,6 +169,19 @@ Hatch hatchOf(const FrameScene& scene, Pixel origin, const Rotation& turn, bool 
 void drawBodies(Painter& painter, const FrameScene& scene) {
   BodyPainter body_painter(painter, scene);
   for (const BodyState& body : scene.snapshot.bodies) body_painter.draw(body);
+}
+
+void drawTogether(Painter& painter, const FrameScene& scene, const CollectionView& collection) {
+  BodyPainter body_painter(painter, scene);
+  const float width = 0.5F * scene.outlineWidth() + scene.px(1.2F);
+  for (const BodyId id : collection.bodies) {
+    if (const BodyState* body = scene.body(id)) {
+      body_painter.drawShadow(*body, width, scene.theme().ink);
+    }
+  }
+  for (const BodyId id : collection.bodies) {
+    if (const BodyState* body = scene.body(id)) body_painter.draw(*body);
+  }
 }
 
 }  // namespace merge2d

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/frame_parts.h"
+#include "render/label_painter.h"
 
 namespace merge2d {
 
@@ -20,9 +21,11 @@ Drawing composeFrame(Text& text, const Snapshot& snapshot, const std::vector<Bod
 
   painter.beginLayer(layout.panel);
   drawBodies(painter, scene);
+  const FrameLabels labels(text, scene);
+  for (const CollectionView* c : labels.without) drawTogether(painter, scene, *c);
   drawMarks(painter, scene);
   painter.beginLayer(layout.panel);
-  drawLabels(painter, scene);
+  labels.plates.draw(painter);
   painter.beginLayer();
   drawCaption(painter, scene);
   drawFooter(painter, scene);

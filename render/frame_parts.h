@@ -29,7 +29,8 @@ struct FrameScene {
   bool shows(Overlay overlay) const { return style.overlays.has(overlay); }
   /// A design length of a picture of 720 rows [px].
   float px(float design) const { return design * layout.unit; }
-  Font font(float design, Weight weight = Weight::Regular) const;
+  /// A font of a design size, but of no fewer than `least` pixels.
+  Font font(float design, Weight weight = Weight::Regular, int least = 11) const;
   /// The state of a body, or null when it is not alive.
   const BodyState* body(BodyId id) const;
   const BodyInfo& info(BodyId id) const { return bodies[index(id)]; }
@@ -50,6 +51,8 @@ Color standingOut(const FrameScene& scene, CollectionId id);
 Hatch hatchOf(const FrameScene& scene, Pixel origin, const Rotation& turn, bool scripted);
 
 void drawBodies(Painter& painter, const FrameScene& scene);
+/// Draws the members of a collection once more, with a common line around them.
+void drawTogether(Painter& painter, const FrameScene& scene, const CollectionView& collection);
 
 /// The signs of joints.
 void drawJoints(Painter& painter, const FrameScene& scene);
@@ -62,9 +65,6 @@ void drawMarks(Painter& painter, const FrameScene& scene);
 void drawMergedMark(Painter& painter, const FrameScene& scene, Pixel at, float radius);
 void drawActiveMark(Painter& painter, const FrameScene& scene, Pixel at, float radius);
 void drawBrokenMark(Painter& painter, const FrameScene& scene, Pixel at, float radius);
-
-/// Names of bodies and labels of collections.
-void drawLabels(Painter& painter, const FrameScene& scene);
 
 /// A number and what it counts.
 struct Count {

@@ -9,7 +9,7 @@
 namespace merge2d {
 
 enum class Overlay : unsigned {
-  Labels,      ///< C1, C2 … on the collections
+  Labels,      ///< C1, C2 … on the collections, a line around those without room for it
   Scale,       ///< scale bar
   Hud,         ///< title, time, step, mode and counts
   Legend,      ///< what the colours and marks mean

@@ -69,8 +69,10 @@ Pixel StagePens::end(BodyId id, const Vec2& meeting) const {
 }
 
 void StagePens::drawLabels() {
-  LabelPainter labels(painter_, scene_);
-  for (const Label& l : labels_) labels.put(l.text, scene_.font(11.0F), l.at, l.outline);
+  LabelPainter plates(painter_.text(), scene_);
+  const Print print{scene_.font(11.0F)};
+  for (const Label& l : labels_) plates.put(l.text, print, l.at, l.outline);
+  plates.draw(painter_);
 }
 
 }  // namespace merge2d
