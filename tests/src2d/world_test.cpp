@@ -173,6 +173,31 @@ TEST(World, ItHoldsLessThanTwoKilobytesPerBody) {
   }
 }
 
+/// Boxes that fell together any way round: each is near many others, most of which it does not
+/// touch.
+Scene heap(int columns, int rows) {
+  Scene scene = onGround();
+  for (const double side : {-1.0, 1.0}) {
+    add(scene, pinned(box(1, 60, {side * (0.7 * columns + 0.6), 30})));
+  }
+  for (int i = 0; i < columns * rows; ++i) {
+    const double x = 1.4 * (i % columns) - 0.7 * (columns - 1);
+    BodyDesc body = box(1, 0.8, {x + 0.1 * (i % 3), 1.0 + 1.4 * std::floor(i / columns)});
+    body.angle = 0.7 * (i % 9);
+    add(scene, std::move(body));
+  }
+  return scene;
+}
+
+TEST(World, AHeapHoldsLessThanTwoKilobytesPerBody) {
+  for (const Mode mode : {Mode::Reference, Mode::MergeSleep}) {
+    const Scene scene = heap(12, 15);
+    World world(scene, inMode(mode));
+    runSteps(world, 400);
+    EXPECT_LT(world.memoryBytes() / scene.bodies.size(), 2000u) << name(mode);
+  }
+}
+
 TEST(World, AGivenSceneIsSharedNotCopied) {
   const auto scene = std::make_shared<const Scene>(column(2));
   const World world(scene, inMode(Mode::Reference));
