@@ -28,7 +28,7 @@ class Cycles : public ProgramTest {
     outcome.err = read("err.txt");
     return outcome;
   }
-  const std::string program_ = "'" MERGE2D_BINARY_DIR "/merge2d' cycles ";
+  const std::string program_ = "'" + (buildDir() / "merge2d").string() + "' cycles ";
 };
 
 TEST_F(Cycles, PrintsAVerdictPerPairAndTheGroups) {

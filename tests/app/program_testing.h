@@ -19,6 +19,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/build_dir.h"
+
 namespace merge2d {
 
 namespace fs = std::filesystem;
@@ -106,7 +108,8 @@ class ProgramTest : public testing::Test {
     std::vector<char*> argv{const_cast<char*>("merge2d")};
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);
-    if (chdir(folder().c_str()) == 0) execv(MERGE2D_BINARY_DIR "/merge2d", argv.data());
+    const fs::path program = buildDir() / "merge2d";
+    if (chdir(folder().c_str()) == 0) execv(program.c_str(), argv.data());
     _exit(127);
   }
 

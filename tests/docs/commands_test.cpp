@@ -11,11 +11,12 @@
 #include <string>
 
 #include "tests/docs/docs_testing.h"
+#include "tests/support/build_dir.h"
 
 namespace merge2d::docs {
 namespace {
 
-const fs::path kProgram = fs::path(MERGE2D_BINARY_DIR) / "merge2d";
+const fs::path kProgram = buildDir() / "merge2d";
 
 /// What a shell command prints, errors included.
 std::string outputOf(const std::string& command) {

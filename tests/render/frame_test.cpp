@@ -9,6 +9,7 @@
 #include "render/compare.h"
 #include "render/png.h"
 #include "tests/render/samples.h"
+#include "tests/support/build_dir.h"
 
 namespace merge2d {
 namespace {
@@ -22,7 +23,7 @@ Picture drawn(const Sample& sample, const FrameStyle& style) {
 
 /// Compares with frames/reference/NAME.png; MERGE2D_UPDATE_REFERENCES=1 writes it instead.
 void expectLikeReference(const Picture& picture, const std::string& name) {
-  const std::filesystem::path source = MERGE2D_SOURCE_DIR, build = MERGE2D_BINARY_DIR;
+  const std::filesystem::path source = MERGE2D_SOURCE_DIR, build = buildDir();
   const std::filesystem::path reference = source / "frames" / "reference" / (name + ".png");
   if (std::getenv("MERGE2D_UPDATE_REFERENCES") != nullptr) {
     bool alpha = false;
