@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
-#include "src2d/scene/ink.h"
+#include "tests/src2d/scene/palette.h"
 #include "tests/src2d/scene/png_testing.h"
 #include "tests/src2d/scene/scene_testing.h"
 
@@ -17,16 +15,6 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 using Rows = std::vector<std::string>;
-
-/// ' ' white, '#' black, 'g' grey, 'b' blue, 'e' green, 'r' red, 'm' magenta, 'y' yellow, 'c' cyan,
-/// 'w' almost white, 'q' nearly red, 't' transparent black, 'h' half transparent black.
-const std::map<char, Image::Pixel> kColors = {
-    {' ', {255, 255, 255, 255}}, {'#', {0, 0, 0, 255}},     {'g', {127, 127, 127, 255}},
-    {'b', {0, 0, 255, 255}},     {'e', {0, 200, 0, 255}},   {'r', {255, 0, 0, 255}},
-    {'m', {255, 0, 255, 255}},   {'y', {255, 255, 0, 255}}, {'c', {0, 255, 255, 255}},
-    {'w', {246, 246, 246, 255}}, {'q', {237, 28, 36, 255}}, {'t', {0, 0, 0, 0}},
-    {'h', {0, 0, 0, 128}},
-};
 
 std::string bits(unsigned value, int count) {
   std::string result;
@@ -379,23 +367,6 @@ TEST(Drawing, ATruncatedOrDamagedFileNeverCrashes) {
       const std::string message = drawingError(damaged);
       EXPECT_TRUE(message.starts_with("bad.png: ") || message == "no error") << message;
     }
-  }
-}
-
-TEST(Ink, ColoursAreComparedWithATolerance) {
-  EXPECT_EQ(inkOf({255, 10, 10, 255}), Ink::Spring);
-  EXPECT_EQ(inkOf({255, 30, 30, 255}), Ink::Matter);
-  EXPECT_EQ(inkOf({0, 0, 163, 255}), Ink::Pinned);
-  EXPECT_EQ(inkOf({165, 243, 165, 255}), Ink::Held);
-  EXPECT_EQ(inkOf({185, 122, 87, 255}), Ink::Matter);
-  EXPECT_EQ(inkOf({250, 250, 250, 255}), Ink::Empty);
-  EXPECT_EQ(inkOf({240, 240, 240, 255}), Ink::Matter);
-}
-
-TEST(Ink, PlainColoursAreNotDoubtful) {
-  for (const auto& [letter, pixel] : kColors) {
-    const bool doubtful = letter == 'w' || letter == 'q';
-    EXPECT_EQ(doubtfulInk(pixel).has_value(), doubtful) << letter;
   }
 }
 

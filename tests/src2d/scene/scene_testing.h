@@ -1,6 +1,7 @@
 #pragma once
 /// What the tests of scene loading share.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -29,6 +30,19 @@ inline std::string errorOf(std::string_view toml, const Overrides& overrides = {
 inline std::string firstLineOf(std::string_view toml, const Overrides& overrides = {}) {
   const std::string whole = errorOf(toml, overrides);
   return whole.substr(0, whole.find('\n'));
+}
+
+/// A text, and what is wrong with it.
+struct Case {
+  std::string_view toml;
+  std::string_view message;
+};
+
+/// Each text as the only content of a scene, and the first line of its error.
+inline void expectErrors(std::initializer_list<Case> cases) {
+  for (const Case& c : cases) {
+    EXPECT_EQ(firstLineOf(c.toml), fmt::format("s.toml:{}", c.message)) << "in\n" << c.toml;
+  }
 }
 
 /// A file in a temporary folder of this process, which goes with it.
