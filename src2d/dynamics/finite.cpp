@@ -13,11 +13,6 @@ bool isFinite(const SolverVelocity& u) { return std::isfinite(u.vx + u.vy + u.om
 
 bool isFinite(const Rigid& r) { return std::isfinite(r.x.sum() + r.v.sum() + r.angle + r.omega); }
 
-BodyId firstBody(const State& state, RigidId id) {
-  return state.isCollection(id) ? state.collection(id).members.front()
-                                : BodyId{static_cast<std::uint32_t>(id)};
-}
-
 /// Names what went wrong, and where.
 class Report {
  public:
@@ -26,7 +21,7 @@ class Report {
 
   [[noreturn]] void place(RigidId id) const {
     const Rigid& r = state_[id];
-    fail(firstBody(state_, id), "at a finite place",
+    fail(state_.firstBody(id), "at a finite place",
          fmt::format("x = {}, {}; v = {}, {}; omega = {}", r.x.x(), r.x.y(), r.v.x(), r.v.y(),
                      r.omega));
   }
@@ -65,7 +60,7 @@ void checkSolve(const State& state, const Scratch& scratch, const Report& report
   for (const std::uint32_t i : scratch.island_bodies) {
     const bool world = i >= state.rigids.size();
     if (!world && !isFinite(scratch.u[i]))
-      report.velocity(firstBody(state, RigidId{i}), scratch.u[i]);
+      report.velocity(state.firstBody(RigidId{i}), scratch.u[i]);
   }
 }
 

@@ -90,8 +90,7 @@ void countQuietRigids(State& state, Notes* notes) {
     r.quiet_steps = quiet ? r.quiet_steps + 1 : 0;
     const bool collection = state.isCollection(id);
     if (!notes || !(r.floating() || collection)) continue;
-    const BodyId body =
-        collection ? state.collection(id).members.front() : BodyId{static_cast<std::uint32_t>(id)};
+    const BodyId body = state.firstBody(id);
     notes->decisions.push_back({.a = body,
                                 .b = body,
                                 .stage = "AccumulateRelativeMotion",

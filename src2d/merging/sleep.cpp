@@ -54,7 +54,7 @@ void fallAsleep(State& state, Scratch& scratch, std::size_t i) {
   r.omega = 0.0;
   const bool collection = i >= state.bodies.size();
   const Collection* c = collection ? &state.collections[i - state.bodies.size()] : nullptr;
-  const BodyId first = c ? c->members.front() : BodyId{static_cast<std::uint32_t>(i)};
+  const BodyId first = state.firstBody(RigidId{static_cast<std::uint32_t>(i)});
   if (c) {
     for (const BodyId b : c->members) state[b].load_asleep = state[b].load;
   } else {
@@ -70,7 +70,7 @@ void noteSleep(const State& state, Notes* notes, std::size_t i, bool restless, b
   if (!notes || (r.asleep && !stays_awake)) return;
   const bool collection = i >= state.bodies.size();
   const Collection* c = collection ? &state.collections[i - state.bodies.size()] : nullptr;
-  const BodyId first = c ? c->members.front() : BodyId{static_cast<std::uint32_t>(i)};
+  const BodyId first = state.firstBody(RigidId{static_cast<std::uint32_t>(i)});
   const int needed = state.settings.sleeping.steps;
   Decision d{.a = first,
              .b = first,
@@ -122,7 +122,7 @@ void wakeUp(State& state, Scratch& scratch, RigidId id) {
   r.asleep = false;
   r.quiet_steps = 0;
   const Collection* c = state.isCollection(id) ? &state.collection(id) : nullptr;
-  const BodyId first = c ? c->members.front() : BodyId{static_cast<std::uint32_t>(id)};
+  const BodyId first = state.firstBody(id);
   scratch.events.push_back(
       {EventType::Wake, first, first, c ? c->id : kNoCollection, EventReason::None});
 }
