@@ -31,10 +31,12 @@ std::vector<ConvexShape> readShapes(TableReader& table);
 /// script = { … }
 std::optional<Script> readScript(TableReader& table);
 
-/// [[spring]], [[impulse]], [[force]] and [[magnet]]; [[joint]]; [[emitter]].
+/// [[emitter]]; comes before what refers to bodies, as emitted ones cannot be meant there.
+void readEmitters(TableReader& root, Scene& scene);
+
+/// [[spring]], [[impulse]], [[force]] and [[magnet]]; [[joint]].
 void readActions(TableReader& root, Scene& scene, const BodyNames& names);
 void readJoints(TableReader& root, Scene& scene, const BodyNames& names);
-void readEmitters(TableReader& root, Scene& scene);
 
 /// A body without settings of its own.
 BodyDesc defaultBody(const Material& material);

@@ -50,9 +50,9 @@ Scene parseScene(std::string_view toml, const std::string& source, const Overrid
   readWorld(root, scene);
   readSettings(root, scene.settings);
   const BodyNames names = readBodies(root, scene);
+  readEmitters(root, scene);
   readActions(root, scene, names);
   readJoints(root, scene, names);
-  readEmitters(root, scene);
   root.done();
   warnOfEmptiness(scene, source);
   return scene;

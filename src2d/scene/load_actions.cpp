@@ -46,7 +46,11 @@ class ActionReader {
     table.read("from", force.from, kNotNegative);
     table.read("until", force.until, kNotNegative);
     table.done();
-    if (force.until <= force.from) table.fail("a force must end after it begins");
+    if (force.until <= force.from) {
+      table.failAt("until", fmt::format("a force must end after it begins, but it begins at {} s "
+                                        "and ends at {} s",
+                                        force.from, force.until));
+    }
     checkMoves(table, force.body, "a force");
     scene_.forces.push_back(force);
   }
@@ -58,6 +62,12 @@ class ActionReader {
     if (!on) magnet.on.emplace_back();
     if (on) magnet.on = intervals(*on);
     table.done();
+    const auto [first, added] = magnets_.emplace(magnet.body, table.whereIs("body"));
+    if (!added) {
+      table.failAt("body", fmt::format("'{}' is a magnet already, by {}: write all its times "
+                                       "there, on = [[0, 2], [4, 6]]",
+                                       scene_.bodies[magnet.body].name, first->second));
+    }
     scene_.magnets.push_back(magnet);
   }
 
@@ -77,7 +87,12 @@ class ActionReader {
 
   void checkEnds(TableReader& table, const SpringDesc& spring) const {
     const bool to_world = table.has("to");
-    if (to_world == spring.to_body.has_value()) {
+    if (to_world && spring.to_body) {
+      table.failAt("to",
+                   "a spring ends at a point ('to') or at a body ('to_body'), not at both; "
+                   "'to_anchor' is the point of that body");
+    }
+    if (!to_world && !spring.to_body) {
       table.fail("[[spring]] needs one other end: 'to' (a point) or 'to_body' and 'to_anchor'");
     }
     if (to_world && table.has("to_anchor")) {
@@ -89,36 +104,41 @@ class ActionReader {
     if (!spring.to_body || !moves(*spring.to_body)) checkMoves(table, spring.body, "a spring");
   }
 
+  static void checkInterval(const Value& row, double from, double until,
+                            const std::vector<MagnetDesc::Interval>& before) {
+    if (from < 0.0) row.fail(fmt::format("time begins at 0, but this interval at {} s", from));
+    if (until <= from) {
+      row.fail(
+          fmt::format("an interval must end after it begins, but it begins at {} s and ends "
+                      "at {} s",
+                      from, until));
+    }
+    if (before.empty() || from >= before.back().until) return;
+    row.fail(
+        fmt::format("the intervals of a magnet must follow one another, but this one begins "
+                    "at {} s, and the one before ends at {} s",
+                    from, before.back().until));
+  }
+
   static std::vector<MagnetDesc::Interval> intervals(const Value& on) {
     std::vector<MagnetDesc::Interval> result;
     for (const Value& row : on.elements("[[from, until], …]")) {
-      const std::vector<double> ends = row.numbers(2, "[from, until]");
-      const double earliest = result.empty() ? 0.0 : result.back().until;
-      if (ends[0] < earliest || ends[1] <= ends[0]) {
-        row.fail("the intervals of a magnet must increase from time 0, without overlap");
-      }
+      const std::vector<double> ends = row.numbers(2, "a pair, as in on = [[0, 2], [4, 6]]");
+      checkInterval(row, ends[0], ends[1], result);
       result.push_back({ends[0], ends[1]});
+    }
+    if (result.empty()) {
+      on.fail("this magnet is never on: write on = [[from, until]], or leave 'on' out for always");
     }
     return result;
   }
 
   Scene& scene_;
   const BodyNames& names_;
+  std::unordered_map<BodyIndex, std::string> magnets_;  ///< where each became one
 };
 
 }  // namespace
-
-BodyIndex bodyNamed(const Value& value, const Scene& scene, const BodyNames& names) {
-  const std::string name = value.text();
-  const auto found = names.find(name);
-  if (found != names.end()) return found->second;
-  if (names.contains(name + "[0,0]")) {
-    value.fail(fmt::format("'{0}' is repeated: say which copy, such as '{0}[0,0]'", name));
-  }
-  std::vector<std::string_view> all;
-  for (const BodyDesc& candidate : scene.bodies) all.push_back(candidate.name);
-  value.fail(fmt::format("no body is called '{}'{}", name, didYouMean(name, all)));
-}
 
 void readActions(TableReader& root, Scene& scene, const BodyNames& names) {
   ActionReader reader(scene, names);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "src2d/scene/interpret.h"
 
 namespace merge2d {
@@ -47,13 +45,14 @@ class BodyList {
   explicit BodyList(Scene& scene) : scene_(scene) {}
 
   void add(const TableReader& table, const BodyDesc& body) {
-    if (!names_.emplace(body.name, scene_.bodies.size()).second) {
-      table.fail(fmt::format("two bodies are called '{}'", body.name));
-    }
+    const auto [first, added] = names_.emplace(body.name, scene_.bodies.size());
+    if (!added) failTwice(table, body.name, *homes_[first->second]);
     if (body.at.cwiseAbs().maxCoeff() > SceneLimits::kCoordinate) {
-      table.fail(fmt::format("'{}' stands further than 1e6 m from the origin", body.name));
+      table.failAt(table.holds("repeat") ? "repeat" : "at",
+                   fmt::format("'{}' stands further than 1e6 m from the origin", body.name));
     }
     scene_.bodies.push_back(body);
+    homes_.push_back(&table);
   }
 
   void addCopies(const TableReader& table, const BodyDesc& body, const Repeat& repeat) {
@@ -85,8 +84,21 @@ class BodyList {
   BodyNames names() && { return std::move(names_); }
 
  private:
+  [[noreturn]] static void failTwice(const TableReader& table, const std::string& name,
+                                     const TableReader& first) {
+    const std::string place = first.whereIs("name");
+    if (!table.holds("name")) {
+      table.fail(
+          fmt::format("a body without a name is called '{}' here, but so is the one in {}: name it",
+                      name, place));
+    }
+    table.failAt("name",
+                 fmt::format("two bodies are called '{}': the first is in {}", name, place));
+  }
+
   Scene& scene_;
   BodyNames names_;
+  std::vector<const TableReader*> homes_;  ///< of each body; they outlive the list
 };
 
 void addBody(TableReader& table, BodyList& list, const BodyDesc& defaults) {
@@ -113,16 +125,6 @@ BodyDesc defaultBody(const Material& material) {
   body.friction = material.friction;
   body.restitution = material.restitution;
   return body;
-}
-
-void checkName(const Value& value, const std::string& name) {
-  constexpr std::size_t kLongest = 100;
-  const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20u || c == 0x7F; };
-  if (name.empty()) value.fail("a name must not be empty");
-  if (name.size() > kLongest) value.fail("a name has at most 100 characters");
-  if (std::any_of(name.begin(), name.end(), control)) {
-    value.fail("a name is one line without control characters");
-  }
 }
 
 BodyDesc readBody(TableReader& table, const BodyDesc& defaults) {
@@ -157,7 +159,8 @@ void checkBody(const TableReader& table, const BodyDesc& body) {
     table.fail(fmt::format("{} needs a shape: box, circle, polygon or shapes", table.title()));
   }
   if (scripted && !body.script) {
-    table.failAt("motion", "a scripted body needs a script: script = { … }");
+    table.failAt("motion",
+                 "a scripted body needs a script, such as script = { velocity = [1, 0] }");
   }
   if (body.script && !scripted) {
     table.failAt("script", "a script needs motion = \"scripted\"");
@@ -166,6 +169,9 @@ void checkBody(const TableReader& table, const BodyDesc& body) {
       scripted ? "a scripted body moves by its script only" : "a pinned body does not move";
   if (!dynamic && body.velocity != Vec2::Zero()) table.failAt("velocity", instead);
   if (!dynamic && body.spin != 0.0) table.failAt("spin", instead);
+  if (scripted && body.mass) {
+    table.failAt("mass", "a scripted body has no mass: it moves as told, whatever it hits");
+  }
   if (!dynamic && body.pinned_until > 0.0) {
     table.failAt("pinned_until", "only a dynamic body can be pinned for a while");
   }

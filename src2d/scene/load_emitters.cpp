@@ -28,6 +28,12 @@ void readSchedule(TableReader& table, EmitterDesc& emitter) {
     const double until = value->number(kNotNegative);
     count = std::min(count, countBefore(until, emitter.start, emitter.every));
     if (count < 1) value->fail("the emitter ends before it starts: 'until' must exceed 'start'");
+    if (count > kMost) {
+      value->fail(
+          fmt::format("one body every {} s until {} s makes more than the {} that a scene "
+                      "may have",
+                      emitter.every, until, SceneLimits::kBodies));
+    }
   }
   emitter.count = static_cast<int>(std::min(count, kMost + 1));
 }
@@ -62,7 +68,8 @@ void checkClashes(const TableReader& table, const EmitterDesc& emitter, const Sc
   const std::string& name = emitter.body.name;
   const auto complain = [&](const std::string& other) {
     if (!clashes(name, other)) return;
-    table.fail(fmt::format("the emitter's bodies '{}[0]', … clash with '{}'", name, other));
+    table.failAt("name",
+                 fmt::format("the emitter's bodies '{}[0]', … clash with '{}'", name, other));
   };
   for (const BodyDesc& body : scene.bodies) complain(body.name);
   for (const EmitterDesc& other : scene.emitters) complain(other.body.name);
@@ -77,8 +84,9 @@ void readEmitters(TableReader& root, Scene& scene) {
     checkClashes(table, emitter, scene);
     bodies += static_cast<std::size_t>(emitter.count);
     if (bodies > SceneLimits::kBodies) {
-      table.fail(fmt::format("a scene has at most {} bodies, the emitted ones included",
-                             SceneLimits::kBodies));
+      table.failAt("count", fmt::format("a scene has at most {} bodies, but with the emitted ones "
+                                        "this makes {}",
+                                        SceneLimits::kBodies, bodies));
     }
     scene.emitters.push_back(emitter);
   }

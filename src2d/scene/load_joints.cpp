@@ -14,13 +14,14 @@ class JointReader {
 
   void joint(TableReader& table) {
     JointDesc joint;
-    if (table.require("kind")) table.read("kind", joint.kind);
+    if (!table.has("kind")) failWithoutKind(table);
+    table.read("kind", joint.kind);
     if (const auto bodies = table.require("bodies")) readBodies(*bodies, joint);
     if (table.require("at")) table.read("at", joint.at, kPosition);
     readKind(table, joint);
     table.read("break_force", joint.break_force, kPositive);
     table.read("collide", joint.collide);
-    if (table.has("kind")) refuseOthersKeys(table, joint.kind);
+    refuseOthersKeys(table, joint.kind);
     table.done();
     scene_.joints.push_back(joint);
   }
@@ -78,7 +79,12 @@ class JointReader {
     table.read("damping", joint.damping, kNotNegative);
     readLimits(table, joint, false);
     if (joint.limits && joint.limits->lower < 0.0) {
-      table.failAt("limits", "a length cannot be negative");
+      table.failAt("limits", "the limits of a distance joint are lengths: 0 or more");
+    }
+    if (joint.limits && joint.limits->upper < SceneLimits::kSmallest) {
+      table.failAt("limits",
+                   "the longest length must be positive; what shares a point is joined "
+                   "by kind = \"revolute\"");
     }
     if (joint.limits && joint.length) {
       table.failAt("length", "a joint with 'limits' has no 'length' of its own");
@@ -99,45 +105,65 @@ class JointReader {
     const auto value = table.get("limits");
     if (!value) return;
     const std::vector<double> ends = value->numbers(2, "[lower, upper]");
-    if (ends[1] < ends[0]) value->fail("the lower limit must come first");
+    if (ends[1] < ends[0]) {
+      value->fail(fmt::format("the lower limit must come first, but {} is above {}: write [{}, {}]",
+                              ends[0], ends[1], ends[1], ends[0]));
+    }
     joint.limits = {ends[0], ends[1]};
     if (angles) joint.limits = {radians(ends[0]), radians(ends[1])};
   }
 
   static void readMotor(TableReader& table, JointDesc& joint, std::string_view strength,
                         bool angles) {
-    auto motor = table.table("motor");
-    if (!motor) return;
+    const auto value = table.get("motor");
+    if (!value) return;
+    TableReader motor = value->table(fmt::format("a table {{ speed = …, {} = … }}", strength));
+    const std::string_view others = angles ? "force" : "torque";
+    if (motor.holds(others)) {
+      motor.failAt(others, fmt::format("the motor of a {} joint has a '{}', not a '{}'",
+                                       nameOf(joint.kind), strength, others));
+    }
     joint.motor = JointDesc::Motor{};
-    if (motor->require("speed")) motor->read("speed", joint.motor->speed);
-    if (motor->require(strength)) motor->read(strength, joint.motor->strength, kPositive);
-    motor->done();
+    if (motor.require("speed")) motor.read("speed", joint.motor->speed);
+    if (motor.require(strength)) motor.read(strength, joint.motor->strength, kPositive);
+    motor.done();
     if (angles) joint.motor->speed = radians(joint.motor->speed);
   }
 
+  /// A key that only some kinds have.
+  struct KindsKey {
+    std::string_view key;
+    std::string_view kinds;
+    bool (*fits)(JointKind);
+  };
+  static constexpr std::array<KindsKey, 8> kKindsKeys{
+      {{"to", "a distance joint", [](JointKind k) { return k == JointKind::Distance; }},
+       {"length", "a distance joint", [](JointKind k) { return k == JointKind::Distance; }},
+       {"stiffness", "a distance joint", [](JointKind k) { return k == JointKind::Distance; }},
+       {"damping", "a distance joint", [](JointKind k) { return k == JointKind::Distance; }},
+       {"axis", "a prismatic joint", [](JointKind k) { return k == JointKind::Prismatic; }},
+       {"limits", "a revolute, distance or prismatic joint",
+        [](JointKind k) { return k != JointKind::Weld; }},
+       {"motor", "a revolute or prismatic joint",
+        [](JointKind k) { return k == JointKind::Revolute || k == JointKind::Prismatic; }},
+       {"break_torque", "a weld or prismatic joint",
+        [](JointKind k) { return k == JointKind::Weld || k == JointKind::Prismatic; }}}};
+
   /// Keys of other kinds are no typing errors: the message says where they belong.
   static void refuseOthersKeys(TableReader& table, JointKind kind) {
-    struct Key {
-      std::string_view key;
-      std::string_view kinds;
-      bool (*fits)(JointKind);
-    };
-    static constexpr Key kKeys[] = {
-        {"to", "a distance joint", [](JointKind k) { return k == JointKind::Distance; }},
-        {"length", "a distance joint", [](JointKind k) { return k == JointKind::Distance; }},
-        {"stiffness", "a distance joint", [](JointKind k) { return k == JointKind::Distance; }},
-        {"damping", "a distance joint", [](JointKind k) { return k == JointKind::Distance; }},
-        {"axis", "a prismatic joint", [](JointKind k) { return k == JointKind::Prismatic; }},
-        {"limits", "any joint but a weld", [](JointKind k) { return k != JointKind::Weld; }},
-        {"motor", "a revolute or prismatic joint",
-         [](JointKind k) { return k == JointKind::Revolute || k == JointKind::Prismatic; }},
-        {"break_torque", "a weld or prismatic joint",
-         [](JointKind k) { return k == JointKind::Weld || k == JointKind::Prismatic; }}};
-    for (const Key& key : kKeys) {
+    for (const KindsKey& key : kKindsKeys) {
       if (key.fits(kind) || !table.has(key.key)) continue;
       table.failAt(key.key, fmt::format("'{}' belongs to {}, but this one is \"{}\"", key.key,
                                         key.kinds, nameOf(kind)));
     }
+  }
+
+  /// Before any other complaint, as the kind decides which keys a joint has.
+  [[noreturn]] static void failWithoutKind(TableReader& table) {
+    for (const KindsKey& key : kKindsKeys) table.has(key.key);
+    for (const char* key : {"bodies", "at", "break_force", "collide"}) table.has(key);
+    table.done();
+    table.fail(fmt::format("[[joint]] needs the key 'kind', {}", choiceOf<JointKind>()));
   }
 
   Scene& scene_;

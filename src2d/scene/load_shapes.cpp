@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "src2d/core/error.h"
 #include "src2d/scene/interpret.h"
 
@@ -66,7 +69,12 @@ Keyframes readKeyframes(const Value& value) {
   Keyframes path;
   for (const Value& row : value.elements("[[t, x, y, degrees], …]")) {
     const std::vector<double> key = row.numbers(4, "[t, x, y, degrees]");
-    if (key[0] < 0) row.fail("key frames start at time 0 or later");
+    if (key[0] < 0) {
+      row.fail(fmt::format("key frames start at time 0 or later, but this one is at {} s", key[0]));
+    }
+    if (std::max(std::abs(key[1]), std::abs(key[2])) > SceneLimits::kCoordinate) {
+      row.fail("a key frame stands further than 1e6 m from the origin");
+    }
     if (!path.keys.empty() && key[0] <= path.keys.back().time) {
       row.fail(fmt::format("the times of key frames must increase, but {} follows {}", key[0],
                            path.keys.back().time));
@@ -79,10 +87,70 @@ Keyframes readKeyframes(const Value& value) {
 
 Sinusoid readSinusoid(TableReader& table) {
   Sinusoid sinusoid;
-  if (table.require("axis")) table.read("axis", sinusoid.axis);
-  if (table.require("amplitude")) table.read("amplitude", sinusoid.amplitude);
-  if (table.require("period")) table.read("period", sinusoid.period, kPositive);
+  table.read("axis", sinusoid.axis);
+  table.read("amplitude", sinusoid.amplitude);
+  table.read("period", sinusoid.period, kPositive);
+  if (table.has("axis") && sinusoid.axis == Vec2::Zero()) {
+    table.failAt("axis", "'axis' must not be [0, 0]: it tells in which direction the body moves");
+  }
   return sinusoid;
+}
+
+SteadyMotion readSteadyMotion(TableReader& table) {
+  SteadyMotion motion;
+  table.read("velocity", motion.velocity);
+  table.readDegrees("spin", motion.spin);
+  return motion;
+}
+
+/// One kind of script, which is told by its keys.
+struct ScriptKind {
+  std::vector<std::string_view> keys;
+  bool all;  ///< whether it needs all of them, or only one
+  Script (*read)(TableReader&);
+};
+
+const std::vector<ScriptKind>& scriptKinds() {
+  static const std::vector<ScriptKind> kinds{
+      {{"axis", "amplitude", "period"},
+       true,
+       [](TableReader& table) -> Script { return readSinusoid(table); }},
+      {{"keyframes"},
+       true,
+       [](TableReader& table) -> Script { return readKeyframes(*table.get("keyframes")); }},
+      {{"velocity", "spin"}, false, [](TableReader& table) -> Script {
+         return readSteadyMotion(table);
+       }}};
+  return kinds;
+}
+
+constexpr std::string_view kScriptKinds =
+    "a script has 'axis', 'amplitude' and 'period', or 'keyframes', or 'velocity' and 'spin'";
+
+/// The kind whose keys the table has; whoever mixes two, or leaves some out, is told of all kinds.
+const ScriptKind& kindOf(TableReader& table) {
+  const ScriptKind* kind = nullptr;
+  std::string_view first, missing;
+  for (const ScriptKind& candidate : scriptKinds()) {
+    for (const std::string_view key : candidate.keys) {
+      if (!table.has(key)) continue;
+      if (kind != nullptr && kind != &candidate) {
+        table.failAt(key, fmt::format("'{}' and '{}' belong to different kinds of script: {}",
+                                      first, key, kScriptKinds));
+      }
+      if (kind == nullptr) first = key;
+      kind = &candidate;
+    }
+  }
+  table.done();
+  if (kind == nullptr) table.fail(fmt::format("the script is empty: {}", kScriptKinds));
+  for (const std::string_view key : kind->keys) {
+    if (!table.has(key) && missing.empty()) missing = key;
+  }
+  if (kind->all && !missing.empty()) {
+    table.fail(fmt::format("a script with '{}' needs '{}' too: {}", first, missing, kScriptKinds));
+  }
+  return *kind;
 }
 
 }  // namespace
@@ -106,20 +174,7 @@ std::optional<Script> readScript(TableReader& body) {
   const auto value = body.get("script");
   if (!value) return std::nullopt;
   TableReader table = value->table();
-  std::optional<Script> script;
-  const bool steady = table.has("velocity") || table.has("spin");
-  if (const auto keyframes = table.get("keyframes")) {
-    script = readKeyframes(*keyframes);
-  } else if (steady) {
-    SteadyMotion motion;
-    table.read("velocity", motion.velocity);
-    table.readDegrees("spin", motion.spin);
-    script = motion;
-  } else {
-    script = readSinusoid(table);
-  }
-  table.done();
-  return script;
+  return kindOf(table).read(table);
 }
 
 }  // namespace merge2d

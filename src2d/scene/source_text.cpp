@@ -60,6 +60,11 @@ std::string SourceText::message(const toml::source_position& where,
   return fmt::format("{}\n{:>5} | {}\n{:>5} | {}^", head, where.line, shown, "", caret);
 }
 
+std::string SourceText::place(const toml::source_region& where) const {
+  if (where.path && *where.path != name_) return *where.path;
+  return fmt::format("line {}", where.begin.line);
+}
+
 void SourceText::fail(const toml::source_region& where, std::string_view sentence) const {
   if (where.path && *where.path != name_) {
     throw InputError(fmt::format("{}: {}", *where.path, sentence));

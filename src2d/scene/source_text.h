@@ -20,6 +20,9 @@ class SourceText {
   /// comes from elsewhere than this text (`--set merging.velocity=0.02`) is named by its path only.
   [[noreturn]] void fail(const toml::source_region& where, std::string_view sentence) const;
 
+  /// "line 12", or the path of what comes from elsewhere: "--set body.a.name=b".
+  std::string place(const toml::source_region& where) const;
+
   /// `name:line:column: sentence`, and the line with a caret below `column`.
   std::string message(const toml::source_position& where, std::string_view sentence) const;
 

@@ -118,9 +118,9 @@ std::vector<Value> Value::elements(std::string_view form) const {
   return result;
 }
 
-TableReader Value::table() const {
+TableReader Value::table(std::string_view form) const {
   const toml::table* table = node_->as_table();
-  if (table == nullptr) failMustBe("a table { … }");
+  if (table == nullptr) failMustBe(form);
   return {*source_, *table, fmt::format("'{}' of {}", key_, home_)};
 }
 
@@ -199,11 +199,17 @@ void TableReader::done() const {
   if (!missing_.empty()) fail(fmt::format("{} needs the key '{}'", title_, missing_.front()));
 }
 
+std::string TableReader::whereIs(std::string_view key) const {
+  const toml::node* node = table_->get(key);
+  return source_->place(node != nullptr ? node->source() : table_->source());
+}
+
 void TableReader::fail(std::string_view sentence) const {
   source_->fail(table_->source(), sentence);
 }
 
 void TableReader::failAt(std::string_view key, std::string_view sentence) const {
+  if (!holds(key)) fail(sentence);
   source_->fail(table_->get(key)->source(), sentence);
 }
 

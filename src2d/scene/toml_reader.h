@@ -36,7 +36,8 @@ class Value {
   std::vector<double> numbers(std::size_t count, std::string_view form) const;
   /// The values of an array; `form` tells how it should look.
   std::vector<Value> elements(std::string_view form) const;
-  TableReader table() const;
+  /// `form` tells what it should look like.
+  TableReader table(std::string_view form = "a table { … }") const;
   template <HasNames E>
   E named() const;
 
@@ -62,6 +63,8 @@ class TableReader {
 
   std::optional<Value> get(std::string_view key);
   bool has(std::string_view key) { return get(key).has_value(); }
+  /// Like `has`, but does not ask for the key: to be used in messages.
+  bool holds(std::string_view key) const { return table_->contains(key); }
   /// Like `get`, but the key must be there; `done` complains if it is not.
   std::optional<Value> require(std::string_view key);
 
@@ -85,7 +88,10 @@ class TableReader {
   /// Throws the InputError of the first unknown key, else of the first missing one.
   void done() const;
 
-  /// Throws an InputError at the table, or at the value of one of its keys.
+  /// Where the key is, or else the table, for messages about another place: "line 12".
+  std::string whereIs(std::string_view key) const;
+
+  /// Throws an InputError at the table, or at the value of one of its keys where it has that.
   [[noreturn]] void fail(std::string_view sentence) const;
   [[noreturn]] void failAt(std::string_view key, std::string_view sentence) const;
   const std::string& title() const { return title_; }
@@ -103,15 +109,21 @@ double radians(double degrees);
 /// unit in the last place: some angles are not hit by any number of degrees).
 double degrees(double angle);
 
+/// "one of "off", "triangle", "rigid"".
+template <HasNames E>
+std::string choiceOf() {
+  std::string choice;
+  for (const std::string_view name : namesOf<E>()) {
+    choice += (choice.empty() ? "one of \"" : ", \"") + std::string(name) + "\"";
+  }
+  return choice;
+}
+
 template <HasNames E>
 E Value::named() const {
   const std::string word = text();
   if (const auto value = valueOf<E>(word)) return *value;
-  std::string choice;
-  for (const std::string_view name : namesOf<E>()) {
-    choice += (choice.empty() ? "\"" : ", \"") + std::string(name) + "\"";
-  }
-  fail("'" + key_ + "' in " + home_ + " must be one of " + choice + ", but is \"" + word + "\"" +
+  fail("'" + key_ + "' in " + home_ + " must be " + choiceOf<E>() + ", but is \"" + word + "\"" +
        didYouMean(word, namesOf<E>()));
 }
 

@@ -139,18 +139,40 @@ TEST(Joints, AreOfAKnownKindWithItsOwnKeys) {
               "20:10: 'length' belongs to a distance joint, but this one is \"revolute\"");
   expectError("kind = \"weld\"\nbodies = [\"crate\"]\nat = [0, 0]\nbrek_force = 2",
               "20:1: unknown key 'brek_force' in [[joint]] (did you mean 'break_force'?)");
+  expectError("kind = \"weld\"\nbodies = [\"crate\"]\nat = [0, 0]\nlimits = [0, 1]",
+              "20:10: 'limits' belongs to a revolute, distance or prismatic joint, but this one is "
+              "\"weld\"");
   expectError("kind = \"revolute\"\nbodies = [\"crate\"]", "16:1: [[joint]] needs the key 'at'");
+  expectError("bodies = [\"crate\"]\nat = [0, 0]\naxis = [1, 0]",
+              "16:1: [[joint]] needs the key 'kind', one of \"revolute\", \"weld\", \"distance\", "
+              "\"prismatic\"");
+  expectError("knd = \"weld\"\nbodies = [\"crate\"]\nat = [0, 0]",
+              "17:1: unknown key 'knd' in [[joint]] (did you mean 'kind'?)");
 }
 
 TEST(Joints, SayWhatIsWrongWithTheirNumbers) {
   expectError("kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nlimits = [30, -30]",
-              "20:10: the lower limit must come first");
+              "20:10: the lower limit must come first, but 30 is above -30: write [-30, 30]");
+  expectError(
+      "kind = \"distance\"\nbodies = [\"crate\"]\nat = [1, 0]\nto = [2, 0]\nlimits = [-1, 2]",
+      "21:10: the limits of a distance joint are lengths: 0 or more");
+  expectError(
+      "kind = \"distance\"\nbodies = [\"crate\"]\nat = [1, 0]\nto = [2, 0]\nlimits = [0, 0]",
+      "21:10: the longest length must be positive; what shares a point is joined by kind = "
+      "\"revolute\"");
   expectError("kind = \"prismatic\"\nbodies = [\"crate\"]\nat = [0, 0]\naxis = [0, 0]",
               "20:8: 'axis' must not be [0, 0]");
   expectError("kind = \"distance\"\nbodies = [\"crate\"]\nat = [1, 0]\nto = [1, 0]",
               "20:6: the ends of a distance joint must be apart: 'at' and 'to' are one point");
   expectError("kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nmotor = { speed = 1 }",
-              "20:9: [motor] needs the key 'torque'");
+              "20:9: 'motor' of [[joint]] needs the key 'torque'");
+  expectError(
+      "kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nmotor = \"x\"",
+      "20:9: 'motor' in [[joint]] must be a table { speed = …, torque = … }, but is the text "
+      "\"x\"");
+  expectError(
+      "kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nmotor = { speed = 1, force = 2 }",
+      "20:30: the motor of a revolute joint has a 'torque', not a 'force'");
   expectError("kind = \"revolute\"\nbodies = [\"crate\"]\nat = [0, 0]\nbreak_force = 0",
               "20:15: 'break_force' in [[joint]] must be positive (1e-12 to 1e12), but is 0");
 }
