@@ -10,12 +10,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "src2d/core/error.h"
 #include "src2d/scene/cover.h"
 #include "src2d/scene/file.h"
 #include "src2d/scene/ink.h"
 #include "src2d/scene/load.h"
+#include "src2d/scene/range.h"
 
 namespace merge2d {
 namespace {
@@ -69,15 +72,29 @@ class Drawing {
         pixel_(scene.settings.drawing.pixel) {}
 
   void interpret() {
+    checkSize();
     std::vector<Patch> patches = findPatches(image_);
     addGround(patches);
     if (patches.size() > SceneLimits::kBodies) {
-      throw InputError(fmt::format("{}: a scene has at most {} bodies, this drawing has {}", file_,
-                                   SceneLimits::kBodies, patches.size()));
+      fail(patches[SceneLimits::kBodies].front(),
+           "is one body too many: a scene has at most {}, this drawing has {}",
+           SceneLimits::kBodies, patches.size());
     }
     for (const Patch& patch : patches) addBody(patch);
     setCamera();
+    warnOfMixtures();
     warnOfDoubts();
+  }
+
+  /// `scene` is what became of the drawing, after all that --set changes.
+  void warnOfFreeFall(Scene& scene) const {
+    const auto stays = [](const BodyDesc& body) { return body.motion != Motion::Dynamic; };
+    const bool held = !scene.springs.empty() || std::ranges::any_of(scene.bodies, stays);
+    if (!first_ || held || scene.gravity == Vec2::Zero()) return;
+    scene.warnings.push_back(fmt::format(
+        "{}: nothing is pinned for good or held by a spring, so everything, such as the body at "
+        "pixel ({}, {}), falls for ever: draw a floor all in blue, or two lone cyan pixels",
+        file_, first_->x, first_->y));
   }
 
  private:
@@ -88,6 +105,23 @@ class Drawing {
   }
   Vec2 center(const Cell& c) const { return point(c.x + 0.5, c.y + 0.5); }
   void warn(const std::string& sentence) { scene_.warnings.push_back(file_ + ": " + sentence); }
+  /// "drawing.png: pixel (3, 4) …"
+  template <class... Args>
+  [[noreturn]] void fail(const Cell& c, fmt::format_string<Args...> sentence,
+                         Args&&... args) const {
+    throw InputError(fmt::format("{}: pixel ({}, {}) {}", file_, c.x, c.y,
+                                 fmt::format(sentence, std::forward<Args>(args)...)));
+  }
+
+  /// All later lengths are within the limits of a scene if this is.
+  void checkSize() const {
+    const double size = std::max(image_.width, image_.height) * pixel_;
+    if (size <= SceneLimits::kCoordinate) return;
+    throw InputError(
+        fmt::format("{}: with drawing.pixel = {} this picture is {:.6g} m large, but a "
+                    "scene has at most {:.6g} m",
+                    file_, pixel_, size, SceneLimits::kCoordinate));
+  }
 
   // The ground
 
@@ -110,18 +144,18 @@ class Drawing {
                       horizon[0].x, horizon[0].y));
     }
     std::erase_if(patches, [&](const Patch& p) { return ink(p.front()) == Ink::Horizon; });
+    if (lone[0].x == lone[1].x) {
+      fail(lone[0],
+           "is cyan, and the other cyan one ({}, {}) is straight below it, so that no side of "
+           "their line is the ground: move one of them sideways",
+           lone[1].x, lone[1].y);
+    }
     addHalfPlane(center(lone[0]), center(lone[1]));
   }
 
   /// What lies below the line, as a box much larger than the drawing.
   void addHalfPlane(Vec2 left, Vec2 right) {
     if (left.x() > right.x()) std::swap(left, right);
-    if (left.x() == right.x()) {
-      throw InputError(
-          fmt::format("{}: the two cyan pixels are above one another, so neither side "
-                      "of their line is below it",
-                      file_));
-    }
     const Vec2 along = (right - left).normalized();
     const double size = std::max(image_.width, image_.height) * pixel_;
     const double width =
@@ -152,16 +186,28 @@ class Drawing {
       return warn(fmt::format("the yellow patch at pixel ({}, {}) joins nothing and is left out",
                               patch[0].x, patch[0].y));
     }
+    if (!first_) first_ = matter.front();
     BodyDesc body = shapedBody(matter);
     const bool pinned = count[Ink::Pinned] == static_cast<int>(matter.size());
+    if (!pinned && count[Ink::Pinned] > 0) noteMixture(matter);
     const bool magnetic = count[Ink::Magnet] > 0;
     body.motion = pinned ? Motion::Pinned : Motion::Dynamic;
-    if (!pinned) body.mass = neat(mass * pixel_ * pixel_ * scene_.settings.material.density);
+    if (!pinned) body.mass = massOf(mass * pixel_ * pixel_, matter.front());
     if (count[Ink::Held] > 0) body.pinned_until = scene_.settings.drawing.pinned_until;
     body.name = nameFor(pinned ? "pinned" : magnetic ? "magnet" : "body");
     add(body);
     addSprings(matter, count[Ink::Spring] + count[Ink::Magnet]);
     if (magnetic) scene_.magnets.push_back({scene_.bodies.size() - 1, {{}}});
+  }
+
+  /// Of the body at `first`, whose ink covers `ink` square metres of full black.
+  double massOf(double ink, const Cell& first) const {
+    const double mass = neat(ink * scene_.settings.material.density);
+    if (mass >= kPositive.lower && mass <= kPositive.upper) return mass;
+    fail(first,
+         "starts a body of {:.3g} kg: change material.density or drawing.pixel so that it is "
+         "between 1e-9 and 1e12 kg",
+         ink * scene_.settings.material.density);
   }
 
   void add(BodyDesc body) {
@@ -191,10 +237,8 @@ class Drawing {
     body.at = point(0.5 * (x0 + x1), 0.5 * (y0 + y1));
     for (const PixelRect& r : coverByRectangles(mask)) body.shapes.push_back(placed(r, mask));
     if (body.shapes.size() > SceneLimits::kShapesPerBody) {
-      throw InputError(fmt::format(
-          "{}: the body at pixel ({}, {}) needs {} rectangles, at most {} "
-          "are allowed",
-          file_, cells[0].x, cells[0].y, body.shapes.size(), SceneLimits::kShapesPerBody));
+      fail(cells[0], "starts a body of {} rectangles, at most {} are allowed", body.shapes.size(),
+           SceneLimits::kShapesPerBody);
     }
     return body;
   }
@@ -216,6 +260,12 @@ class Drawing {
     spring.body = scene_.bodies.size() - 1;
     for (const Cell& c : cells) {
       if (ink(c) != Ink::Spring && ink(c) != Ink::Magnet) continue;
+      if (std::max(spring.stiffness, spring.damping) > SceneLimits::kNumber) {
+        fail(c,
+             "is a spring of {:.3g} N/m, at most 1e12 are allowed: set drawing.stiffness and "
+             "drawing.damping",
+             spring.stiffness);
+      }
       spring.to = center(c);
       spring.anchor = (spring.to - body.at).unaryExpr(&neat);
       scene_.springs.push_back(spring);
@@ -237,6 +287,22 @@ class Drawing {
   }
 
   // What the user should know
+
+  /// Remembers a body that is blue in part: `matter` are its pixels.
+  void noteMixture(const std::vector<Cell>& matter) {
+    const auto blue = [&](const Cell& c) { return ink(c) == Ink::Pinned; };
+    if (mixtures_++ == 0) mixture_ = *std::ranges::find_if(matter, blue);
+  }
+
+  void warnOfMixtures() {
+    if (mixtures_ == 0) return;
+    const std::string more = mixtures_ == 1 ? "" : fmt::format(" ({} bodies are so)", mixtures_);
+    warn(
+        fmt::format("pixel ({}, {}) is blue, but its body has other colours too and is not pinned: "
+                    "a body is pinned where all of it is blue; leave a white gap to what touches "
+                    "it{}",
+                    mixture_.x, mixture_.y, more));
+  }
 
   void warnOfDoubts() {
     struct Doubt {
@@ -270,7 +336,8 @@ class Drawing {
     constexpr double kMargin = 1.05;
     const double height =
         kMargin * pixel_ * std::max<double>(image_.height, image_.width / kAspect);
-    scene_.camera = Camera{point(0.5 * image_.width, 0.5 * image_.height), neat(height)};
+    scene_.camera = Camera{point(0.5 * image_.width, 0.5 * image_.height),
+                           std::min(neat(height), SceneLimits::kCoordinate)};
   }
 
   const Image& image_;
@@ -278,6 +345,9 @@ class Drawing {
   Scene& scene_;
   double pixel_;
   std::map<std::string, int> numbers_;
+  std::optional<Cell> first_;  ///< of the bodies' pixels
+  Cell mixture_;               ///< the first blue pixel of a body that is blue in part
+  int mixtures_ = 0;           ///< how many bodies are
 };
 
 /// The overrides that say what a pixel means.
@@ -299,11 +369,13 @@ Scene loadDrawing(const std::filesystem::path& png, const Overrides& overrides) 
   Scene drawn = parseScene("", file, forPixels(overrides));
   drawn.warnings.clear();
   drawn.duration = 20.0;
-  Drawing(image, file, drawn).interpret();
+  Drawing drawing(image, file, drawn);
+  drawing.interpret();
 
   // By way of its text, so that --set reaches its bodies, and `validate --to` writes what runs.
   Scene scene = parseScene(toToml(drawn), file, overrides);
   scene.warnings.insert(scene.warnings.begin(), drawn.warnings.begin(), drawn.warnings.end());
+  drawing.warnOfFreeFall(scene);
   return scene;
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <array>
+
 #include "src2d/core/error.h"
 #include "src2d/scene/scene.h"
 
@@ -58,13 +60,30 @@ bool endsAsPng(std::string_view bytes) {
   return false;
 }
 
+/// Signatures at the start of a file and, where one alone could be the start of a text, further on.
+struct Format {
+  std::string_view name, start;
+  std::size_t at = 0;
+  std::string_view later = {};
+};
+constexpr std::array<Format, 6> kFormats{{{"PNG", kSignature},
+                                          {"JPEG", "\xFF\xD8\xFF"},
+                                          {"GIF", "GIF87a"},
+                                          {"GIF", "GIF89a"},
+                                          {"BMP", "BM", 6, {"\0\0\0\0", 4}},
+                                          {"WebP", "RIFF", 8, "WEBP"}}};
+
 /// What libpng would say in words of its own, or not at all.
 void checkWhole(std::string_view bytes, const std::string& name) {
   const auto fail = [&](std::string_view sentence) {
     throw InputError(fmt::format("{}: {}", name, sentence));
   };
   if (bytes.empty()) fail("the file is empty");
-  if (!kSignature.starts_with(bytes.substr(0, kSignature.size()))) fail("not a PNG picture");
+  if (!kSignature.starts_with(bytes.substr(0, kSignature.size()))) {
+    const std::string_view kind = pictureKind(bytes);
+    if (kind.empty()) fail("not a PNG picture");
+    fail(fmt::format("this is a {} picture, whatever its name: save it as PNG", kind));
+  }
   if (!endsAsPng(bytes)) fail("not a whole PNG picture (its end is missing)");
 }
 
@@ -79,6 +98,14 @@ void checkSize(std::string_view bytes, const std::string& name) {
 }
 
 }  // namespace
+
+std::string_view pictureKind(std::string_view bytes) {
+  for (const Format& format : kFormats) {
+    if (!bytes.starts_with(format.start) || bytes.size() < format.at) continue;
+    if (bytes.substr(format.at).starts_with(format.later)) return format.name;
+  }
+  return {};
+}
 
 Image decodePng(const std::string& bytes, const std::string& name) {
   static_assert(sizeof(Image::Pixel) == 4, "libpng writes four bytes per pixel");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace merge2d {
@@ -21,6 +22,10 @@ struct Image {
                   static_cast<std::size_t>(x)];
   }
 };
+
+/// "PNG", "JPEG", "GIF", "BMP" or "WebP" by the first bytes, whatever the file is called; empty for
+/// anything else.
+std::string_view pictureKind(std::string_view bytes);
 
 /// Any PNG: grey, palette, 16 bits, interlaced. Throws an InputError that begins with `name` when
 /// the bytes are not a whole PNG, or when it has more than `SceneLimits::kDrawingPixels`; that is

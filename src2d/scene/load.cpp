@@ -5,6 +5,7 @@
 #include "src2d/core/error.h"
 #include "src2d/scene/builtin.h"
 #include "src2d/scene/file.h"
+#include "src2d/scene/image.h"
 #include "src2d/scene/interpret.h"
 #include "src2d/scene/override.h"
 #include "src2d/scene/toml_parse.h"
@@ -29,6 +30,20 @@ fs::path resolve(const std::string& name_or_path) {
   for (const BuiltinScene& scene : builtinScenes()) names.push_back(scene.name);
   throw InputError(fmt::format("no built-in scene is called '{}'{}; `merge2d list` names them all",
                                name_or_path, didYouMean(name_or_path, names)));
+}
+
+/// A picture is no text, and what it is shows in its name.
+void refusePicture(std::string_view bytes, const std::string& source) {
+  const std::string_view kind = pictureKind(bytes);
+  if (kind.empty()) return;
+  if (kind == "PNG") {
+    throw InputError(fmt::format(
+        "{}: this is a PNG picture: the name of a drawn scene must end in .png", source));
+  }
+  throw InputError(
+      fmt::format("{}: this is a {} picture: a drawn scene is a PNG picture, whose "
+                  "name ends in .png",
+                  source, kind));
 }
 
 void warnOfEmptiness(Scene& scene, const std::string& source) {
@@ -61,7 +76,9 @@ Scene parseScene(std::string_view toml, const std::string& source, const Overrid
 Scene loadScene(const std::string& name_or_path, const Overrides& overrides) {
   const fs::path path = resolve(name_or_path);
   if (path.extension() == ".png") return loadDrawing(path, overrides);
-  return parseScene(readFile(path), path.string(), overrides);
+  const std::string text = readFile(path);
+  refusePicture(text, path.string());
+  return parseScene(text, path.string(), overrides);
 }
 
 }  // namespace merge2d

@@ -70,6 +70,7 @@ const std::map<std::string, Wrong>& pictures() {
   static const std::map<std::string, Wrong> files = {
       {"empty.png", {"", " the file is empty\n"}},
       {"words.png", {"Dear diary, nothing happened.\n", " not a PNG picture\n"}},
+      {"photo.png", {"\xFF\xD8\xFF\xE0", " this is a JPEG picture, whatever its name: "}},
       {"huge.png",
        {pictureClaiming(60'000, 60'000),
         " a drawing has at most 4194304 pixels, this one has 60000 x 60000\n"}},
@@ -86,7 +87,18 @@ const std::map<std::string, Wrong>& texts() {
   static const std::map<std::string, Wrong> files = {
       {"cut.toml", {"step = 0.01\ntitle = \"Half a t", "2:9: the quote that ends this text"}},
       {"latin.toml", {ball("name = \"B\xe4r\""), "3:10: this is not valid UTF-8"}},
-      {"binary.toml", {picture(2, 2), "1:1: this is not valid UTF-8"}},
+      {"binary.toml",
+       {std::string("\x7F"
+                    "ELF\2\1\xB5\0",
+                    8),
+        "1:7: this is not valid UTF-8"}},
+      {"drawing.toml",
+       {picture(2, 2), " this is a PNG picture: the name of a drawn scene must end in .png\n"}},
+      {"drawing.jpg",
+       {picture(2, 2), " this is a PNG picture: the name of a drawn scene must end in .png\n"}},
+      {"photo.jpg",
+       {"\xFF\xD8\xFF\xE0",
+        " this is a JPEG picture: a drawn scene is a PNG picture, whose name ends in .png\n"}},
       {"zeros.toml", {std::string(1000, '\0'), "1:1: a line is key = value, or a [heading]\n"}},
       {"deep.toml", {"x = " + std::string(100'000, '['), "1:21: lists and tables nest deeper"}},
       {"tables.toml", {"x" + std::string(100'000, '.'), "1:18: lists and tables nest deeper"}},
