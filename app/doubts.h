@@ -11,4 +11,15 @@ void warnOfOverlaps(Scene& scene);
 /// Impulses, forces, magnets and emitters whose time the scene's duration does not reach.
 void warnOfWhatComesTooLate(Scene& scene);
 
+/// Bodies that fly or spin faster than is likely to be meant: by a script, at the start, or out of
+/// an emitter.
+void warnOfHaste(Scene& scene);
+
+/// Scripts that never move their body.
+void warnOfIdleScripts(Scene& scene);
+
+/// Joints that begin outside their limits, or with another length than their own: they pull at
+/// once.
+void warnOfStrainedJoints(Scene& scene);
+
 }  // namespace merge2d

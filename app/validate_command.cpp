@@ -130,6 +130,9 @@ void validate(const ValidateOptions& options) {
   Scene scene = loadScene(options, Console({.json = false, .quiet = true, .verbose = false}));
   warnOfOverlaps(scene);
   warnOfWhatComesTooLate(scene);
+  warnOfHaste(scene);
+  warnOfIdleScripts(scene);
+  warnOfStrainedJoints(scene);
   const Inventory found = inventoryOf(scene);
   if (!options.to.empty()) writeFile(options.to, toToml(scene), {.everything = options.force});
   if (options.json) {

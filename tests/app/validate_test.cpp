@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/app/program_testing.h"
@@ -77,6 +78,68 @@ count = 2
   EXPECT_THAT(run({"validate", "late.toml"}).out, HasSubstr("warning: " + expected[0] + "\n"));
   EXPECT_THAT(run({"validate", "late.toml", "--set", "duration=30", "--json"}).json()["warnings"],
               IsEmpty());
+}
+
+TEST_F(Validate, WarnsOfWhatIsFasterThanIsLikelyToBeMeant) {
+  write("fast.toml", R"(
+[[body]]
+name = "lift"
+motion = "scripted"
+circle = 1
+script = { keyframes = [[0, 0, 0, 0], [1, 0, 0, 0], [1.001, 1000, 0, 0]] }
+[[body]]
+name = "shaker"
+motion = "scripted"
+at = [0, 10]
+circle = 1
+script = { axis = [0, 1], amplitude = 1, period = 0.01 }
+[[body]]
+name = "mill"
+motion = "scripted"
+at = [0, 20]
+circle = 1
+script = { spin = 36000 }
+[[body]]
+name = "ball"
+at = [0, 30]
+circle = 1
+velocity = [299, 0]
+spin = 8900
+)");
+  const Words expected = {"'lift' moves at 1e+06 m/s, 1e+04 m in a step, and another does so too",
+                          "'mill' turns by 360 degrees in a step"};
+  EXPECT_EQ(run({"validate", "fast.toml", "--json"}).json()["warnings"], Json(expected));
+}
+
+TEST_F(Validate, WarnsOfScriptsThatMoveNothing) {
+  for (const char* script : {"{ keyframes = [[0, 1, 1, 0]] }", "{ velocity = [0, 0] }",
+                             "{ axis = [1, 0], amplitude = 0, period = 1 }"}) {
+    write("idle.toml", fmt::format("[[body]]\nname = \"lift\"\nmotion = \"scripted\"\ncircle = 1\n"
+                                   "script = {}\n",
+                                   script));
+    EXPECT_EQ(run({"validate", "idle.toml", "--json"}).json()["warnings"],
+              Json(Words{"the script of 'lift' never moves it"}))
+        << script;
+  }
+}
+
+TEST_F(Validate, WarnsOfJointsThatPullAtTheStart) {
+  const auto warnings = [&](const std::string& joint) {
+    write("joint.toml",
+          "[[body]]\nname = \"a\"\ncircle = 1\n[[joint]]\nbodies = [\"a\"]\n" + joint);
+    return run({"validate", "joint.toml", "--json"}).json()["warnings"];
+  };
+  const std::string pivot = "kind = \"revolute\"\nat = [0, 0]\n";
+  const std::string rod = "kind = \"distance\"\nat = [0, 0]\nto = [3, 4]\n";
+  EXPECT_EQ(warnings(pivot + "limits = [10, 30]"),
+            Json(Words{"joint[0] of 'a' starts at 0 degrees, outside its limits [10, 30]"}));
+  EXPECT_EQ(warnings(rod + "limits = [0, 2]"),
+            Json(Words{"joint[0] of 'a' starts at 5 m, outside its limits [0, 2]"}));
+  EXPECT_EQ(warnings(rod + "length = 1"),
+            Json(Words{"joint[0] of 'a' starts 5 m long, but its length is 1 m"}));
+  EXPECT_THAT(warnings(rod + "length = 1\nstiffness = 9"), IsEmpty()) << "a spring may be tense";
+  EXPECT_THAT(warnings(rod + "limits = [0, 5]"), IsEmpty());
+  EXPECT_THAT(warnings(pivot + "limits = [0, 30]"), IsEmpty());
 }
 
 TEST_F(Validate, WritesATextSceneThatMeansTheSame) {
