@@ -165,12 +165,26 @@ void warnOfHaste(Scene& scene) {
   });
 }
 
-void warnOfIdleScripts(Scene& scene) {
+void warnOfWhatDoesNothing(Scene& scene) {
+  const auto warn = [&](const std::string& sentence) { scene.warnings.push_back(sentence); };
   for (const BodyDesc& body : scene.bodies) {
     const Pace pace = paceOf(body);
-    if (!body.script || pace.speed > 0.0 || pace.spin > 0.0) continue;
-    scene.warnings.push_back(fmt::format("the script of '{}' never moves it", body.name));
+    const bool idle = body.script && pace.speed == 0.0 && pace.spin == 0.0;
+    if (idle) warn(fmt::format("the script of '{}' never moves it", body.name));
+    const bool weightless = body.motion == Motion::Pinned && body.mass;
+    if (weightless) warn(fmt::format("the mass of '{}' has no effect: it is pinned", body.name));
   }
+  const auto look = [&](const auto& actions, std::string_view kind, auto isZero) {
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      if (!isZero(actions[i])) continue;
+      const std::string& name = scene.bodies[actions[i].body].name;
+      warn(fmt::format("{}[{}] of '{}' is zero and does nothing", kind, i, name));
+    }
+  };
+  look(scene.springs, "spring",
+       [](const SpringDesc& spring) { return spring.stiffness == 0.0 && spring.damping == 0.0; });
+  look(scene.impulses, "impulse", [](const ImpulseDesc& i) { return i.impulse == Vec2::Zero(); });
+  look(scene.forces, "force", [](const ForceDesc& f) { return f.force == Vec2::Zero(); });
 }
 
 void warnOfStrainedJoints(Scene& scene) {

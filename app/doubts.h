@@ -15,8 +15,9 @@ void warnOfWhatComesTooLate(Scene& scene);
 /// an emitter.
 void warnOfHaste(Scene& scene);
 
-/// Scripts that never move their body.
-void warnOfIdleScripts(Scene& scene);
+/// What does nothing: scripts that never move their body, the mass of a pinned body, and springs,
+/// forces and impulses of zero.
+void warnOfWhatDoesNothing(Scene& scene);
 
 /// Joints that begin outside their limits, or with another length than their own: they pull at
 /// once.

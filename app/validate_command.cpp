@@ -131,7 +131,7 @@ void validate(const ValidateOptions& options) {
   warnOfOverlaps(scene);
   warnOfWhatComesTooLate(scene);
   warnOfHaste(scene);
-  warnOfIdleScripts(scene);
+  warnOfWhatDoesNothing(scene);
   warnOfStrainedJoints(scene);
   const Inventory found = inventoryOf(scene);
   if (!options.to.empty()) writeFile(options.to, toToml(scene), {.everything = options.force});

@@ -38,13 +38,17 @@ bool isAmong(std::string_view word, const Words& known) {
   return std::find(known.begin(), known.end(), word) != known.end();
 }
 
-/// How far `word` is from a known one, or from its plural where that changes more than an s: who
-/// writes "bodies" means "body".
+/// "bodies" of "body": the plurals that change more than an s.
+inline std::string pluralOf(std::string_view word) {
+  return word.ends_with('y') ? std::string(word.substr(0, word.size() - 1)) + "ies"
+                             : std::string(word);
+}
+
+/// How far `word` is from a known one, or one of them from the plural of the other: who writes
+/// "bodies" means "body", and the other way round.
 inline std::size_t distanceToMeant(std::string_view word, std::string_view known) {
-  const std::size_t plain = editDistance(word, known);
-  if (!known.ends_with('y')) return plain;
-  const std::string plural = std::string(known.substr(0, known.size() - 1)) + "ies";
-  return std::min(plain, editDistance(word, plural));
+  return std::min({editDistance(word, known), editDistance(word, pluralOf(known)),
+                   editDistance(pluralOf(word), known)});
 }
 
 /// The candidate nearest to `word`, or nothing when none is near enough to be meant. The first one

@@ -173,7 +173,7 @@ std::vector<ConvexShape> readShapes(TableReader& table) {
 std::optional<Script> readScript(TableReader& body) {
   const auto value = body.get("script");
   if (!value) return std::nullopt;
-  TableReader table = value->table();
+  TableReader table = value->table("a table, such as { velocity = [1, 0] }");
   return kindOf(table).read(table);
 }
 

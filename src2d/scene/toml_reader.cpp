@@ -1,6 +1,7 @@
 #include "src2d/scene/toml_reader.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,14 @@ std::string homeOf(std::string_view key) {
     if (setting == key) homes += fmt::format("{}[{}]", homes.empty() ? "" : " or ", table);
   });
   return homes.empty() ? "" : fmt::format(" (it belongs in {})", homes);
+}
+
+/// What may be meant by an unknown key: one of those known or, where these are few, any of them.
+std::string hintOf(std::string_view key, const std::vector<std::string_view>& known) {
+  constexpr std::size_t kFew = 9;
+  const std::string near = didYouMean(key, known);
+  if (!near.empty() || known.size() > kFew) return near;
+  return fmt::format(" (it may have '{}')", fmt::join(known, "', '"));
 }
 
 }  // namespace
@@ -194,7 +203,7 @@ void TableReader::done() const {
     const std::string_view key = unknown->str();
     const std::string home = homeOf(key);
     source_->fail(unknown->source(), fmt::format("unknown key '{}' in {}{}", key, title_,
-                                                 home.empty() ? didYouMean(key, known_) : home));
+                                                 home.empty() ? hintOf(key, known_) : home));
   }
   if (!missing_.empty()) fail(fmt::format("{} needs the key '{}'", title_, missing_.front()));
 }

@@ -123,6 +123,29 @@ TEST_F(Validate, WarnsOfScriptsThatMoveNothing) {
   }
 }
 
+TEST_F(Validate, WarnsOfWhatIsZero) {
+  write("zero.toml", std::string(kStack) + R"(
+[[spring]]
+body = "box[0,0]"
+to = [0, 0]
+stiffness = 0
+[[impulse]]
+body = "box[0,1]"
+at = [0, 0]
+impulse = [0, 0]
+[[force]]
+body = "box[0,0]"
+force = [0, 0]
+)");
+  const Words expected = {"the mass of 'ground' has no effect: it is pinned",
+                          "spring[0] of 'box[0,0]' is zero and does nothing",
+                          "impulse[0] of 'box[0,1]' is zero and does nothing",
+                          "force[0] of 'box[0,0]' is zero and does nothing"};
+  EXPECT_EQ(
+      run({"validate", "zero.toml", "--json", "--set", "body.ground.mass=3"}).json()["warnings"],
+      Json(expected));
+}
+
 TEST_F(Validate, WarnsOfJointsThatPullAtTheStart) {
   const auto warnings = [&](const std::string& joint) {
     write("joint.toml",

@@ -35,6 +35,11 @@ TEST(Errors, UnknownKeysAndTablesAreErrors) {
       {body("script = { priod = 1 }"),
        "3:12: unknown key 'priod' in 'script' of [[body]] (did you "
        "mean 'period'?)"},
+      {body("script = { phase = 1 }"),
+       "3:12: unknown key 'phase' in 'script' of [[body]] (it may have 'axis', 'amplitude', "
+       "'period', 'keyframes', 'velocity', 'spin')"},
+      {"[camera]\nzoom = 2",
+       "2:1: unknown key 'zoom' in [camera] (it may have 'center', 'height')"},
       {"[[body]]\nshapes = [{ bx = [1, 1] }]",
        "2:13: unknown key 'bx' in 'shapes[0]' of [[body]] (did you mean 'box'?)"},
   });
@@ -83,7 +88,8 @@ TEST(Errors, TypesMustBeRight) {
        "3:10: 'at[1]' in [[body]] must be a number, but is the text \"2\""},
       {"[[body]]\nbox = [1]", "2:7: 'box' in [[body]] must be [width, height], but is a list of 1"},
       {"[[body]]\nbox = 2", "2:7: 'box' in [[body]] must be [width, height], but is 2"},
-      {body("script = 3"), "3:10: 'script' in [[body]] must be a table { … }, but is 3"},
+      {body("script = 3"),
+       "3:10: 'script' in [[body]] must be a table, such as { velocity = [1, 0] }, but is 3"},
       {"[solver]\niterations = 10.0",
        "2:14: 'iterations' in [solver] must be a whole number, but is 10.0"},
       {"[unmerging]\nordering = 1",

@@ -146,6 +146,8 @@ TEST(Joints, AreOfAKnownKindWithItsOwnKeys) {
   expectError("bodies = [\"crate\"]\nat = [0, 0]\naxis = [1, 0]",
               "16:1: [[joint]] needs the key 'kind', one of \"revolute\", \"weld\", \"distance\", "
               "\"prismatic\"");
+  expectError("kind = \"weld\"\nbody = \"crate\"\nat = [0, 0]",
+              "18:1: unknown key 'body' in [[joint]] (did you mean 'bodies'?)");
   expectError("knd = \"weld\"\nbodies = [\"crate\"]\nat = [0, 0]",
               "17:1: unknown key 'knd' in [[joint]] (did you mean 'kind'?)");
 }

@@ -37,6 +37,7 @@ TEST(Suggest, APluralMeansItsWord) {
   EXPECT_EQ(nearest("bodies", keys), "body");
   EXPECT_EQ(nearest("Bodys", keys), "body");
   EXPECT_EQ(nearest("velocities", keys), "velocity");
+  EXPECT_EQ(nearest("body", std::array<std::string_view, 2>{"kind", "bodies"}), "bodies");
 }
 
 }  // namespace
