@@ -200,14 +200,14 @@ class Drawing {
     if (magnetic) scene_.magnets.push_back({scene_.bodies.size() - 1, {{}}});
   }
 
-  /// Of the body at `first`, whose ink covers `ink` square metres of full black.
-  double massOf(double ink, const Cell& first) const {
-    const double mass = neat(ink * scene_.settings.material.density);
+  /// Of the body at `first`, whose ink is worth `black` square metres of black.
+  double massOf(double black, const Cell& first) const {
+    const double mass = neat(black * scene_.settings.material.density);
     if (mass >= kPositive.lower && mass <= kPositive.upper) return mass;
     fail(first,
          "starts a body of {:.3g} kg: change material.density or drawing.pixel so that it is "
          "between 1e-9 and 1e12 kg",
-         ink * scene_.settings.material.density);
+         black * scene_.settings.material.density);
   }
 
   void add(BodyDesc body) {
