@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 
@@ -13,6 +15,7 @@
 #include "app/simulation.h"
 #include "app/usage_error.h"
 #include "src2d/core/error.h"
+#include "src2d/scene/names.h"
 
 namespace merge2d {
 namespace {
@@ -27,8 +30,9 @@ constexpr const char* kCompareExamples = R"(Examples:
 
 The four modes take turns of 50 steps. Distances are those of the bodies' centres from where they
 are in the reference; after a collapse they grow with chaos as well as with errors, so compare
-also the bodies that tipped over (turned by 45 degrees), and when. 'Welds gone in 20 steps' counts
-flicker: welds that formed and broke again.)";
+also the bodies that tipped over (turned by 45 degrees), and when: the k-th in each mode against the
+k-th in the reference. 'Creep' is how far bodies move on what they rest on, in each mode by itself.
+'Welds gone in 20 steps' counts flicker: welds that formed and broke again.)";
 
 struct CompareOptions : SceneOptions {
   std::string csv;     ///< file, or empty
@@ -66,6 +70,13 @@ Theme readTheme(const std::string& text) {
   } catch (const InputError& error) {
     throw UsageError(error.what());
   }
+}
+
+[[noreturn]] void refuseMode(const std::string& mode) {
+  throw UsageError(fmt::format(
+      "compare simulates all four modes and has no --mode; 'merge2d run SCENE --mode {}' simulates "
+      "one, and --json or --csv has the numbers of each",
+      valueOf<Mode>(mode) ? mode : "merge"));
 }
 
 void check(const CompareOptions& options) {
@@ -119,6 +130,9 @@ void addCompareCommand(CLI::App& program, Action& action) {
   const auto options = std::make_shared<CompareOptions>();
   addSceneOptions(*command, *options);
   command->remove_option(command->get_option("--mode"));
+  addOption(  // not in the help: it tells those who try it
+      *command, "--mode", "MODE", [](const std::string& mode) { refuseMode(mode); }, "")
+      ->group("");
   addOption(
       *command, "--window", "FROM,TO",
       [options](const std::string& s) { options->window = readWindow(s); },

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
-#include <set>
+#include <utility>
 
 #include "app/statistics.h"
 #include "src2d/core/error.h"
@@ -13,14 +15,17 @@
 namespace merge2d {
 namespace {
 
-constexpr std::int64_t kTurn = 50;      // steps
-constexpr std::int64_t kSamples = 500;  // of the distance, about
-constexpr double kTipped = std::numbers::pi / 4.0;
+constexpr std::int64_t kTurn = 50;  // steps
+constexpr double kTippingAngle = std::numbers::pi / 4.0;
 
-/// Where the bodies are at one time.
+/// Where the dynamic bodies are after a step.
 struct Sample {
+  struct Center {
+    BodyId id{};
+    Vec2 x = Vec2::Zero();  ///< [m]
+  };
   double time = 0.0;
-  std::vector<BodyState> bodies;  ///< ascending ids
+  std::vector<Center> centers;  ///< ascending ids
 };
 
 /// When each weld formed; tells how many broke soon after.
@@ -49,23 +54,45 @@ int count(const std::vector<Event>& events, EventType type) {
   return static_cast<int>(std::ranges::count(events, type, &Event::type));
 }
 
-Distance between(const Sample& reference, const Sample& other,
-                 const std::vector<BodyInfo>& bodies) {
+Distance between(const Sample& reference, const Sample& other) {
   Distance distance{.time = reference.time};
-  int dynamic = 0;
-  auto there = other.bodies.begin();
-  for (const BodyState& body : reference.bodies) {
-    while (there != other.bodies.end() && there->id < body.id) ++there;
-    if (there == other.bodies.end()) break;
-    if (there->id != body.id || bodies[index(body.id)].motion != Motion::Dynamic) continue;
-    const double d = (there->x - body.x).norm();
+  int both = 0;
+  auto there = other.centers.begin();
+  for (const Sample::Center& here : reference.centers) {
+    while (there != other.centers.end() && there->id < here.id) ++there;
+    if (there == other.centers.end()) break;
+    if (there->id != here.id) continue;
+    const double d = (there->x - here.x).norm();
     distance.mean += d;
     distance.largest = std::max(distance.largest, d);
-    ++dynamic;
+    ++both;
   }
-  if (dynamic > 0) distance.mean /= dynamic;
+  if (both > 0) distance.mean /= both;
   return distance;
 }
+
+/// Notes when bodies have turned from how they began.
+class TippingLog {
+ public:
+  void update(const Snapshot& now, const std::vector<BodyInfo>& bodies,
+              std::vector<double>& times) {
+    angles_.resize(bodies.size(), kUnseen);
+    for (const BodyState& body : now.bodies) {
+      double& first = angles_[index(body.id)];
+      if (first == kTipped || bodies[index(body.id)].motion != Motion::Dynamic) continue;
+      if (first == kUnseen) first = body.angle;
+      if (std::abs(body.angle - first) <= kTippingAngle) continue;
+      first = kTipped;
+      times.push_back(now.time);
+    }
+  }
+
+ private:
+  static constexpr double kUnseen = std::numeric_limits<double>::max();
+  static constexpr double kTipped = std::numeric_limits<double>::lowest();
+
+  std::vector<double> angles_;  ///< at first, or one of the two above [rad]
+};
 
 }  // namespace
 
@@ -84,6 +111,12 @@ double medianMs(std::span<const StepRow> steps) {
 double mean(std::span<const StepRow> steps, int StepRow::*number) {
   double sum = 0.0;
   for (const StepRow& row : steps) sum += row.*number;
+  return steps.empty() ? 0.0 : sum / static_cast<double>(steps.size());
+}
+
+double meanMs(std::span<const StepRow> steps, Stage stage) {
+  double sum = 0.0;
+  for (const StepRow& row : steps) sum += row.stage_ms[static_cast<std::size_t>(stage)];
   return steps.empty() ? 0.0 : sum / static_cast<double>(steps.size());
 }
 
@@ -116,14 +149,31 @@ int ModeRun::lateEvents() const {
   return sum;
 }
 
+double ModeRun::largestDistance() const {
+  double largest = 0.0;
+  for (const Distance& d : distances) largest = std::max(largest, d.largest);
+  return largest;
+}
+
+TippingDifference tippingDifference(const ModeRun& reference, const ModeRun& run) {
+  const auto &there = reference.tipping_times, &here = run.tipping_times;
+  TippingDifference out{.compared = std::min(there.size(), here.size())};
+  for (std::size_t k = 0; k < out.compared; ++k) {
+    const double difference = std::abs(here[k] - there[k]);
+    out.mean += difference / static_cast<double>(out.compared);
+    out.largest = std::max(out.largest, difference);
+  }
+  return out;
+}
+
 /// One mode: its world, and what is noted of it.
 class Comparison::Lane {
  public:
   Lane(const std::shared_ptr<const Scene>& scene, Mode mode, bool timings, ModeRun& run)
-      : simulation_(scene, {.mode = mode, .timings = timings}), run_(run) {
+      : simulation_(scene, {.mode = mode, .timings = timings}), run_(run), timings_(timings) {
     run_.mode = mode;
-    simulation_.world().capture(now_);
-    for (const BodyState& body : now_.bodies) first_angles_.emplace(body.id, body.angle);
+    world().capture(now_);
+    tipping_.update(now_, world().bodies(), run_.tipping_times);
   }
 
   const World& world() const { return simulation_.world(); }
@@ -131,62 +181,67 @@ class Comparison::Lane {
   /// Of the turn that just ended.
   const std::vector<Sample>& samples() const { return samples_; }
 
-  void takeTurn(std::int64_t stride, bool timings) {
+  void takeTurn() {
     samples_.clear();
     for (std::int64_t i = 0; i < kTurn && !done(); ++i) {
       simulation_.step();
-      note(timings);
-      if (world().steps() % stride == 0 || done()) takeSample();
+      std::swap(before_, now_);
+      world().capture(now_);
+      noteCosts();
+      noteMotion();
     }
-    run_.last = world().stats();
+    run_.last = now_.stats;
   }
 
  private:
-  void note(bool timings) {
-    const Stats& stats = world().stats();
-    const std::vector<Event>& events = world().events();
-    StepRow row{.ms = timings ? simulation_.milliseconds().back() : 0.0,
+  void noteCosts() {
+    const Stats& stats = now_.stats;
+    StepRow row{.ms = timings_ ? simulation_.milliseconds().back() : 0.0,
                 .active_bodies = stats.active_bodies,
                 .contacts = stats.contacts,
                 .internal_contacts = stats.internal_contacts,
-                .merges = count(events, EventType::Merge),
-                .unmerges = count(events, EventType::Unmerge)};
+                .merges = count(now_.events, EventType::Merge),
+                .unmerges = count(now_.events, EventType::Unmerge)};
     for (std::size_t s = 0; s < kStages; ++s) {
-      row.stage_ms[s] = timings ? static_cast<float>(1e3 * stats.seconds[s]) : 0.0F;
+      row.stage_ms[s] = timings_ ? static_cast<float>(1e3 * stats.seconds[s]) : 0.0F;
     }
     run_.steps.push_back(row);
-    if (row.merges + row.unmerges == 0) return;
-    world().capture(now_);  // welds change in steps with events alone
-    run_.flicker += welds_.update(now_);
+    // Welds change in steps with events alone.
+    if (row.merges + row.unmerges > 0) run_.flicker += welds_.update(now_);
   }
 
-  void takeSample() {
-    world().capture(now_);
+  void noteMotion() {
+    const std::vector<BodyInfo>& bodies = world().bodies();
     run_.max_penetration = std::max(run_.max_penetration, now_.stats.max_penetration);
+    tipping_.update(now_, bodies, run_.tipping_times);
+    appendHits(before_, now_, bodies, run_.hits);
+    noteCreep();
+    Sample& sample = samples_.emplace_back(Sample{now_.time, {}});
     for (const BodyState& body : now_.bodies) {
-      if (world().bodies()[index(body.id)].motion != Motion::Dynamic) continue;
-      const double first = first_angles_.try_emplace(body.id, body.angle).first->second;
-      if (std::abs(body.angle - first) > kTipped && tipped_.insert(body.id).second) {
-        run_.tipping_times.push_back(now_.time);
-      }
+      if (bodies[index(body.id)].motion != Motion::Dynamic) continue;
+      sample.centers.push_back({body.id, body.x});
     }
-    samples_.push_back({now_.time, now_.bodies});
+  }
+
+  void noteCreep() {
+    const std::int64_t steps = simulation_.steps(), start = steps - steps / 4;
+    if (now_.step == start) creep_.begin(now_, world().bodies());
+    if (now_.step > start) creep_.update(now_);
+    if (now_.step == steps) run_.creep = creep_.result(now_);
   }
 
   Simulation simulation_;
   ModeRun& run_;
-  Snapshot now_;
+  bool timings_;
+  Snapshot before_, now_;
   WeldLog welds_;
-  std::map<BodyId, double> first_angles_;  ///< [rad]
-  std::set<BodyId> tipped_;
+  TippingLog tipping_;
+  CreepMeter creep_;
   std::vector<Sample> samples_;
 };
 
 Comparison::Comparison(std::shared_ptr<const Scene> scene, bool timings)
-    : scene_(std::move(scene)),
-      timings_(timings),
-      steps_(stepCount(*scene_)),
-      stride_(std::max<std::int64_t>(1, steps_ / kSamples)) {
+    : scene_(std::move(scene)), timings_(timings), steps_(stepCount(*scene_)) {
   for (std::size_t i = 0; i < kModes.size(); ++i) {
     lanes_[i] = std::make_unique<Lane>(scene_, kModes[i], timings, runs_[i]);
   }
@@ -197,7 +252,7 @@ Comparison::~Comparison() = default;
 void Comparison::advance() {
   for (std::size_t i = 0; i < kModes.size(); ++i) {
     try {
-      lanes_[i]->takeTurn(stride_, timings_);
+      lanes_[i]->takeTurn();
     } catch (const SimulationError& error) {
       throw SimulationError(fmt::format("in mode {}: {}", name(kModes[i]), error.what()));
     }
@@ -210,7 +265,7 @@ void Comparison::measureDistances() {
   for (std::size_t i = 0; i < kModes.size(); ++i) {
     const std::vector<Sample>& samples = lanes_[i]->samples();
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      runs_[i].distances.push_back(between(reference[k], samples[k], lanes_[i]->world().bodies()));
+      runs_[i].distances.push_back(between(reference[k], samples[k]));
     }
   }
 }

@@ -3,13 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "app/creep.h"
+#include "app/hits.h"
 #include "app/simulation.h"
 
 namespace merge2d {
@@ -36,6 +35,7 @@ double meanMs(std::span<const StepRow> steps);
 double medianMs(std::span<const StepRow> steps);
 /// The mean over the steps of one of their numbers.
 double mean(std::span<const StepRow> steps, int StepRow::*number);
+double meanMs(std::span<const StepRow> steps, Stage stage);
 
 /// A part of the run, after `from` and up to `to` [s].
 struct Window {
@@ -46,13 +46,15 @@ struct Window {
 struct ModeRun {
   Mode mode = Mode::Reference;
   std::vector<StepRow> steps;
-  std::vector<Distance> distances;  ///< a sample every so many steps
+  std::vector<Distance> distances;  ///< after each step
   /// When bodies had turned by more than 45° from how they began, ascending [s]: the k-th domino
-  /// falls at tipping_times[k].
+  /// falls at tipping_times[k - 1].
   std::vector<double> tipping_times;
+  std::vector<Hit> hits;
+  Creep creep;                   ///< in the last quarter of the run
   int flicker = 0;               ///< welds that formed and broke again within kFlickerSteps
   Stats last;                    ///< after the last step
-  double max_penetration = 0.0;  ///< in the samples [m]
+  double max_penetration = 0.0;  ///< of all steps [m]
 
   /// The steps that end in the window, of `h` seconds each.
   std::span<const StepRow> within(const Window& window, double h) const;
@@ -60,7 +62,15 @@ struct ModeRun {
   int unmerges() const;
   /// Merges and unmerges in the last quarter of the run: none, once a scene has settled.
   int lateEvents() const;
+  double largestDistance() const;  ///< at any step [m]
 };
+
+/// How the times of the k-th bodies that tipped differ between two modes, of as many as both have.
+struct TippingDifference {
+  std::size_t compared = 0;
+  double mean = 0.0, largest = 0.0;  ///< [s]
+};
+TippingDifference tippingDifference(const ModeRun& reference, const ModeRun& run);
 
 inline constexpr int kFlickerSteps = 20;
 
@@ -89,7 +99,7 @@ class Comparison {
 
   std::shared_ptr<const Scene> scene_;
   bool timings_;
-  std::int64_t steps_ = 0, stride_ = 1;
+  std::int64_t steps_ = 0;
   std::array<std::unique_ptr<Lane>, kModes.size()> lanes_;
   std::array<ModeRun, kModes.size()> runs_;
 };

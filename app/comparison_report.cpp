@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <functional>
 #include <span>
 
@@ -17,10 +17,23 @@ using StepsOf = std::function<Steps(const ModeRun&)>;
 
 Steps allSteps(const ModeRun& run) { return run.steps; }
 
+constexpr std::size_t kSamples = 500;  // of the distance in JSON, about
+
 /// How many times faster than another mode; null where nothing was measured.
 Json speedup(Steps steps, Steps others) {
   const double ms = meanMs(steps);
   return ms > 0.0 ? Json(meanMs(others) / ms) : Json();
+}
+
+/// Mean milliseconds, by the names of the stages; null where nothing was measured.
+Json stagesJson(Steps steps, bool timings) {
+  if (!timings) return {};
+  Json out;
+  for (std::size_t s = 0; s < kStages; ++s) {
+    const auto stage = static_cast<Stage>(s);
+    out[name(stage)] = meanMs(steps, stage);
+  }
+  return out;
 }
 
 /// Times, and how they compare.
@@ -32,6 +45,7 @@ void addTimes(Json& out, const Comparison& comparison, const ModeRun& run, const
                         {"median", timings ? Json(medianMs(steps)) : Json()}};
   out["speedup"] = {{"reference", timings ? speedup(steps, stepsOf(runs[0])) : Json()},
                     {"sleep", timings ? speedup(steps, stepsOf(runs[1])) : Json()}};
+  out["ms_per_stage"] = stagesJson(steps, timings);
 }
 
 Json windowJson(const Comparison& comparison, const ModeRun& run, const StepsOf& stepsOf) {
@@ -43,20 +57,40 @@ Json windowJson(const Comparison& comparison, const ModeRun& run, const StepsOf&
   return out;
 }
 
-Json tippingJson(const ModeRun& run) {
+Json tippingJson(const ModeRun& reference, const ModeRun& run) {
   const auto& times = run.tipping_times;
   Json out;
   out["bodies"] = times.size();
   out["first"] = times.empty() ? Json() : Json(times.front());
   out["median"] = times.empty() ? Json() : Json(times[times.size() / 2]);
   out["last"] = times.empty() ? Json() : Json(times.back());
+  out["times"] = times;
+  const TippingDifference difference = tippingDifference(reference, run);
+  const bool any = difference.compared > 0;
+  out["difference"] = {{"compared", difference.compared},
+                       {"mean", any ? Json(difference.mean) : Json()},
+                       {"largest", any ? Json(difference.largest) : Json()}};
   return out;
 }
 
-double largestEver(const ModeRun& run) {
-  double largest = 0.0;
-  for (const Distance& d : run.distances) largest = std::max(largest, d.largest);
-  return largest;
+Json creepJson(const Creep& creep) {
+  return {{"pairs", creep.pairs},
+          {"mean", creep.mean},
+          {"largest", creep.largest},
+          {"largest_ever", creep.largest_ever}};
+}
+
+/// About kSamples of them at equal distances, and the last.
+Json overTime(const std::vector<Distance>& distances) {
+  Json out = {{"time", Json::array()}, {"mean", Json::array()}, {"largest", Json::array()}};
+  const std::size_t stride = std::max<std::size_t>(1, distances.size() / kSamples);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    if ((i + 1) % stride != 0 && i + 1 != distances.size()) continue;
+    out["time"].push_back(distances[i].time);
+    out["mean"].push_back(distances[i].mean);
+    out["largest"].push_back(distances[i].largest);
+  }
+  return out;
 }
 
 Distance atEnd(const ModeRun& run) {
@@ -80,19 +114,24 @@ Json modeJson(const Comparison& comparison, const ModeRun& run) {
   out["late_events"] = run.lateEvents();
   out["flicker"] = run.flicker;
   out["max_penetration"] = run.max_penetration;
-  out["tipped"] = tippingJson(run);
+  out["tipped"] = tippingJson(comparison.runs()[0], run);
+  out["creep"] = creepJson(run.creep);
   out["distance"] = {{"mean", atEnd(run).mean},
                      {"largest", atEnd(run).largest},
-                     {"largest_ever", largestEver(run)}};
+                     {"largest_ever", run.largestDistance()}};
+  out["distance_over_time"] = overTime(run.distances);
   return out;
 }
 
-/// "3.2 mm", in the unit that suits it.
+/// "3.2 mm", in the unit that needs no power of ten.
 std::string lengthText(double metres) {
   if (metres == 0.0) return "0";
-  if (metres < 1e-3) return fmt::format("{:.2g} um", 1e6 * metres);
-  if (metres < 1.0) return fmt::format("{:.3g} mm", 1e3 * metres);
-  return fmt::format("{:.3g} m", metres);
+  if (metres < 1e-12) return "< 0.001 nm";
+  if (metres < 1e-7) return fmt::format("{:.2g} nm", 1e9 * metres);
+  if (metres < 0.995e-4) return fmt::format("{:.2g} um", 1e6 * metres);
+  if (metres < 0.9995) return fmt::format("{:.3g} mm", 1e3 * metres);
+  if (metres < 999.5) return fmt::format("{:.3g} m", metres);
+  return fmt::format("{:.0f} m", metres);
 }
 
 std::string timeText(const std::vector<double>& times, std::size_t k) {
@@ -102,7 +141,7 @@ std::string timeText(const std::vector<double>& times, std::size_t k) {
 /// A line of the table, of a column per mode.
 using Cell = std::function<std::string(const ModeRun&)>;
 std::string row(const Comparison& comparison, const std::string& what, const Cell& cell) {
-  std::string line = fmt::format("{:<26}", what);
+  std::string line = fmt::format("{:<28}", what);
   for (const ModeRun& run : comparison.runs()) line += fmt::format("{:>13}", cell(run));
   return line + '\n';
 }
@@ -139,36 +178,63 @@ std::string windowRows(const Comparison& comparison, const Window& window) {
          meanRows(comparison, [&](const ModeRun& run) { return run.within(window, h); });
 }
 
+/// How many bodies tipped over, and when: the k-th here against the k-th in the reference.
+std::string tippingRows(const Comparison& comparison) {
+  const auto line = [&](const std::string& what, const Cell& cell) {
+    return row(comparison, what, cell);
+  };
+  const ModeRun& reference = comparison.runs()[0];
+  std::string out = line("bodies that tipped over",
+                         [](auto& r) { return std::to_string(r.tipping_times.size()); });
+  const std::size_t tipped = reference.tipping_times.size();
+  if (tipped == 0) return out;
+  const auto difference = [&](double TippingDifference::*number) {
+    return [&reference, number](const ModeRun& run) {
+      const TippingDifference d = tippingDifference(reference, run);
+      return d.compared == 0 ? std::string("-") : fmt::format("{:.3f} s", d.*number);
+    };
+  };
+  out += line("  the first at", [](auto& r) { return timeText(r.tipping_times, 0); });
+  out += line(fmt::format("  number {} at", tipped),
+              [&](auto& r) { return timeText(r.tipping_times, tipped - 1); });
+  out += line("  the k-th is off by, mean", difference(&TippingDifference::mean));
+  out += line("                   largest", difference(&TippingDifference::largest));
+  return out;
+}
+
+std::string distanceRows(const Comparison& comparison) {
+  const auto line = [&](const char* what, double (*number)(const ModeRun&)) {
+    return row(comparison, what, [&](const ModeRun& run) { return lengthText(number(run)); });
+  };
+  return "\ncreep of pairs that touch, in the last quarter\n" +
+         line("  mean, at the end", [](auto& r) { return r.creep.mean; }) +
+         line("  largest, at the end", [](auto& r) { return r.creep.largest; }) +
+         line("  largest, of all steps", [](auto& r) { return r.creep.largest_ever; }) +
+         "\ndistance from the reference\n" +
+         line("  mean, at the end", [](auto& r) { return atEnd(r).mean; }) +
+         line("  largest, at the end", [](auto& r) { return atEnd(r).largest; }) +
+         line("  largest, of all steps", [](auto& r) { return r.largestDistance(); });
+}
+
 }  // namespace
 
 std::string comparisonTable(const Comparison& comparison, const std::optional<Window>& window) {
-  const auto& runs = comparison.runs();
   const Scene& scene = comparison.scene();
-  std::string out = fmt::format("{}: {}\n{} steps of {} s, {:.6g} s\n\n{:<26}", scene.name,
+  std::string out = fmt::format("{}: {}\n{} steps of {} s, {:.6g} s\n\n{:<28}", scene.name,
                                 scene.title, comparison.stepsDone(), scene.step,
                                 static_cast<double>(comparison.stepsDone()) * scene.step, "");
   const auto add = [&](const std::string& what, const Cell& cell) {
     out += row(comparison, what, cell);
   };
-  for (const ModeRun& run : runs) out += fmt::format("{:>13}", name(run.mode));
+  for (const ModeRun& run : comparison.runs()) out += fmt::format("{:>13}", name(run.mode));
   out += '\n' + meanRows(comparison, allSteps);
   add("active bodies, at the end", [](auto& r) { return std::to_string(r.last.active_bodies); });
   add("merges", [](auto& r) { return std::to_string(r.merges()); });
   add("unmerges", [](auto& r) { return std::to_string(r.unmerges()); });
   add("  both, in the last quarter", [](auto& r) { return std::to_string(r.lateEvents()); });
   add("welds gone in 20 steps", [](auto& r) { return std::to_string(r.flicker); });
-  add("deepest overlap", [](auto& r) { return lengthText(r.max_penetration); });
-  add("bodies that tipped over", [](auto& r) { return std::to_string(r.tipping_times.size()); });
-  const std::size_t tipped = runs[0].tipping_times.size();
-  if (tipped > 0) {
-    add("  the first at", [](auto& r) { return timeText(r.tipping_times, 0); });
-    add(fmt::format("  number {} at", tipped),
-        [&](auto& r) { return timeText(r.tipping_times, tipped - 1); });
-  }
-  out += "\ndistance from the reference\n";
-  add("  mean, at the end", [](auto& r) { return lengthText(atEnd(r).mean); });
-  add("  largest, at the end", [](auto& r) { return lengthText(atEnd(r).largest); });
-  add("  largest, ever", [](auto& r) { return lengthText(largestEver(r)); });
+  add("deepest overlap, all steps", [](auto& r) { return lengthText(r.max_penetration); });
+  out += tippingRows(comparison) + distanceRows(comparison);
   if (window) out += windowRows(comparison, *window);
   return out;
 }
@@ -199,22 +265,21 @@ std::string comparisonCsv(const Comparison& comparison) {
   const double h = comparison.scene().step;
   std::string out(kComparisonCsvStart);
   out += "contacts,internal_contacts,merges,unmerges,mean_distance,largest_distance";
-  out += comparison.timings() ? ",ms\n" : "\n";
+  if (comparison.timings()) {
+    out += ",ms";
+    for (std::size_t s = 0; s < kStages; ++s) out += fmt::format(",ms_{}", name(Stage(s)));
+  }
+  out += '\n';
   for (const ModeRun& run : comparison.runs()) {
-    auto distance = run.distances.begin();
     for (std::size_t i = 0; i < run.steps.size(); ++i) {
       const StepRow& row = run.steps[i];
-      const double t = h * static_cast<double>(i + 1);
-      out +=
-          fmt::format("{},{},{:.9g},{},{},{},{},{},", name(run.mode), i + 1, t, row.active_bodies,
-                      row.contacts, row.internal_contacts, row.merges, row.unmerges);
-      if (distance != run.distances.end() && std::abs(distance->time - t) < 0.5 * h) {
-        out += fmt::format("{},{}", distance->mean, distance->largest);
-        ++distance;
-      } else {
-        out += ',';
-      }
-      out += comparison.timings() ? fmt::format(",{}\n", row.ms) : "\n";
+      const Distance& distance = run.distances[i];
+      out += fmt::format("{},{},{:.9g},{},{},{},{},{},{},{}", name(run.mode), i + 1,
+                         h * static_cast<double>(i + 1), row.active_bodies, row.contacts,
+                         row.internal_contacts, row.merges, row.unmerges, distance.mean,
+                         distance.largest);
+      if (comparison.timings()) out += fmt::format(",{},{}", row.ms, fmt::join(row.stage_ms, ","));
+      out += '\n';
     }
   }
   return out;

@@ -16,11 +16,11 @@ inline constexpr std::string_view kComparisonCsvStart = "mode,step,t,active_bodi
 std::string comparisonTable(const Comparison& comparison, const std::optional<Window>& window);
 
 /// One object; `charts` are the files that were drawn. Without timings, what was measured in
-/// seconds is null.
+/// seconds is null. docs/compare.md explains the keys.
 std::string comparisonJson(const Comparison& comparison, const std::optional<Window>& window,
                            const std::vector<std::string>& charts);
 
-/// A row per mode and step; distances only in rows where they were measured.
+/// A row per mode and step.
 std::string comparisonCsv(const Comparison& comparison);
 
 }  // namespace merge2d
