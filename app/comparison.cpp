@@ -272,6 +272,10 @@ void Comparison::measureDistances() {
 
 bool Comparison::done() const { return lanes_.back()->done(); }
 
+const std::string& Comparison::nameOf(BodyId body) const {
+  return lanes_.front()->world().bodies()[index(body)].name;
+}
+
 std::int64_t Comparison::stepsDone() const { return lanes_.back()->world().steps(); }
 
 }  // namespace merge2d

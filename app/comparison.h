@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/creep.h"
@@ -89,6 +90,7 @@ class Comparison {
   bool timings() const { return timings_; }
   std::int64_t steps() const { return steps_; }  ///< in all
   std::int64_t stepsDone() const;                ///< of each mode
+  const std::string& nameOf(BodyId body) const;
   /// In the order of kModes.
   const std::array<ModeRun, kModes.size()>& runs() const { return runs_; }
 

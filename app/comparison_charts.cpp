@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <string>
+#include <utility>
 
+#include "app/comparison_marks.h"
 #include "app/output_file.h"
 #include "render/chart.h"
 #include "render/png.h"
@@ -86,30 +89,13 @@ const StepRow& medianStep(const std::vector<StepRow>& rows, std::size_t from, st
   return rows[*middle];
 }
 
-/// What the scene itself makes happen.
-std::vector<ChartMark> marksOf(const Scene& scene) {
-  std::vector<ChartMark> marks;
-  const auto& body = scene.bodies;
-  for (const ImpulseDesc& impulse : scene.impulses) {
-    marks.push_back({impulse.time, "impulse on " + body[impulse.body].name});
-  }
-  for (const ForceDesc& force : scene.forces) {
-    if (force.from > 0.0) marks.push_back({force.from, "force on " + body[force.body].name});
-    if (force.until < scene.duration) marks.push_back({force.until, "force ends"});
-  }
-  for (const BodyDesc& one : body) {
-    if (one.pinned_until > 0.0) marks.push_back({one.pinned_until, one.name + " let go"});
-  }
-  for (const MagnetDesc& magnet : scene.magnets) {
-    for (const MagnetDesc::Interval& on : magnet.on) {
-      if (on.from > 0.0) marks.push_back({on.from, "magnet on"});
-      if (on.until < scene.duration) marks.push_back({on.until, "off"});
-    }
-  }
-  std::ranges::stable_sort(marks, {}, &ChartMark::x);
-  const auto at_once = [](const ChartMark& a, const ChartMark& b) { return a.x == b.x; };
-  marks.erase(std::unique(marks.begin(), marks.end(), at_once), marks.end());
-  return marks;
+/// A chart of the whole run.
+Chart emptyChart(const Comparison& comparison, std::string title, std::string y_label) {
+  Chart chart{.title = std::move(title), .x_label = "time [s]", .y_label = std::move(y_label)};
+  chart.x_low = 0.0;
+  chart.x_high = static_cast<double>(comparison.stepsDone()) * comparison.scene().step;
+  chart.marks = marksOf(comparison);
+  return chart;
 }
 
 /// Stacked time per stage in each mode, on one scale. The slowest hundredth is cut off rather than
@@ -119,12 +105,11 @@ std::vector<Chart> timeCharts(const Comparison& comparison) {
   std::vector<Chart> charts;
   double high = 0.0;
   for (const ModeRun& run : comparison.runs()) {
-    Chart chart{.title = name(run.mode), .x_label = "time [s]", .y_label = "ms per step"};
+    Chart chart = emptyChart(comparison, name(run.mode), "ms per step");
     if (bins.stepsPerBin() > 1) {
       chart.y_label += fmt::format(", median of {} steps", bins.stepsPerBin());
     }
     chart.stacked = true;
-    chart.marks = marksOf(comparison.scene());
     for (const StageGroup& group : stageGroups()) {
       chart.series.push_back(bins.series(group.name, [&](std::size_t from, std::size_t to) {
         const StepRow& row = medianStep(run.steps, from, to);
@@ -148,8 +133,7 @@ std::vector<Chart> timeCharts(const Comparison& comparison) {
 Chart numberChart(const Comparison& comparison, const char* title, const char* label,
                   int StepRow::*number) {
   const Bins bins(comparison);
-  Chart chart{.title = title, .x_label = "time [s]", .y_label = label};
-  chart.marks = marksOf(comparison.scene());
+  Chart chart = emptyChart(comparison, title, label);
   for (const ModeRun& run : comparison.runs()) {
     chart.series.push_back(bins.means(name(run.mode), run.steps, number));
   }
@@ -158,11 +142,11 @@ Chart numberChart(const Comparison& comparison, const char* title, const char* l
 
 Chart eventChart(const Comparison& comparison) {
   const Bins bins(comparison);
-  Chart chart{.title = "Merges and unmerges in merge+sleep", .x_label = "time [s]"};
-  chart.y_label = bins.stepsPerBin() == 1 ? "events in a step"
-                                          : fmt::format("events in {} steps", bins.stepsPerBin());
+  Chart chart =
+      emptyChart(comparison, "Merges and unmerges in merge+sleep",
+                 bins.stepsPerBin() == 1 ? "events in a step"
+                                         : fmt::format("events in {} steps", bins.stepsPerBin()));
   chart.stacked = true;
-  chart.marks = marksOf(comparison.scene());
   const std::vector<StepRow>& rows = comparison.runs().back().steps;
   chart.series = {bins.sums("unmerges", rows, &StepRow::unmerges),
                   bins.sums("merges", rows, &StepRow::merges)};
@@ -170,8 +154,8 @@ Chart eventChart(const Comparison& comparison) {
 }
 
 Chart distanceChart(const Comparison& comparison, const char* title, double Distance::*number) {
-  Chart chart{.title = title, .x_label = "time [s]", .y_label = "metres", .log_y = true};
-  chart.marks = marksOf(comparison.scene());
+  Chart chart = emptyChart(comparison, title, "metres");
+  chart.log_y = true;
   for (const ModeRun& run : comparison.runs()) {
     Series& series = chart.series.emplace_back(Series{name(run.mode), {}, {}});
     if (run.mode == Mode::Reference) {
@@ -191,13 +175,14 @@ Chart distanceChart(const Comparison& comparison, const char* title, double Dist
 std::vector<std::string> drawComparison(const Comparison& comparison,
                                         const std::filesystem::path& folder,
                                         const ChartStyle& style) {
-  Canvas canvas(style.width, style.height);
   makeFolder(folder);
   std::vector<std::string> files;
   const auto draw = [&](const char* file, const std::vector<Chart>& charts) {
     const std::filesystem::path path = folder / file;
+    Canvas canvas(style.width, style.height * static_cast<int>(charts.size()));
     PngOptions options;
     options.description = fmt::format("{}: {}", comparison.scene().title, file);
+    options.dots_per_inch = kDotsPerInch;
     savePng(path, drawCharts(canvas, charts, 1, style.theme), options);
     files.push_back(path.string());
   };

@@ -11,9 +11,13 @@
 namespace merge2d {
 
 struct ChartStyle {
-  int width = 1280, height = 1120;  ///< of each picture [px]
+  /// Of each chart [px]. At kDotsPerInch a picture is as wide as a page between its margins, and
+  /// its text has some six points.
+  int width = 1920, height = 640;
   Theme theme = lightTheme();
 };
+
+inline constexpr double kDotsPerInch = 300.0;
 
 /// Writes time.png (stacked time per stage, a chart per mode; not without timings), counts.png
 /// (bodies, contacts and events over time) and distance.png (from the reference) into the folder,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 
+#include "app/comparison_marks.h"
 #include "app/json.h"
 
 namespace merge2d {
@@ -78,6 +79,17 @@ Json creepJson(const Creep& creep) {
           {"mean", creep.mean},
           {"largest", creep.largest},
           {"largest_ever", creep.largest_ever}};
+}
+
+Json hitsJson(const Comparison& comparison) {
+  Json out = Json::array();
+  for (const Hit& hit : markedHits(comparison)) {
+    out.push_back({{"time", hit.time},
+                   {"striker", comparison.nameOf(hit.striker)},
+                   {"struck", comparison.nameOf(hit.struck)},
+                   {"energy", hit.energy}});
+  }
+  return out;
 }
 
 /// About kSamples of them at equal distances, and the last.
@@ -257,6 +269,7 @@ std::string comparisonJson(const Comparison& comparison, const std::optional<Win
     if (window) mode["window"] = windowJson(comparison, run, within);
     out["modes"].push_back(std::move(mode));
   }
+  out["hits"] = hitsJson(comparison);
   out["charts"] = charts;
   return out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

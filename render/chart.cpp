@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -73,7 +74,7 @@ class ChartPainter {
     return {b.x - by, b.y - by, b.width + 2.0F * by, b.height + 2.0F * by};
   }
 
-  Color lineColor(std::size_t i) const { return theme_.lines[i % theme_.lines.size()]; }
+  LineStyle lineOf(std::size_t i) const { return lineStyle(theme_, i, chart_.series.size()); }
   Color areaColor(std::size_t i) const {
     return theme_.collections[i % theme_.collections.size()].fill;
   }
@@ -90,6 +91,12 @@ class ChartPainter {
         y_.include(chart_.stacked ? stackedUpTo(chart_.series.size(), i) : series.y[i]);
       }
     }
+    if (chart_.stacked && x_.low < x_.high) {
+      const std::size_t areas = chart_.series.front().x.size();
+      x_ = {edge(0), edge(areas)};
+    }
+    if (chart_.x_low) x_.low = *chart_.x_low;
+    if (chart_.x_high) x_.high = *chart_.x_high;
     x_ = x_.orElse(0.0, 1.0);
     if (chart_.log_y) {
       y_ = y_.orElse(1.0, 10.0);
@@ -119,10 +126,32 @@ class ChartPainter {
       numbers = std::max(numbers, painter_.text().width(fmt::format("{:g}", y), font_));
     }
     const float left = std::round(panel_.x + px(30.0F) + numbers);
-    const float top = std::round(panel_.y + px(chart_.marks.empty() ? 72.0F : 88.0F));
     const float right = std::round(panel_.right() - px(50.0F) - names);
-    const float bottom = std::round(panel_.bottom() - px(56.0F));
-    area_ = {left, top, std::max(1.0F, right - left), std::max(1.0F, bottom - top)};
+    area_ = {left, 0.0F, std::max(1.0F, right - left), 1.0F};
+    placeMarks();
+    const float top = std::round(panel_.y + px(70.0F + kMarkRow * static_cast<float>(mark_rows_)));
+    const float bottom = std::round(panel_.bottom() - px(52.0F));
+    area_.y = top, area_.height = std::max(1.0F, bottom - top);
+  }
+
+  /// Each name begins at its line, which is drawn up to it: where a later line would cross a name,
+  /// the name stands in a row above that line's. Names without a row are left out, not their lines.
+  void placeMarks() {
+    for (const ChartMark& mark : chart_.marks) {
+      if (mark.x < x_.low || mark.x > x_.high) continue;
+      const float width = painter_.text().width(mark.name, font_);
+      const float column = std::round(at(mark.x, y_.low).x);
+      const float start = std::min(column, panel_.right() - px(10.0F) - width);
+      marks_.push_back({column, start, start + width + px(10.0F), 0, &mark.name});
+    }
+    for (std::size_t i = marks_.size(); i-- > 0;) {
+      for (std::size_t later = i + 1; later < marks_.size(); ++later) {
+        const PlacedMark& other = marks_[later];
+        if (!other.named() || std::min(other.start, other.column) >= marks_[i].end) continue;
+        marks_[i].row = std::max(marks_[i].row, other.row + 1);
+      }
+      if (marks_[i].named()) mark_rows_ = std::max(mark_rows_, marks_[i].row + 1);
+    }
   }
 
   std::vector<double> yTicks() const {
@@ -136,7 +165,8 @@ class ChartPainter {
     const double u = (x - x_.low) / (x_.high - x_.low);
     const double v = chart_.log_y ? std::log(y / y_.low) / std::log(y_.high / y_.low)
                                   : (y - y_.low) / (y_.high - y_.low);
-    return {area_.x + static_cast<float>(u) * area_.width,
+    const float inset = px(kInset);
+    return {area_.x + inset + static_cast<float>(u) * (area_.width - 2.0F * inset),
             area_.bottom() - static_cast<float>(v) * area_.height};
   }
 
@@ -167,35 +197,37 @@ class ChartPainter {
     }
   }
 
-  /// Names that would overlap the one before are left out; their lines stay.
   void drawMarks() {
     const float line = hairline();
-    float free = area_.x;
-    for (const ChartMark& mark : chart_.marks) {
-      if (mark.x < x_.low || mark.x > x_.high) continue;
-      const float column = std::round(at(mark.x, y_.low).x);
-      for (float y = area_.y; y < area_.bottom(); y += px(6.0F)) {
-        painter_.box({column, std::round(y), line, std::round(px(3.0F))}, 0.0F,
+    for (const PlacedMark& mark : marks_) {
+      const float row = mark.named() ? kMarkRow * static_cast<float>(mark.row) : 0.0F;
+      for (float y = area_.bottom() - px(3.0F); y > area_.y - px(row); y -= px(6.0F)) {
+        painter_.box({mark.column, std::round(y), line, std::round(px(3.0F))}, 0.0F,
                      {.fill = theme_.ink_soft});
       }
-      const float half = 0.5F * painter_.text().width(mark.name, font_);
-      const float middle =
-          std::clamp(column, area_.x + half, std::max(area_.x + half, area_.right() - half));
-      if (middle - half < free) continue;
-      free = middle + half + px(10.0F);
-      painter_.write(mark.name, font_, {std::round(middle), std::round(area_.y - px(5.0F))},
-                     theme_.ink_soft, Align::Center);
+      if (!mark.named()) continue;
+      painter_.write(*mark.name, font_,
+                     {std::round(mark.start), std::round(area_.y - px(5.0F + row))},
+                     theme_.ink_soft);
     }
   }
 
-  /// Each value reaches half-way to its neighbours.
+  /// Where the k-th area begins: each value reaches half-way to its neighbours, and the outermost
+  /// as far to the other side.
+  double edge(std::size_t k) const {
+    const std::vector<double>& x = chart_.series.front().x;
+    if (x.size() == 1) return k == 0 ? x_.low : x_.high;
+    if (k == 0) return x[0] - 0.5 * (x[1] - x[0]);
+    if (k == x.size()) return x[k - 1] + 0.5 * (x[k - 1] - x[k - 2]);
+    return 0.5 * (x[k - 1] + x[k]);
+  }
+
   void drawAreas() {
     if (chart_.series.empty()) return;
     const std::vector<double>& x = chart_.series.front().x;
     for (std::size_t k = 0; k < x.size(); ++k) {
-      const double from = k == 0 ? x[k] : 0.5 * (x[k - 1] + x[k]);
-      const double to = k + 1 == x.size() ? x[k] : 0.5 * (x[k] + x[k + 1]);
-      const float left = std::round(at(from, y_.low).x), right = std::round(at(to, y_.low).x);
+      const float left = std::round(at(edge(k), y_.low).x);
+      const float right = std::round(at(edge(k + 1), y_.low).x);
       for (std::size_t i = 0; i < chart_.series.size(); ++i) {
         const float bottom = std::round(at(x[k], stackedUpTo(i, k)).y);
         const float top = std::round(at(x[k], stackedUpTo(i + 1, k)).y);
@@ -239,10 +271,10 @@ class ChartPainter {
 
   void drawSeries(std::size_t i) {
     const std::vector<Pixel> points = thinned(chart_.series[i]);
-    const Color color = lineColor(i);
+    const LineStyle style = lineOf(i);
     for (std::size_t k = 1; k < points.size(); ++k) {
       if (points[k].x == points[k - 1].x && points[k].y == points[k - 1].y) continue;
-      painter_.line(points[k - 1], points[k], px(1.8F), color);
+      painter_.line(points[k - 1], points[k], px(style.width), style.color);
     }
     if (!points.empty()) ends_.emplace_back(points.back().y, i);
   }
@@ -260,11 +292,26 @@ class ChartPainter {
     const float drop = 0.5F * painter_.text().capHeight(font_);
     for (const auto& [y, i] : ends_) {
       const Pixel sample{area_.right() + px(8.0F), std::round(y)};
-      painter_.line(sample, sample + Pixel{px(9.0F), 0.0F}, px(2.4F), lineColor(i));
+      const LineStyle style = lineOf(i);
+      painter_.line(sample, sample + Pixel{px(9.0F), 0.0F}, px(style.width), style.color);
       painter_.write(chart_.series[i].name, font_, sample + Pixel{px(17.0F), std::round(drop)},
                      theme_.ink);
     }
   }
+
+  static constexpr float kMarkRow = 16.0F;  ///< height of a row of names
+  static constexpr float kInset = 6.0F;     ///< of the first and last value from the frame
+
+  struct PlacedMark {
+    static constexpr std::size_t kRows = 4;
+
+    float column = 0.0F;             ///< of the line [px]
+    float start = 0.0F, end = 0.0F;  ///< of the name, with the space behind it [px]
+    std::size_t row = 0;             ///< of the name, from below
+    const std::string* name = nullptr;
+
+    bool named() const { return row < kRows; }
+  };
 
   Painter& painter_;
   const Chart& chart_;
@@ -274,6 +321,8 @@ class ChartPainter {
   Font font_;
   Range x_, y_;
   PixelBox area_;
+  std::vector<PlacedMark> marks_;
+  std::size_t mark_rows_ = 0;
   std::vector<std::pair<float, std::size_t>> ends_;
 };
 
@@ -289,6 +338,14 @@ std::vector<double> ticks(double low, double high, int wanted) {
   return out;
 }
 
+LineStyle lineStyle(const Theme& theme, std::size_t i, std::size_t count) {
+  constexpr std::array<float, 4> kWidth = {1.5F, 4.0F, 5.8F, 7.4F};
+  constexpr std::array<double, 4> kPale = {0.0, 0.3, 0.4, 0.5};
+  const std::size_t above = std::min(count - 1 - i, kWidth.size() - 1);
+  const Color color = theme.lines[i % theme.lines.size()];
+  return {mix(color, theme.background, kPale[above]), kWidth[above]};
+}
+
 Picture drawChart(Canvas& canvas, const Chart& chart, const Theme& theme) {
   return drawCharts(canvas, {&chart, 1}, 1, theme);
 }
@@ -302,7 +359,7 @@ Picture drawCharts(Canvas& canvas, std::span<const Chart> charts, int columns, c
   const int rows = (static_cast<int>(charts.size()) + columns - 1) / columns;
   const float width = static_cast<float>(canvas.width()) / static_cast<float>(columns);
   const float height = static_cast<float>(canvas.height()) / static_cast<float>(std::max(1, rows));
-  const float unit = std::clamp(height / (rows > 1 ? 360.0F : 480.0F), 0.6F, 6.0F);
+  const float unit = std::clamp(std::min(width / 960.0F, height / 240.0F), 0.6F, 6.0F);
   for (std::size_t i = 0; i < charts.size(); ++i) {
     const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
     const PixelBox panel{static_cast<float>(column) * width, static_cast<float>(row) * height,

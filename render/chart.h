@@ -26,8 +26,9 @@ struct Chart {
   std::string title;
   std::string x_label{}, y_label{};  ///< with their units: "time [s]"
   bool log_y = false;                ///< values that are not positive are left out
-  bool stacked = false;            ///< areas that add up, the first at the bottom; all share one x
-  std::optional<double> y_high{};  ///< the axis ends here, and what is higher is cut off
+  bool stacked = false;  ///< areas that add up, the first at the bottom; all share one x
+  std::optional<double> x_low{}, x_high{};  ///< of the axis; default: what the series cover
+  std::optional<double> y_high{};           ///< the axis ends here, and what is higher is cut off
   std::vector<Series> series{};
   std::vector<ChartMark> marks{};
 };
@@ -36,8 +37,17 @@ struct Chart {
 /// `wanted` of them.
 std::vector<double> ticks(double low, double high, int wanted);
 
+/// How the i-th of `count` lines is drawn: those below are wider and paler, so that one can see
+/// where lines lie on top of each other.
+struct LineStyle {
+  Color color;
+  float width = 1.0F;  ///< in units of the text's size
+};
+LineStyle lineStyle(const Theme& theme, std::size_t i, std::size_t count);
+
 /// Fills the canvas. Each line has its name at its end; there are four colours (Theme::lines).
-/// Areas have the colours of collections, and their names stand beside the chart.
+/// Areas have the colours of collections, and their names stand beside the chart. The text is as
+/// large as the canvas is wide: in pictures that are shown at one width it has one size.
 Picture drawChart(Canvas& canvas, const Chart& chart, const Theme& theme = lightTheme());
 
 /// Several charts of one size in one picture, row by row.

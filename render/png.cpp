@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -74,6 +75,14 @@ void setDescription(png_structp png, png_infop info, const std::string& descript
   png_set_text(png, info, &text, 1);
 }
 
+/// PNG counts per metre.
+void setResolution(png_structp png, png_infop info, double dots_per_inch) {
+  if (dots_per_inch <= 0.0) return;
+  constexpr double kInch = 0.0254;  // [m]
+  const auto dots = static_cast<png_uint_32>(std::lround(dots_per_inch / kInch));
+  png_set_pHYs(png, info, dots, dots, PNG_RESOLUTION_METER);
+}
+
 struct Writer {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, onError, onWarning);
   png_infop info = png_create_info_struct(png);
@@ -118,6 +127,7 @@ std::vector<std::uint8_t> encodePng(const Picture& picture, const PngOptions& op
                static_cast<png_uint_32>(picture.height), 8,
                options.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  setResolution(png, info, options.dots_per_inch);
   setDescription(png, info, options.description);
   png_write_info(png, info);
   png_write_chunk(png, reinterpret_cast<png_const_bytep>("IDAT"), data.data(), data.size());

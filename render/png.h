@@ -12,8 +12,9 @@
 namespace merge2d {
 
 struct PngOptions {
-  bool alpha = false;         ///< keep the alpha channel
-  std::string description{};  ///< text for those who cannot see the picture
+  bool alpha = false;          ///< keep the alpha channel
+  std::string description{};   ///< text for those who cannot see the picture
+  double dots_per_inch = 0.0;  ///< how large it is in print; 0: not said
 };
 
 /// The bytes of a PNG file: fast rather than small, and nothing but the picture in them (no dates).

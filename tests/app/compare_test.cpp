@@ -105,8 +105,8 @@ TEST_F(Compare, RefusesAWindowThatIsNone) {
 
 TEST_F(Compare, GivesAllOfItAsJson) {
   const Json all = compared("stack.toml");
-  EXPECT_THAT(keysOf(all),
-              ElementsAre("scene", "title", "h", "steps", "time", "bodies", "modes", "charts"));
+  EXPECT_THAT(keysOf(all), ElementsAre("scene", "title", "h", "steps", "time", "bodies", "modes",
+                                       "hits", "charts"));
   EXPECT_EQ(all["steps"], 50);
   EXPECT_EQ(all["bodies"], 3);
   ASSERT_THAT(all["modes"], SizeIs(4));
@@ -292,6 +292,51 @@ TEST_F(Compare, WritesATableWithARowPerModeAndStep) {
   }
 }
 
+/// Pebbles that fall by a metre, and a ball of 50 kg that falls by five.
+constexpr const char* kFalling = R"(
+format = 1
+title = "Pebbles and a ball"
+duration = 2
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [60, 1]
+[[body]]
+name = "pebble"
+at = [3, 1.1]
+circle = 0.1
+mass = 0.1
+repeat = { count = [12, 1], spacing = [1, 0] }
+[[body]]
+name = "ball"
+at = [-5, 5.5]
+circle = 0.5
+mass = 50
+)";
+
+TEST_F(Compare, PointsOutTheHitsThatStandOut) {
+  write("falling.toml", kFalling);
+  const Json hits = compared("falling.toml")["hits"];
+  ASSERT_THAT(hits, SizeIs(1)) << "not the pebbles";
+  EXPECT_EQ(hits[0]["striker"], "ball");
+  EXPECT_EQ(hits[0]["struck"], "ground");
+  EXPECT_NEAR(hits[0]["time"].get<double>(), std::sqrt(2.0 * 5.0 / 9.81), 0.02);
+  EXPECT_NEAR(hits[0]["energy"].get<double>(), 50.0 * 9.81 * 5.0, 100.0);
+  EXPECT_THAT(compared("dominoes")["hits"], IsEmpty()) << "each falls as the one before";
+}
+
+TEST_F(Compare, PointsOutEveryHitWhereThereAreFew) {
+  std::string scene = kFalling;
+  scene.replace(scene.find("[12, 1]"), 7, "[1, 1]");
+  write("falling.toml", scene);
+  const Json hits = compared("falling.toml")["hits"];
+  ASSERT_THAT(hits, SizeIs(2));
+  EXPECT_EQ(hits[0]["striker"], "pebble[0,0]") << "in the order of time";
+  EXPECT_EQ(hits[1]["striker"], "ball");
+  EXPECT_THAT(compared("stack.toml")["hits"], IsEmpty());
+}
+
 TEST_F(Compare, DrawsItsCharts) {
   const Outcome outcome = run({"compare", "stack.toml", "--json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -302,6 +347,12 @@ TEST_F(Compare, DrawsItsCharts) {
   EXPECT_EQ(run({"render", "stack.toml", "--steps", "1"}).code, 0) << "frames may stand beside";
   EXPECT_EQ(run({"compare", "stack.toml", "-o", "charts", "--theme", "print"}).code, 0);
   EXPECT_THAT(files("charts"), SizeIs(3));
+  for (const char* chart : {"time.png", "counts.png", "distance.png"}) {
+    const std::string bytes = read(std::string("charts/") + chart);
+    EXPECT_EQ(bytes.substr(18, 2), "\x07\x80")
+        << chart << ": 1920 pixels wide, so of one text size";
+    EXPECT_THAT(bytes, HasSubstr("pHYs"));
+  }
 }
 
 TEST_F(Compare, WithoutTimingsTwoRunsGiveTheSameBytes) {

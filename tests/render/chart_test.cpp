@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 namespace merge2d {
 namespace {
@@ -42,11 +45,30 @@ int rowsWith(const Picture& picture, Color color) {
   return rows;
 }
 
+/// How many pixels have this colour in the left half of the picture, where no names stand.
+int pixelsOf(const Picture& picture, Color color) {
+  int pixels = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width / 2; ++x) pixels += picture.at(x, y) == color;
+  }
+  return pixels;
+}
+
 TEST(Chart, DrawsALineForEachSeries) {
   Canvas canvas(640, 400);
   const Picture picture = drawChart(canvas, sample());
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_GT(rowsWith(picture, lightTheme().lines[i]), 8) << i;
+    EXPECT_GT(rowsWith(picture, lineStyle(lightTheme(), i, 4).color), 8) << i;
+  }
+}
+
+TEST(Chart, ShowsLinesThatLieOnTopOfEachOther) {
+  Canvas canvas(1280, 800);
+  Chart chart = sample();
+  for (Series& series : chart.series) series.y = chart.series.front().y;
+  const Picture picture = drawChart(canvas, chart);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_GT(pixelsOf(picture, lineStyle(lightTheme(), i, 4).color), 100) << i;
   }
 }
 
@@ -56,16 +78,7 @@ TEST(Chart, CanBeLogarithmicAndLeavesOutWhatHasNoLogarithm) {
   chart.log_y = true;
   chart.series[1].y[7] = 0.0;
   chart.series[1].y[8] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_GT(rowsWith(drawChart(canvas, chart), lightTheme().lines[1]), 8);
-}
-
-/// How many pixels have this colour in the left half of the picture, where no names stand.
-int pixelsOf(const Picture& picture, Color color) {
-  int pixels = 0;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width / 2; ++x) pixels += picture.at(x, y) == color;
-  }
-  return pixels;
+  EXPECT_GT(rowsWith(drawChart(canvas, chart), lineStyle(lightTheme(), 1, 4).color), 8);
 }
 
 Chart stackOf(double first, double second) {
@@ -92,7 +105,63 @@ TEST(Chart, CutsOffWhatIsAboveItsAxis) {
   const Picture picture = drawChart(canvas, chart);
   EXPECT_NEAR(pixelsOf(picture, lightTheme().collections[0].fill),
               pixelsOf(picture, lightTheme().collections[1].fill), 400);
-  EXPECT_EQ(picture.at(200, 54), lightTheme().background) << "above the axis";
+  EXPECT_EQ(picture.at(200, 40), lightTheme().background) << "above the axis";
+}
+
+/// The first and last column with this colour in the lower half of a chart.
+std::pair<int, int> columnsOf(const Picture& picture, Color color) {
+  std::pair<int, int> columns{picture.width, -1};
+  for (int y = picture.height / 2; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (picture.at(x, y) != color) continue;
+      columns.first = std::min(columns.first, x);
+      columns.second = std::max(columns.second, x);
+    }
+  }
+  return columns;
+}
+
+TEST(Chart, DrawsTheFirstAndLastAreaAsWideAsTheOthers) {
+  Canvas canvas(960, 480);
+  Chart chart = stackOf(1.0, 1.0);
+  chart.series[0].y = {1.0, 0.0, 0.0};
+  chart.series[1].y = {0.0, 1.0, 0.0};
+  const Picture picture = drawChart(canvas, chart);
+  const auto first = columnsOf(picture, lightTheme().collections[0].fill);
+  const auto second = columnsOf(picture, lightTheme().collections[1].fill);
+  EXPECT_NEAR(first.second - first.first, second.second - second.first, 2);
+}
+
+TEST(Chart, LeavesRoomBesideTheFirstValue) {
+  Canvas canvas(960, 480);
+  Chart chart;
+  chart.series = {{"", {}, {}}, {"falls at once", {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}}};
+  chart.x_low = 0.0, chart.x_high = 4.0;
+  const Picture picture = drawChart(canvas, chart);
+  int axis = 0;  // where it begins
+  while (picture.at(axis, 428) != lightTheme().ink) ++axis;
+  EXPECT_GT(columnsOf(picture, lightTheme().lines[1]).first, axis);
+}
+
+TEST(Chart, HasTextOfOneSizeInPicturesOfOneWidth) {
+  const std::vector<Chart> charts(4, stackOf(1.0, 1.0));
+  Canvas two(960, 2 * 320), four(960, 4 * 320);
+  const Picture small = drawCharts(two, std::span(charts).first(2), 1);
+  const Picture large = drawCharts(four, charts, 1);
+  for (int y = 0; y < small.height; ++y) {
+    for (int x = 0; x < small.width; ++x) ASSERT_EQ(small.at(x, y), large.at(x, y));
+  }
+}
+
+TEST(Chart, WritesNamesOfMarksThatAreCloseAboveEachOther) {
+  Canvas canvas(960, 480);
+  Chart chart = sample();
+  chart.marks = {{10.0, "name"}};
+  const int one = rowsWith(drawChart(canvas, chart), lightTheme().ink_soft);
+  chart.marks = {{10.0, "name"}, {10.1, "name"}};
+  EXPECT_GT(rowsWith(drawChart(canvas, chart), lightTheme().ink_soft), one);
+  chart.marks = {{10.0, "name"}, {18.0, "name"}};
+  EXPECT_EQ(rowsWith(drawChart(canvas, chart), lightTheme().ink_soft), one);
 }
 
 TEST(Chart, MarksWhatHappens) {

@@ -56,6 +56,17 @@ TEST(Png, CanCarryADescription) {
   EXPECT_EQ(decodePng(png).width, 8);
 }
 
+TEST(Png, CanSayHowLargeItIsInPrint) {
+  const auto png = encodePng(gradient(8, 8, true), {.dots_per_inch = 300.0});
+  EXPECT_EQ(chunkTypes(png), (std::vector<std::string>{"IHDR", "pHYs", "IDAT", "IEND"}));
+  PngChunks chunks(png);
+  chunks.next();
+  const std::span<const std::uint8_t> size = chunks.next()->data;
+  EXPECT_EQ(fromBigEndian(size), 11811U) << "per metre";
+  EXPECT_EQ(fromBigEndian(size.subspan(4)), 11811U);
+  EXPECT_EQ(size[8], 1) << "the unit is the metre";
+}
+
 TEST(Png, TheSamePictureGivesTheSameBytes) {
   EXPECT_EQ(encodePng(gradient(64, 64, true)), encodePng(gradient(64, 64, true)));
 }

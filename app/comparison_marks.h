@@ -1,0 +1,18 @@
+#pragma once
+/// What the charts of a comparison point out.
+
+#include <vector>
+
+#include "app/comparison.h"
+#include "render/chart.h"
+
+namespace merge2d {
+
+/// The hits of the reference that stand out.
+std::vector<Hit> markedHits(const Comparison& comparison);
+
+/// What the scene itself makes happen, and those hits ("ball hits brick[0,20]"); in the order of
+/// time, one at a time.
+std::vector<ChartMark> marksOf(const Comparison& comparison);
+
+}  // namespace merge2d
