@@ -55,15 +55,22 @@ void appendHits(const Snapshot& before, const Snapshot& now, const std::vector<B
 std::vector<Hit> outstandingHits(std::vector<Hit> hits, double apart) {
   if (hits.empty()) return {};
   std::ranges::stable_sort(hits, std::ranges::greater(), &Hit::energy);
-  const double least = hits.size() <= kMostHits ? 0.0 : kStandsOut * hits[hits.size() / 2].energy;
-  std::vector<Hit> out;
+  const double least = hits.size() <= kMostHits ? 0.0 : kOverMedian * hits[hits.size() / 2].energy;
+  std::vector<Hit> strongest;  // and the one that comes after them
   for (const Hit& hit : hits) {
-    if (out.size() == kMostHits || hit.energy < least) break;
     const auto near = [&](const Hit& other) { return std::abs(hit.time - other.time) < apart; };
-    if (std::ranges::none_of(out, near)) out.push_back(hit);
+    if (std::ranges::none_of(strongest, near)) strongest.push_back(hit);
+    if (strongest.size() > kMostHits) break;
   }
-  std::ranges::sort(out, {}, &Hit::time);
-  return out;
+  const auto standsOut = [&](std::size_t n) {
+    const double next = n < strongest.size() ? strongest[n].energy : 0.0;
+    return strongest[n - 1].energy >= std::max(least, kOverNext * next);
+  };
+  std::size_t n = std::min(kMostHits, strongest.size());
+  while (n > 0 && !standsOut(n)) --n;
+  strongest.resize(n);
+  std::ranges::sort(strongest, {}, &Hit::time);
+  return strongest;
 }
 
 }  // namespace merge2d

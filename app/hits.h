@@ -18,12 +18,14 @@ struct Hit {
 void appendHits(const Snapshot& before, const Snapshot& now, const std::vector<BodyInfo>& bodies,
                 std::vector<Hit>& hits);
 
-/// The hits that a reader should know of, in the order of time: those of at least kStandsOut times
-/// the energy of the median hit, or all where there are no more than kMostHits. Of hits that are
-/// closer in time than `apart` [s] the strongest is taken, and at most kMostHits in all.
+/// The hits that a reader should know of, in the order of time. Of hits that are closer in time
+/// than `apart` [s] only the strongest counts. Taken are as many as have kOverNext times the energy
+/// of the one that comes after them, and kOverMedian times that of the median hit where there are
+/// more than kMostHits; at most kMostHits.
 std::vector<Hit> outstandingHits(std::vector<Hit> hits, double apart);
 
-inline constexpr double kStandsOut = 20.0;
+inline constexpr double kOverNext = 2.0;
+inline constexpr double kOverMedian = 20.0;
 inline constexpr std::size_t kMostHits = 3;
 
 }  // namespace merge2d

@@ -292,51 +292,6 @@ TEST_F(Compare, WritesATableWithARowPerModeAndStep) {
   }
 }
 
-/// Pebbles that fall by a metre, and a ball of 50 kg that falls by five.
-constexpr const char* kFalling = R"(
-format = 1
-title = "Pebbles and a ball"
-duration = 2
-[[body]]
-name = "ground"
-motion = "pinned"
-at = [0, -0.5]
-box = [60, 1]
-[[body]]
-name = "pebble"
-at = [3, 1.1]
-circle = 0.1
-mass = 0.1
-repeat = { count = [12, 1], spacing = [1, 0] }
-[[body]]
-name = "ball"
-at = [-5, 5.5]
-circle = 0.5
-mass = 50
-)";
-
-TEST_F(Compare, PointsOutTheHitsThatStandOut) {
-  write("falling.toml", kFalling);
-  const Json hits = compared("falling.toml")["hits"];
-  ASSERT_THAT(hits, SizeIs(1)) << "not the pebbles";
-  EXPECT_EQ(hits[0]["striker"], "ball");
-  EXPECT_EQ(hits[0]["struck"], "ground");
-  EXPECT_NEAR(hits[0]["time"].get<double>(), std::sqrt(2.0 * 5.0 / 9.81), 0.02);
-  EXPECT_NEAR(hits[0]["energy"].get<double>(), 50.0 * 9.81 * 5.0, 100.0);
-  EXPECT_THAT(compared("dominoes")["hits"], IsEmpty()) << "each falls as the one before";
-}
-
-TEST_F(Compare, PointsOutEveryHitWhereThereAreFew) {
-  std::string scene = kFalling;
-  scene.replace(scene.find("[12, 1]"), 7, "[1, 1]");
-  write("falling.toml", scene);
-  const Json hits = compared("falling.toml")["hits"];
-  ASSERT_THAT(hits, SizeIs(2));
-  EXPECT_EQ(hits[0]["striker"], "pebble[0,0]") << "in the order of time";
-  EXPECT_EQ(hits[1]["striker"], "ball");
-  EXPECT_THAT(compared("stack.toml")["hits"], IsEmpty());
-}
-
 TEST_F(Compare, DrawsItsCharts) {
   const Outcome outcome = run({"compare", "stack.toml", "--json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
