@@ -18,7 +18,7 @@ using StepsOf = std::function<Steps(const ModeRun&)>;
 
 Steps allSteps(const ModeRun& run) { return run.steps; }
 
-constexpr std::size_t kSamples = 500;  // of the distance in JSON, about
+constexpr std::size_t kSamples = 500;  // of the distance in JSON, at least
 
 /// How many times faster than another mode; null where nothing was measured.
 Json speedup(Steps steps, Steps others) {
@@ -92,7 +92,7 @@ Json hitsJson(const Comparison& comparison) {
   return out;
 }
 
-/// About kSamples of them at equal distances, and the last.
+/// Every so many of them, and the last: from kSamples to twice as many where there are more.
 Json overTime(const std::vector<Distance>& distances) {
   Json out = {{"time", Json::array()}, {"mean", Json::array()}, {"largest", Json::array()}};
   const std::size_t stride = std::max<std::size_t>(1, distances.size() / kSamples);
