@@ -171,8 +171,9 @@ void warnOfWhatDoesNothing(Scene& scene) {
     const Pace pace = paceOf(body);
     const bool idle = body.script && pace.speed == 0.0 && pace.spin == 0.0;
     if (idle) warn(fmt::format("the script of '{}' never moves it", body.name));
-    const bool weightless = body.motion == Motion::Pinned && body.mass;
-    if (weightless) warn(fmt::format("the mass of '{}' has no effect: it is pinned", body.name));
+    if (body.mass && body.motion != Motion::Dynamic) {
+      warn(fmt::format("the mass of '{}' has no effect: it is {}", body.name, name(body.motion)));
+    }
   }
   const auto look = [&](const auto& actions, std::string_view kind, auto isZero) {
     for (std::size_t i = 0; i < actions.size(); ++i) {

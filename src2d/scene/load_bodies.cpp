@@ -169,9 +169,6 @@ void checkBody(const TableReader& table, const BodyDesc& body) {
       scripted ? "a scripted body moves by its script only" : "a pinned body does not move";
   if (!dynamic && body.velocity != Vec2::Zero()) table.failAt("velocity", instead);
   if (!dynamic && body.spin != 0.0) table.failAt("spin", instead);
-  if (scripted && body.mass) {
-    table.failAt("mass", "a scripted body has no mass: it moves as told, whatever it hits");
-  }
   if (!dynamic && body.pinned_until > 0.0) {
     table.failAt("pinned_until", "only a dynamic body can be pinned for a while");
   }

@@ -176,7 +176,7 @@ void writeBodyKeys(TomlText& out, const BodyDesc& body, const Material& material
   out.put("velocity", body.velocity, Vec2(0, 0));
   out.put("spin", degrees(body.spin), 0.0);
   out.lines(shapeLines(body.shapes));
-  if (body.mass && body.motion != Motion::Scripted) out.put("mass", *body.mass);
+  if (body.mass) out.put("mass", *body.mass);
   out.put("density", body.density, material.density);
   out.put("friction", body.friction, material.friction);
   out.put("restitution", body.restitution, material.restitution);

@@ -123,6 +123,14 @@ TEST_F(Validate, WarnsOfScriptsThatMoveNothing) {
   }
 }
 
+TEST_F(Validate, WarnsOfAMassThatHasNoEffect) {
+  write("lift.toml",
+        "[[body]]\nname = \"lift\"\nmotion = \"scripted\"\ncircle = 1\nmass = 3\n"
+        "script = { velocity = [1, 0] }\n");
+  EXPECT_EQ(run({"validate", "lift.toml", "--json"}).json()["warnings"],
+            Json(Words{"the mass of 'lift' has no effect: it is scripted"}));
+}
+
 TEST_F(Validate, WarnsOfWhatIsZero) {
   write("zero.toml", std::string(kStack) + R"(
 [[spring]]

@@ -173,8 +173,6 @@ TEST(Errors, MotionMustFitTheOtherKeys) {
   expectErrors({
       {body("motion = \"scripted\""),
        "3:10: a scripted body needs a script, such as script = { velocity = [1, 0] }"},
-      {body("motion = \"scripted\"\nscript = { spin = 1 }\nmass = 3"),
-       "5:8: a scripted body has no mass: it moves as told, whatever it hits"},
       {body("script = { spin = 1 }"), "3:10: a script needs motion = \"scripted\""},
       {body("motion = \"pinned\"\nvelocity = [1, 0]"), "4:12: a pinned body does not move"},
       {body("motion = \"pinned\"\nspin = 1"), "4:8: a pinned body does not move"},

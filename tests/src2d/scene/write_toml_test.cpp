@@ -166,16 +166,6 @@ at = [0, 9]
   EXPECT_EQ(again.emitters[0].seed, 77u);
 }
 
-TEST(WriteToml, AScriptedBodyIsWrittenWithoutItsMass) {
-  Scene scene;
-  scene.bodies.push_back({.name = "lift",
-                          .motion = Motion::Scripted,
-                          .shapes = {makeBox(1, 1)},
-                          .mass = 3.0,
-                          .script = SteadyMotion{}});
-  EXPECT_FALSE(parseScene(toToml(scene), "s.toml").bodies[0].mass.has_value());
-}
-
 TEST(WriteToml, DegreesComeBackAsTheSameRadians) {
   EXPECT_EQ(degrees(radians(30)), 30);
   EXPECT_EQ(degrees(radians(-77.7)), -77.7);
