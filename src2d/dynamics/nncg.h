@@ -45,13 +45,20 @@ class Nncg {
   }
 
   SweepChange run(int sweeps, bool accelerate) {
+    return run(sweeps, accelerate, [] { return false; });
+  }
+
+  /// The same, but for ending after a sweep upon which `enough()`.
+  template <class Enough>
+  SweepChange run(int sweeps, bool accelerate, Enough&& enough) {
     SweepChange change;
     double previous = 0.0;
     if (accelerate) remember();
     for (int k = 0; k < sweeps; ++k) {
-      const bool last = k + 1 == sweeps;
-      if (last && !accelerate) remember();
+      if (!accelerate) remember();
       sweep_();
+      done_ = k + 1;
+      const bool last = done_ == sweeps || enough();
       if (!accelerate && !last) continue;
       change = changeSince();
       if (last || change.squared == 0.0) break;
@@ -60,6 +67,8 @@ class Nncg {
     }
     return change;
   }
+
+  int done() const { return done_; }  ///< sweeps of the last run
 
  private:
   void remember() {
@@ -114,6 +123,7 @@ class Nncg {
   VelocityAt velocity_;
   Sweep sweep_;
   NncgBuffers& m_;
+  int done_ = 0;
 };
 
 }  // namespace merge2d

@@ -52,6 +52,7 @@ class Refinement {
     std::uint32_t body;
     double vx, vy;  ///< when the round began
     bool queued;    ///< all its items are swept
+    bool loose;     ///< by a contact outside collections
   };
 
   void listLooseItemsOfBodies() {
@@ -70,7 +71,7 @@ class Refinement {
     if (place_[body] == kNowhere) {
       place_[body] = static_cast<std::uint32_t>(reached_.size());
       const SolverVelocity& u = scratch_.sweep_u[body];
-      reached_.push_back({body, u.vx, u.vy, false});
+      reached_.push_back({body, u.vx, u.vy, false, false});
     }
     return reached_[place_[body]];
   }
@@ -91,12 +92,30 @@ class Refinement {
     walk_.clear();
     std::ranges::fill(swept_, 0);
     for (const std::uint32_t body : queue_) enqueue(body);
-    for (std::size_t head = 0; head < walk_.size(); ++head) {
+    walkFrom(0);
+  }
+
+  void walkFrom(std::size_t head) {
+    for (; head < walk_.size(); ++head) {
       sweepLooseItemsOf(walk_[head]);
       sweepInnerContactsOf(walk_[head]);
     }
-    std::erase_if(reached_,
-                  [&](const Reached& r) { return scratch_.sweep_u[r.body].inv_mass == 0.0; });
+  }
+
+  /// A body at the rim of the walk whose own items know nothing yet of what has come to it.
+  bool isOvertaken(const Reached& r) const {
+    const double parts = std::max(threshold_, state_.settings.unmerging.sliding);
+    return !r.queued && r.loose && changeSinceStart(r) > parts * parts;
+  }
+
+  /// Goes on with the walk from such bodies. Returns false when there are none.
+  bool goOnFromRim() {
+    const std::size_t head = walk_.size();
+    for (std::size_t i = 0; i < reached_.size(); ++i) {
+      if (isOvertaken(reached_[i])) enqueue(reached_[i].body);
+    }
+    walkFrom(head);
+    return walk_.size() > head;
   }
 
   void sweepLooseItemsOf(std::uint32_t body) {
@@ -126,11 +145,15 @@ class Refinement {
     if (swept_[number]) return;
     swept_[number] = 1;
     active_.push_back(item);
-    const std::uint32_t a = item.a(), b = item.b();
-    reach(a), reach(b);
+    const std::uint32_t ends[] = {item.a(), item.b()};
+    const auto responds = [&](std::uint32_t b) { return scratch_.sweep_u[b].inv_mass != 0.0; };
+    for (const std::uint32_t b : ends) {
+      if (responds(b)) reach(b).loose |= number < scope_.loose.size();
+    }
     sweepItem(item, scratch_.sweep_u, state_.settings.solver.method);
-    if (changeSinceStart(reach(a)) > threshold_ * threshold_) enqueue(a);
-    if (changeSinceStart(reach(b)) > threshold_ * threshold_) enqueue(b);
+    for (const std::uint32_t b : ends) {
+      if (responds(b) && changeSinceStart(reach(b)) > threshold_ * threshold_) enqueue(b);
+    }
   }
 
   /// Squared [m²/s²].
@@ -145,17 +168,30 @@ class Refinement {
   }
   static double square(double x) { return x * x; }
 
+  /// Sweeps the items of the walk, which goes on where it is overtaken: there one sweep more is not
+  /// counted, or a blow would end where a gap let it through late.
   void converge(int sweeps) {
     auto& u = scratch_.sweep_u;
     const SolverMethod method = state_.settings.solver.method;
-    Nncg iteration(
-        active_.size(), [&](std::size_t i) -> Impulses& { return active_[i].impulses(); },
-        reached_.size(), [&](std::size_t i) -> SolverVelocity& { return u[reached_[i].body]; },
-        [&] {
-          for (const SweepItem& item : active_) sweepItem(item, u, method);
-        },
-        scratch_.nncg);
-    iteration.run(sweeps, method == SolverMethod::Nncg);
+    const auto overtaken = [&] {
+      return std::ranges::any_of(reached_, [&](const Reached& r) { return isOvertaken(r); });
+    };
+    int most = 2 * sweeps;
+    for (int done = 0; done < sweeps && most > 0;) {
+      Nncg iteration(
+          active_.size(), [&](std::size_t i) -> Impulses& { return active_[i].impulses(); },
+          reached_.size(), [&](std::size_t i) -> SolverVelocity& { return u[reached_[i].body]; },
+          [&] {
+            for (const SweepItem& item : active_) sweepItem(item, u, method);
+          },
+          scratch_.nncg);
+      known_ = reached_.size();
+      iteration.run(std::min(sweeps - done, most), method == SolverMethod::Nncg, overtaken);
+      most -= iteration.done();
+      done += iteration.done();
+      if (!goOnFromRim()) break;
+      --done;
+    }
   }
 
   /// Queues the bodies that are not quiet: those that the last sweep still changed, and at the rim,
@@ -164,8 +200,8 @@ class Refinement {
     queue_.clear();
     restless_ = 0.0;
     for (std::size_t i = 0; i < reached_.size(); ++i) {
-      const double change =
-          reached_[i].queued ? changeInLastSweep(i) : changeSinceStart(reached_[i]);
+      const bool swept = reached_[i].queued && i < known_;
+      const double change = swept ? changeInLastSweep(i) : changeSinceStart(reached_[i]);
       const bool restless = change > threshold_ * threshold_;
       if (restless) queue_.push_back(reached_[i].body);
       double& largest = restless ? restless_ : left_;
@@ -185,6 +221,7 @@ class Refinement {
   std::vector<std::uint32_t> queue_;        ///< bodies from which a round begins
   std::vector<std::uint32_t> walk_;         ///< bodies whose items are swept in this round
   std::vector<Reached> reached_;            ///< by this round; only those that respond to forces
+  std::size_t known_ = 0;                   ///< so many of them when the last sweeps began
   std::vector<SweepItem> active_;           ///< of this round, in the order of the walk
 
   // Largest changes of a body's velocity, squared [m²/s²].

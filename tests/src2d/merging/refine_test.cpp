@@ -2,6 +2,7 @@
 
 #include "src2d/merging/refine.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/src2d/merging/merging_testing.h"
@@ -70,6 +71,39 @@ TEST(Refine, UnderThePapersRuleABlowStaysNearWhereItFell) {
     slowest = std::min(slowest, v.x());
   }
   EXPECT_GT(fastest - slowest, 0.5);
+}
+
+/// Ten boxes on the ground, `gap` apart and each merged with it, of which the first is struck.
+std::string rowWithGaps(double gap, double friction) {
+  return fmt::format(
+      "{}[[body]]\nname = \"b\"\nat = [0, 0.5]\nbox = [1, 1]\n"
+      "repeat = {{ count = [10, 1], spacing = [{}, 0] }}\n[material]\nfriction = {}\n",
+      kGround, 1.0 + gap, friction);
+}
+
+/// What a blow closes only after some sweeps, it must still reach in its own step: the full solve
+/// would take a box that is welded to the ground for a wall.
+TEST(Refine, ABlowGoesThroughGapsInOneStep) {
+  struct Case {
+    double gap, blow, friction;  // m, N s
+  };
+  for (const auto& [gap, blow, friction] :
+       {Case{0.0005, 10, 0.3}, Case{0.001, 10, 0.45}, Case{0.002, 10, 0.3}, Case{0.004, 20, 0.3},
+        Case{0.0005, 10, 0.6}}) {
+    const std::string toml = rowWithGaps(gap, friction);
+    Simulation run(toml, Mode::Merge), reference(toml, Mode::Reference);
+    run.until(2.0), reference.until(2.0);
+    ASSERT_TRUE(run.merged("b[9,0]"));
+    run.kick("b[0,0]", {blow, 0.0}), reference.kick("b[0,0]", {blow, 0.0});
+    run.steps(3), reference.steps(3);
+    const double momentum = reference.now().stats.momentum.x();
+    EXPECT_NEAR(run.now().stats.momentum.x(), momentum, 0.1 * momentum) << gap << " " << blow;
+    run.until(4.0), reference.until(4.0);
+    const Snapshot a = run.now(), b = reference.now();
+    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+      EXPECT_NEAR(a.bodies[i].x.x(), b.bodies[i].x.x(), 0.05) << gap << " " << blow << " " << i;
+    }
+  }
 }
 
 TEST(Refine, FollowsAPushUntilItIsCarried) {
