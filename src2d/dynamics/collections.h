@@ -134,12 +134,15 @@ struct Collection {
   std::vector<Twist> push;         ///< per member: Δu by the inner forces, in the frame
   bool stale = false;              ///< contacts changed: welds and blocks must be laid out anew
   Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
-  int frame_known = 0;                                     ///< steps since it was formed, up to 2
-  int follow_up = 0;       ///< steps for which a disturbance is still followed, see sweep.cpp
-  float lingering = 0.0F;  ///< what the last refinement did not quieten [m/s]
-  float residual = 0.0F;   ///< largest change of a member's velocity in the last sweep [m/s]
-  bool settled = false;    ///< inner forces did not change in the last sweep
-  bool refuted = false;    ///< more sweeps did not confirm what seemed to part, and nothing is new
+  std::int16_t frame_known = 0;                            ///< steps since it was formed, up to 2
+  std::int16_t follow_up = 0;  ///< steps for which a disturbance is still followed
+  std::int16_t struck = 0;     ///< the same, since something hit it
+  std::int8_t refusals = 0;  ///< times in a row that nothing which seemed to part would have moved
+  std::int8_t patience = 0;  ///< steps before that is asked again
+  float lingering = 0.0F;    ///< what the last refinement did not quieten [m/s]
+  float residual = 0.0F;     ///< largest change of a member's velocity in the last sweep [m/s]
+  bool settled = false;      ///< inner forces did not change in the last sweep
+  bool refuted = false;      ///< a closer look found that nothing parts, and nothing is new
 };
 
 /// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.

@@ -89,26 +89,26 @@ void orderContacts(State& state, Scratch& scratch) {
   scratch.seeds.clear();
   scratch.disturbed.assign(state.collections.size(), 0);
   if (!state.settings.unmerging.ordering) return;
-  const auto seed = [&](BodyId b) {
+  const auto seed = [&](BodyId b, bool hit) {
     scratch.seeds.push_back(static_cast<std::uint32_t>(b));
     const RigidId id = state[b].rigid;
-    if (state.isCollection(id)) {
-      scratch.disturbed[index(id) - state.bodies.size()] = 1;
-    }
+    if (!state.isCollection(id)) return;
+    scratch.disturbed[index(id) - state.bodies.size()] = 1;
+    if (hit) state.collection(id).struck = kFollowed;
   };
   for (Collection& c : state.collections) {
     if (isSwept(state, c) && frameJumps(state, c)) {
       scratch.disturbed[index(c.rigid) - state.bodies.size()] = 1;
     }
   }
-  for (const Kick& kick : scratch.kicks) seed(kick.body);
-  for (const BodyId b : scratch.stirred) seed(b);
+  for (const Kick& kick : scratch.kicks) seed(kick.body, true);
+  for (const BodyId b : scratch.stirred) seed(b, false);
   for (const BodyPair& pair : scratch.pairs) {
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
       const Contact& contact = state.contacts[state.contacts.order[i]];
       if (!closesAnew(state, contact)) continue;
-      seed(pair.a);
-      seed(pair.b);
+      seed(pair.a, true);
+      seed(pair.b, true);
       break;
     }
   }

@@ -1,9 +1,14 @@
 #pragma once
 /// ContactOrdering: where something new enters in this step (Section 6.2).
 
+#include <cstdint>
+
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
+
+/// A disturbance is followed for so many steps after the last sign of it.
+inline constexpr std::int16_t kFollowed = 10;
 
 /// A contact that was open in the last step and closes in this one.
 bool closesAnew(const State& state, const Contact& contact);

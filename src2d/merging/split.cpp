@@ -100,11 +100,19 @@ const Weld* cutByTest(const Collection& c, const InternalContact& inner) {
   return weld->cut && weld->reason != EventReason::User ? &*weld : nullptr;
 }
 
+/// What turns as slowly as this seems to be at rest for so many steps.
+int stepsUntilSeen(const State& state, const Drift& turning) {
+  constexpr double kMost = 200.0;  // steps
+  const double seen = state.settings.merging.velocity * turning.steps;
+  const double sum = std::abs(turning.sum);
+  return std::max(turning.steps, static_cast<int>(std::min(seen / std::max(sum, 1e-12), kMost)));
+}
+
 /// How long a pair that parts has to wait.
 /// Deviation: a weld that broke soon after it had formed waits for the rest of this time before its
 /// contacts are looked at again, or the pair would merge and part in turn while it barely moves.
 /// Guarded by Unmerge.AWeldThatBrokeAtOnceDoesNotFormAtOnce. And one that turned slowly waits for
-/// as long as it took to find out: it would still seem at rest. Guarded by
+/// as long as it would still seem at rest. Guarded by
 /// Seesaw.BarelyOutOfBalanceTipsAsInTheReference.
 int patienceAfter(const State& state, const InternalContact& inner, const Weld* cut) {
   constexpr std::int64_t kFlicker = 20;  // steps
@@ -112,7 +120,7 @@ int patienceAfter(const State& state, const InternalContact& inner, const Weld* 
   const auto rest =
       static_cast<int>(std::max(std::int64_t{0}, kFlicker - (state.step - inner.since)));
   const bool turned = cut && cut->reason == EventReason::RelativeMotion;
-  return turned ? std::max(rest, cut->turning.steps) : rest;
+  return turned ? std::max(rest, stepsUntilSeen(state, cut->turning)) : rest;
 }
 
 /// How far ahead to look for its points again: contacts of what was struck may still be open [m].

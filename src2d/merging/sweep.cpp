@@ -6,6 +6,7 @@
 #include "src2d/merging/collection.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/joint_sweep.h"
+#include "src2d/merging/joint_system.h"
 #include "src2d/merging/limits.h"
 #include "src2d/merging/ordering.h"
 #include "src2d/merging/refine.h"
@@ -96,6 +97,7 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
       if (s + 1 == sweeps && atLimit(c.blocks[i])) c.watched[i] = 1;
     }
   }
+  settleJoints(state, c, u, residualVelocity(state));
   const Rotation back = turn.inverse();
   double largest = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -125,12 +127,16 @@ bool refines(const UnmergingSettings& settings) {
 /// for ever, as on a swing, is one that single sweeps follow well. Nor where more sweeps have just
 /// failed to quieten as much: that is forgotten little by little.
 void follow(const State& state, Collection& c, Scratch& scratch, double change) {
-  constexpr int kSteps = 10;
   constexpr float kForgets = 0.95F;  // in each step
   std::uint8_t& disturbed = scratch.disturbed[index(c.rigid) - state.bodies.size()];
+  if (c.struck > 0) --c.struck;
   const double lingering = c.lingering *= kForgets;
   const bool anew = disturbed != 0 || change > std::max(refinedVelocity(state), lingering);
-  c.follow_up = anew ? kSteps : std::max(0, c.follow_up - 1);
+  if (anew) {
+    c.follow_up = kFollowed;
+  } else if (c.follow_up > 0) {
+    --c.follow_up;
+  }
   const bool followed = c.follow_up > 0 && change > std::max(residualVelocity(state), lingering);
   disturbed = anew || followed ? 1 : 0;
 }
@@ -138,13 +144,14 @@ void follow(const State& state, Collection& c, Scratch& scratch, double change) 
 /// Sweeps one collection once; one that could sleep but for its inner forces a few times more, so
 /// that it soon can. Returns the largest change [m/s].
 double sweepOnce(const State& state, Collection& c, Scratch& scratch) {
+  constexpr double kSettled = 0.02;  // of what a sweep may leave
   const UnmergingSettings& settings = state.settings.unmerging;
   if (awaitsInnerForces(state, scratch, c.rigid)) {
     sweepInside(state, c, scratch, settings.disturbed_sweeps);
   }
   const double change = sweepInside(state, c, scratch, settings.sweeps);
   c.residual = static_cast<float>(change);
-  c.settled = change <= residualVelocity(state);
+  c.settled = change <= kSettled * residualVelocity(state);
   if (refines(settings)) follow(state, c, scratch, change);
   return change;
 }
@@ -202,6 +209,7 @@ void refineDisturbed(State& state, Scratch& scratch, double blow) {
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
+    settleJoints(state, c, scratch.sweep_u, residualVelocity(state));
     layOutPush(state, c);
     c.settled = false;
     const float left = static_cast<float>(change);
@@ -280,6 +288,7 @@ void sweepAgain(State& state, Scratch& scratch, Collection& c) {
   const double change =
       sweepUntilQuiet(state, scratch, scope, scratch.doubted, residualVelocity(state));
   c.residual = static_cast<float>(change);
+  settleJoints(state, c, scratch.sweep_u, residualVelocity(state));
   if (!state.joints.empty()) keepJointForces(state, scratch);
   layOutPush(state, c);
 }

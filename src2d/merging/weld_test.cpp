@@ -83,8 +83,12 @@ ContactVelocity WeldTest::velocityAt(const ContactBlock& k, int i) const {
 }
 
 WeldTest::Evidence WeldTest::weigh(Drift& drift, double w, double threshold) {
+  return weigh(drift, w, threshold, residualVelocity(state_));
+}
+
+WeldTest::Evidence WeldTest::weigh(Drift& drift, double w, double threshold, double noise) {
   if (confirming_) {
-    if (std::abs(w) < residualVelocity(state_)) w = 0.0;
+    if (std::abs(w) < noise) w = 0.0;
     drift.sum = static_cast<float>(w * std::max(drift.steps, 1));
   } else {
     drift.sum += static_cast<float>(w);
@@ -92,7 +96,7 @@ WeldTest::Evidence WeldTest::weigh(Drift& drift, double w, double threshold) {
   }
   const double sum = std::abs(drift.sum);
   const Evidence found{sum, drift.steps, sum > threshold};
-  growing_ |= !found.exceeds && std::abs(w) > residualVelocity(state_);
+  growing_ |= !found.exceeds && std::abs(w) > noise;
   if (confirming_ && !found.exceeds) drift = {};
   return found;
 }
@@ -207,12 +211,31 @@ bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {
 
 bool WeldTest::turns(Weld& weld, const Turning& now) {
   const UnmergingSettings& settings = state_.settings.unmerging;
-  if (now.nearest <= noise() || std::abs(now.fastest) <= slowFor(weld)) {
+  if (now.nearest <= noiseAt(weld) || std::abs(now.fastest) <= slowFor(weld)) {
     weld.turning = {};
     return false;
   }
-  return weigh(weld.turning, now.fastest, settings.velocity * caution(weld)).exceeds &&
-         weld.turning.steps >= settings.steps;
+  const double enough = tipsFor(weld) ? 0.0 : settings.velocity * caution(weld);
+  const int steps = mustTip(weld) && c_.struck > 0 ? 1 : settings.steps;  // a blow is over at once
+  return weigh(weld.turning, now.fastest, enough, noiseAt(weld)).exceeds &&
+         weld.turning.steps >= steps;
+}
+
+bool WeldTest::tipsFor(const Weld& weld) const {
+  constexpr int kSure = 10;  // steps
+  return mustTip(weld) && weld.turning.steps + 1 >= kSure;
+}
+
+bool WeldTest::mustTip(const Weld& weld) const {
+  return weld.bridge && weld.vain == 0 && rule() == Rule::Default;
+}
+
+double WeldTest::noiseAt(const Weld& weld) const {
+  constexpr double kFaint = 1e-5, kBeyondResidual = 1e2;
+  if (!mustTip(weld)) return noise();
+  const double faint =
+      std::max(kFaint * state_.h * state_.gravity.norm(), kBeyondResidual * c_.residual);
+  return std::min(faint, noise());
 }
 
 double WeldTest::slowFor(const Weld& weld) const {
@@ -247,7 +270,8 @@ WeldTest::Turning WeldTest::relativeMotion(const Weld& weld) const {
   };
   const VelocityField a = field(weld.a, Vec2::Zero()), b = field(weld.b, between(weld));
   Turning motion;
-  if (!scratch_.notes && slowerThan(std::max(noise(), slowFor(weld)), weld, a, b)) return motion;
+  if (!scratch_.notes && slowerThan(std::max(noiseAt(weld), slowFor(weld)), weld, a, b))
+    return motion;
   const Vec2 origin = state_.pose(weld.a).position;
   for (const BodyId id : {weld.a, weld.b}) {
     if (state_[id].rigid != c_.rigid) continue;  // only the box of the body that can move

@@ -53,6 +53,7 @@ class WeldTest {
 
   /// Adds to what was summed. Evidence that more sweeps do not confirm is forgotten.
   Evidence weigh(Drift& drift, double w, double threshold);
+  Evidence weigh(Drift& drift, double w, double threshold, double noise);
 
   /// True when the contact has opened.
   bool testBroken(std::uint32_t weld, Drift& opening, double w_n);
@@ -84,6 +85,14 @@ class WeldTest {
   /// A pivot that turns slowly gathers speed: each step starts from the velocity of the whole, so
   /// what it would gain is summed, as slip is.
   bool turns(Weld& weld, const Turning& now);
+
+  /// What nothing else holds turns on however slowly it begins: then it need not be fast, but be
+  /// seen for some steps.
+  bool tipsFor(const Weld& weld) const;
+  /// Nothing else holds, and it was not cut in vain before.
+  bool mustTip(const Weld& weld) const;
+  /// Where nothing else holds, what is left of a sweep is all that could be wrong [m/s].
+  double noiseAt(const Weld& weld) const;
 
   /// What turns slower than this does not turn: rigid rows may find a slow motion where soft
   /// contacts hold. Not where nothing else holds: there both know the same forces.

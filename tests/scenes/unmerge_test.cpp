@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "tests/scenes/scene_testing.h"
 
 namespace merge2d {
@@ -105,6 +107,66 @@ box = [9.2, 0.2]
   run.until(2.0), reference.until(2.0);
   EXPECT_LT(reference.body("beam").angle, -0.02);
   EXPECT_NEAR(run.body("beam").angle, reference.body("beam").angle, 0.02);
+}
+
+/// A beam with a box on each end, on a pivot of two contacts `2 * half` apart; the centre of mass
+/// is `beyond` [m] outside them, and all is set down from `drop` [m].
+std::string loadedSeesaw(double half, double beyond, double drop) {
+  const double shift = (half + beyond) * (0.7 + 2 * 0.36) / 0.36;  // of one box, from the balance
+  return fmt::format(R"(
+format = 1
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [20, 1]
+[[body]]
+name = "wedge"
+motion = "pinned"
+polygon = [[-0.6, 0], [0.6, 0], [{0}, 0.6], [-{0}, 0.6]]
+[[body]]
+name = "beam"
+at = [0, {1}]
+box = [3.5, 0.2]
+mass = 0.7
+[[body]]
+name = "left"
+at = [-1.4, {2}]
+box = [0.6, 0.6]
+mass = 0.36
+[[body]]
+name = "right"
+at = [{3}, {2}]
+box = [0.6, 0.6]
+mass = 0.36
+)",
+                     half, 0.7 + drop, 1.1 + drop, 1.4 - shift);
+}
+
+double tipsAt(const std::string& toml, Mode mode) {
+  SceneRun run(parseScene(toml, "seesaw.toml"), mode);
+  for (double t = 0.1; t < 8.0; t += 0.01) {
+    run.until(t);
+    if (run.body("beam").angle > 0.05) return t;
+  }
+  return 8.0;
+}
+
+TEST(Seesaw, LoadedOnABluntPivotTipsAsInTheReference) {
+  struct Case {
+    double half, beyond, drop;
+  };
+  for (const auto& [half, beyond, drop] :
+       {Case{0.02, 7e-4, 0.0}, Case{0.02, 2e-3, 0.1}, Case{0.02, 5e-3, 0.1}, Case{0.05, 7e-4, 0.1},
+        Case{0.05, 2e-3, 0.1}, Case{1e-4, 2e-3, 0.1}}) {
+    const std::string toml = loadedSeesaw(half, beyond, drop);
+    const double reference = tipsAt(toml, Mode::Reference);
+    ASSERT_LT(reference, 3.0);
+    for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+      EXPECT_NEAR(tipsAt(toml, mode), reference, 0.4)
+          << half << " " << beyond << " " << drop << " " << name(mode);
+    }
+  }
 }
 
 TEST(TrussArch, ThreeHingesHoldAndFourFall) {

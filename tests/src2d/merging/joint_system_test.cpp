@@ -1,0 +1,116 @@
+/// The forces of joints inside collections, against statics.
+
+#include <fmt/format.h>
+
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+constexpr double kMass = 0.18;                         // kg, of a plank
+constexpr double kWeight = kMass * 9.81, kFrom = 4.0;  // N, s
+
+/// `count` planks in a row, welded to each other and to a wall. From 4 s on a force pulls down the
+/// last one.
+std::string cantilever(int count, double force, double strength) {
+  std::string toml =
+      "format = 1\n[[body]]\nname = \"wall\"\nmotion = \"pinned\"\nat = [-0.5, 0]\nbox = [1, 1]\n";
+  for (int i = 0; i < count; ++i) {
+    toml += fmt::format("[[body]]\nname = \"p{}\"\nat = [{}, 0]\nbox = [0.9, 0.2]\n", i, i + 0.5);
+  }
+  for (int i = 0; i < count; ++i) {
+    const std::string before = i == 0 ? "wall" : fmt::format("p{}", i - 1);
+    toml += fmt::format(
+        "[[joint]]\nkind = \"weld\"\nbodies = [\"{}\", \"p{}\"]\nat = [{}, 0]\nbreak_torque = {}\n",
+        before, i, i, strength);
+  }
+  return toml + fmt::format("[[force]]\nbody = \"p{}\"\nforce = [0, {}]\nfrom = {}\n", count - 1,
+                            -force, kFrom);
+}
+
+/// At the wall, of the planks' weight and the force [N m].
+double momentAtWall(int count, double force) {
+  double moment = force * (count - 0.5);
+  for (int i = 0; i < count; ++i) moment += kWeight * (i + 0.5);
+  return moment;
+}
+
+int breaksIn(Simulation& run, int steps) {
+  const int before = run.count(EventType::Break);
+  run.steps(steps);
+  return run.count(EventType::Break) - before;
+}
+
+TEST(JointSystem, ACantileverBreaksWhereStaticsSay) {
+  constexpr double kForce = 12.8;
+  for (const int count : {3, 5, 7}) {
+    const double moment = momentAtWall(count, kForce);
+    for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+      Simulation weak(cantilever(count, kForce, moment / 1.05), mode);
+      weak.until(kFrom);
+      ASSERT_TRUE(weak.merged("p0")) << count;
+      ASSERT_EQ(weak.count(EventType::Break), 0) << count;
+      EXPECT_GT(breaksIn(weak, 5), 0) << count << " planks bear too much";
+
+      Simulation strong(cantilever(count, kForce, moment / 0.95), mode);
+      strong.until(kFrom);
+      EXPECT_EQ(breaksIn(strong, 300), 0) << count << " planks bear it";
+      EXPECT_TRUE(strong.merged("p0")) << count;
+    }
+  }
+}
+
+TEST(JointSystem, ABridgeBreaksUnderAWeightAsInTheReference) {
+  std::string toml = kGround;
+  for (const double x : {-4.0, 4.0}) {
+    toml += fmt::format("[[body]]\nmotion = \"pinned\"\nat = [{}, 1]\nbox = [1, 2]\n", x);
+  }
+  for (int i = 0; i < 9; ++i) {
+    toml += fmt::format("[[body]]\nname = \"plank{}\"\nat = [{}, 2.1]\nbox = [0.98, 0.2]\n", i,
+                        i - 4.0);
+  }
+  for (int i = 0; i < 8; ++i) {
+    toml += fmt::format(
+        "[[joint]]\nkind = \"weld\"\nbodies = [\"plank{}\", \"plank{}\"]\nat = [{}, 2.1]\n"
+        "break_force = 200\nbreak_torque = 120\n",
+        i, i + 1, i - 3.5);
+  }
+  toml +=
+      "[[body]]\nname = \"weight\"\nat = [0, 3.5]\nbox = [0.5, 0.5]\nmass = 30\n"
+      "pinned_until = 3\n";
+  for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {
+    Simulation run(toml, mode);
+    run.until(3.0);
+    EXPECT_EQ(run.count(EventType::Break), 0) << name(mode);
+    run.until(5.0);
+    EXPECT_GT(run.count(EventType::Break), 0) << name(mode);
+    EXPECT_LT(run.body("weight").x.y(), 1.0) << name(mode) << ": it fell through";
+  }
+}
+
+/// A ring asks for more than there is to know: its forces are still finite, and carry the weight.
+TEST(JointSystem, ARingOfWeldsHoldsItsWeight) {
+  std::string toml = kGround;
+  const Vec2 at[] = {{-0.5, 0.5}, {0.5, 0.5}, {0.5, 1.5}, {-0.5, 1.5}};
+  for (int i = 0; i < 4; ++i) {
+    toml += fmt::format("[[body]]\nname = \"r{}\"\nat = [{}, {}]\nbox = [0.98, 0.98]\n", i,
+                        at[i].x(), at[i].y() + 0.05);
+  }
+  for (int i = 0; i < 4; ++i) {
+    const Vec2 middle = 0.5 * (at[i] + at[(i + 1) % 4]);
+    toml += fmt::format("[[joint]]\nkind = \"weld\"\nbodies = [\"r{}\", \"r{}\"]\nat = [{}, {}]\n",
+                        i, (i + 1) % 4, middle.x(), middle.y() + 0.05);
+  }
+  Simulation run(toml, Mode::Merge);
+  run.until(2.0);
+  ASSERT_TRUE(run.merged("r0"));
+  run.kick("r3", {0.1, 0.0});
+  run.until(4.0);
+  for (const JointView& joint : run.now().joints) {
+    EXPECT_LT(joint.force.norm(), 4 * 0.98 * 0.98 * 9.81);
+    EXPECT_TRUE(std::isfinite(joint.torque));
+  }
+}
+
+}  // namespace
+}  // namespace merge2d
