@@ -157,6 +157,11 @@ class Explainer {
       out.text =
           fmt::format("The weld of {} was cut {}, but by way of others they stay together: {}.",
                       who, atStep(), because(out.tests, {"cut"}));
+    } else if (has(out.tests, "stays")) {
+      out.outcome = Outcome::Loose;
+      out.text =
+          fmt::format("The weld of {} stayed {}, as nothing that it held would have moved: {}.",
+                      who, atStep(), because(out.tests, {"stays"}));
     } else if (has(out.tests, "wait") || has(out.tests, "lost") || has(out.tests, "edge")) {
       out.outcome = Outcome::Loose;
       out.text = fmt::format("The weld of {} held {}, but is under watch: {}{}.", who, atStep(),
@@ -280,7 +285,7 @@ std::vector<Explanation> explainStep(const Words& words, const Snapshot& after) 
 const Decision* nearestTest(const std::vector<Decision>& tests) {
   const Decision* nearest = nullptr;
   for (const Decision& d : tests) {
-    if (d.verdict == "recheck") continue;
+    if (d.verdict == "recheck" || d.verdict == "stays") continue;
     if (!nearest || closeness(d) > closeness(*nearest)) nearest = &d;
   }
   return nearest;

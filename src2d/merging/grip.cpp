@@ -1,5 +1,6 @@
 #include "src2d/merging/grip.h"
 
+#include "src2d/core/memory.h"
 #include "src2d/cycles/tolerance.h"
 
 namespace merge2d {
@@ -55,6 +56,7 @@ void updateGrip(const State& state, Collection& c, std::uint32_t weld) {
 }
 
 void findGrips(const State& state, Collection& c) {
+  reserveTightly(c.grip, c.welds.size());
   c.grip.resize(c.welds.size());
   const double resolution = resolutionOf(state, c);
   for (std::uint32_t i = 0; i < c.welds.size(); ++i) setGrip(c, i, resolution);

@@ -243,6 +243,7 @@ void sortContacts(std::vector<InternalContact>& contacts) {
 void layOut(State& state, Collection& c) {
   sortContacts(c.contacts);
   tighten(c.contacts);
+  tighten(c.members);
   for (std::uint32_t i = 0; i < c.members.size(); ++i) state[rigidOf(c.members[i])].member = i;
   if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
   fitBox(state, c.rigid);

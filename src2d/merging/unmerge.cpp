@@ -11,6 +11,7 @@
 #include "src2d/merging/parts.h"
 #include "src2d/merging/spare_welds.h"
 #include "src2d/merging/sweep.h"
+#include "src2d/merging/trial.h"
 #include "src2d/merging/weld_test.h"
 
 namespace merge2d {
@@ -67,6 +68,24 @@ bool breakInside(State& state, Scratch& scratch, Collection& c) {
   return true;
 }
 
+/// What seemed to part would not have moved: that is asked again, but ever less often while nothing
+/// new comes in.
+void refuse(Collection& c) {
+  constexpr std::int8_t kMost = 5;  // 32 steps
+  c.patience = static_cast<std::int8_t>(1 << c.refusals);
+  c.refusals = std::min<std::int8_t>(kMost, static_cast<std::int8_t>(c.refusals + 1));
+  c.refuted = true;
+}
+
+/// Whether to let what seems to part be for now.
+bool waits(const State& state, Collection& c, bool disturbed) {
+  if (disturbed) c.patience = c.refusals = 0;
+  if (c.patience == 0 || (c.cut_welds.empty() && c.loosened.empty())) return false;
+  --c.patience;
+  withholdCuts(state, c);
+  return true;
+}
+
 /// Tests the welds of one collection, and splits it where it falls apart.
 void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   Collection& c = state.collections[slot];
@@ -81,6 +100,9 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   test.testAll();
   const UnmergingSettings& settings = state.settings.unmerging;
   const bool confirms = settings.rule == Rule::Default && settings.ordering;
+  if (confirms && waits(state, c, scratch.disturbed[slot] != 0)) {
+    return restate(state, scratch.notes, first, "stays");
+  }
   std::optional<Parts> parts;
   if (!confirms || !losesAMember(c)) {
     parts = partsAtCuts(state, scratch, c, joints_loosened);
@@ -95,6 +117,12 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
     parts = partsAtCuts(state, scratch, c, joints_loosened);
     c.refuted = !test.somethingGrows();
     if (!parts) return;
+    parts = partsThatMove(state, scratch, c, *parts);
+    if (!parts) {
+      restate(state, scratch.notes, first, "stays");
+      return refuse(c);
+    }
+    if (!fallsApart(state, c, *parts)) return;
   }
   splitAtCuts(state, scratch, c.rigid, *parts);
 }

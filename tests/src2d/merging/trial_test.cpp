@@ -1,0 +1,70 @@
+/// What would not move when it were free stays welded.
+
+#include <fmt/format.h>
+
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+/// What became of the bodies that were freed: how many of them ever moved while they were.
+struct Freed {
+  int all = 0, moved = 0;
+  double share() const { return static_cast<double>(moved) / all; }
+};
+
+Freed freedIn(Simulation& run, int steps, double speed) {
+  std::map<std::size_t, double> fastest;  // of bodies that are free after a weld of theirs ended
+  Freed freed;
+  run.steps(steps, [&] {
+    const Snapshot now = run.now();
+    for (const Event& e : now.events) {
+      if (e.type != EventType::Unmerge) continue;
+      for (const BodyId b : {e.a, e.b}) {
+        const bool free = now.bodies[index(b)].collection == kNoCollection;
+        if (free && index(b) > 1) fastest.try_emplace(index(b), 0.0);  // not the ground, the funnel
+      }
+    }
+    for (const BodyState& body : now.bodies) {
+      const auto known = fastest.find(index(body.id));
+      if (known == fastest.end()) continue;
+      known->second = std::max(known->second, body.v.norm());
+      if (body.collection == kNoCollection) continue;
+      ++freed.all;
+      freed.moved += known->second > speed ? 1 : 0;
+      fastest.erase(known);
+    }
+  });
+  return freed;
+}
+
+/// A blow makes all bodies of a heap slip a little in the sweep, in which each moves on its own.
+/// Without the trial a third of those that it frees never move as fast as 1 cm/s.
+TEST(Trial, WhatWouldNotMoveStays) {
+  Simulation run(loadScene("funnel"), Mode::MergeSleep);
+  run.until(30.0);
+  const Freed freed = freedIn(run, 3000, 0.01);
+  EXPECT_GT(freed.all, 100);
+  EXPECT_GT(freed.share(), 0.7) << freed.moved << " of " << freed.all;
+}
+
+/// A box on the edge of a wall that is struck hard moves as in the reference.
+TEST(Trial, WhatWouldMoveGoesAtOnce) {
+  std::string toml = kGround;
+  for (int i = 0; i < 16; ++i) {
+    toml += fmt::format("[[body]]\nname = \"b{}\"\nat = [{}, {}]\nbox = [1, 1]\n", i, i % 4 - 1.5,
+                        0.5 + i / 4);
+  }
+  Simulation run(toml, Mode::Merge), reference(toml, Mode::Reference);
+  run.until(2.0), reference.until(2.0);
+  ASSERT_TRUE(run.merged("b15"));
+  run.kick("b15", {3.0, 0.0}), reference.kick("b15", {3.0, 0.0});
+  run.steps(1), reference.steps(1);
+  EXPECT_FALSE(run.merged("b15"));
+  EXPECT_TRUE(run.merged("b0"));
+  run.until(3.0), reference.until(3.0);
+  EXPECT_NEAR(run.body("b15").x.x(), reference.body("b15").x.x(), 0.05);
+}
+
+}  // namespace
+}  // namespace merge2d
