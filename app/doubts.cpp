@@ -146,9 +146,9 @@ void warnOfWhatComesTooLate(Scene& scene) {
 }
 
 void warnOfHaste(Scene& scene) {
-  constexpr double kFast = 300.0;                   // [m/s], nearly that of sound
-  constexpr double kTurn = 0.5 * std::numbers::pi;  // [rad] in a step
-  Excess speed(kFast), spin(kTurn / scene.step);
+  constexpr double kFast = 300.0;                      // [m/s], nearly that of sound
+  constexpr double kQuarter = 0.5 * std::numbers::pi;  // [rad] in a step
+  Excess speed(kFast), spin(kQuarter / scene.step);
   const auto look = [&](const BodyDesc& body) {
     const Pace pace = paceOf(body);
     speed.add(body, pace.speed);

@@ -86,6 +86,27 @@ bool waits(const State& state, Collection& c, bool disturbed) {
   return true;
 }
 
+/// One sweep may not have converged: before anything parts, looks again after more, and at whether
+/// it would move. `first` is the first decision of this collection.
+std::optional<Parts> confirmedParts(State& state, Scratch& scratch, Collection& c, WeldTest& test,
+                                    bool joints_loosened, std::size_t first) {
+  restate(state, scratch.notes, first, "recheck");
+  sweepAgain(state, scratch, c);
+  confirmJoints(state, c, scratch.sweep_u);
+  test.confirmAll();
+  std::optional<Parts> parts = partsAtCuts(state, scratch, c, joints_loosened);
+  c.refuted = !test.somethingGrows();
+  if (!parts) return {};
+  parts = partsThatMove(state, scratch, c, *parts);
+  if (!parts) {
+    restate(state, scratch.notes, first, "stays");
+    refuse(c);
+    return {};
+  }
+  if (!fallsApart(state, c, *parts)) return {};
+  return parts;
+}
+
 /// Tests the welds of one collection, and splits it where it falls apart.
 void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   Collection& c = state.collections[slot];
@@ -100,7 +121,7 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   test.testAll();
   const UnmergingSettings& settings = state.settings.unmerging;
   const bool confirms = settings.rule == Rule::Default && settings.ordering;
-  if (confirms && waits(state, c, scratch.disturbed[slot] != 0)) {
+  if (confirms && !joints_loosened && waits(state, c, scratch.disturbed[slot] != 0)) {
     return restate(state, scratch.notes, first, "stays");
   }
   std::optional<Parts> parts;
@@ -108,23 +129,8 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
     parts = partsAtCuts(state, scratch, c, joints_loosened);
     if (!parts) return;
   }
-  if (confirms) {
-    // One sweep may not have converged: before anything parts, look again after more.
-    restate(state, scratch.notes, first, "recheck");
-    sweepAgain(state, scratch, c);
-    confirmJoints(state, c, scratch.sweep_u);
-    test.confirmAll();
-    parts = partsAtCuts(state, scratch, c, joints_loosened);
-    c.refuted = !test.somethingGrows();
-    if (!parts) return;
-    parts = partsThatMove(state, scratch, c, *parts);
-    if (!parts) {
-      restate(state, scratch.notes, first, "stays");
-      return refuse(c);
-    }
-    if (!fallsApart(state, c, *parts)) return;
-  }
-  splitAtCuts(state, scratch, c.rigid, *parts);
+  if (confirms) parts = confirmedParts(state, scratch, c, test, joints_loosened, first);
+  if (parts) splitAtCuts(state, scratch, c.rigid, *parts);
 }
 
 void finishSplits(State& state, Scratch& scratch) {

@@ -45,7 +45,8 @@ bool contains(std::string_view a, std::string_view b) {
   const auto same = [](unsigned char x, unsigned char y) {
     return std::tolower(x) == std::tolower(y);
   };
-  return b.size() >= kTelling && !std::ranges::search(a, b, same).empty();
+  const auto found = std::search(a.begin(), a.end(), b.begin(), b.end(), same);
+  return b.size() >= kTelling && found != a.end();
 }
 
 /// The first body of the group that `name` may be meant for, or nothing.
