@@ -14,22 +14,22 @@ struct Freed {
 };
 
 Freed freedIn(Simulation& run, int steps, double speed) {
-  std::map<std::size_t, double> fastest;  // of bodies that are free after a weld of theirs ended
+  std::map<BodyId, double> fastest;  // of bodies that are free since a weld of theirs ended
   Freed freed;
   run.steps(steps, [&] {
     const Snapshot now = run.now();
+    std::set<BodyId> parted;
     for (const Event& e : now.events) {
-      if (e.type != EventType::Unmerge) continue;
-      for (const BodyId b : {e.a, e.b}) {
-        const bool free = now.bodies[index(b)].collection == kNoCollection;
-        if (free && index(b) > 1) fastest.try_emplace(index(b), 0.0);  // not the ground, the funnel
-      }
+      if (e.type == EventType::Unmerge) parted.insert({e.a, e.b});
     }
     for (const BodyState& body : now.bodies) {
-      const auto known = fastest.find(index(body.id));
+      const bool free = body.collection == kNoCollection;
+      const bool dynamic = run.world().bodies()[index(body.id)].motion == Motion::Dynamic;
+      if (free && dynamic && parted.contains(body.id)) fastest.try_emplace(body.id, 0.0);
+      const auto known = fastest.find(body.id);
       if (known == fastest.end()) continue;
       known->second = std::max(known->second, body.v.norm());
-      if (body.collection == kNoCollection) continue;
+      if (free) continue;
       ++freed.all;
       freed.moved += known->second > speed ? 1 : 0;
       fastest.erase(known);
@@ -39,13 +39,14 @@ Freed freedIn(Simulation& run, int steps, double speed) {
 }
 
 /// A blow makes all bodies of a heap slip a little in the sweep, in which each moves on its own.
-/// Without the trial a third of those that it frees never move as fast as 1 cm/s.
+/// Without the trial it frees a fifth more of them, and 71.5% of those move as fast as 1 cm/s; with
+/// it 76%.
 TEST(Trial, WhatWouldNotMoveStays) {
   Simulation run(loadScene("funnel"), Mode::MergeSleep);
   run.until(30.0);
-  const Freed freed = freedIn(run, 3000, 0.01);
-  EXPECT_GT(freed.all, 100);
-  EXPECT_GT(freed.share(), 0.7) << freed.moved << " of " << freed.all;
+  const Freed freed = freedIn(run, 9000, 0.01);
+  EXPECT_GT(freed.all, 1000);
+  EXPECT_GT(freed.share(), 0.74) << freed.moved << " of " << freed.all;
 }
 
 /// A box on the edge of a wall that is struck hard moves as in the reference.
