@@ -12,6 +12,9 @@ namespace {
 /// things have moved by as much against each other [m].
 constexpr double kNear = 0.05;
 
+/// What became of a rigid thing: its box left its leaf's, or it has other members than before.
+constexpr std::uint8_t kMoved = 1, kResized = 2;
+
 Aabb worldBounds(const State& state, const Rigid& r) {
   return placed(r.frame(), state.extent(r).bounds);
 }
@@ -81,9 +84,9 @@ void moveLeaves(State& state, Scratch& scratch) {
     const Vec2 way = state.h * startMotion(state, scratch, id).v;
     const bool left = state.broadphase.tree.move(r.leaf, sweptBounds(state, r, way), way);
     if (!left && !r.resized) continue;
-    r.resized = false;
     scratch.moved.push_back(id);
-    scratch.moved_flag[index(id)] = 1;
+    scratch.moved_flag[index(id)] = r.resized ? kResized : kMoved;
+    r.resized = false;
   }
 }
 
@@ -123,7 +126,8 @@ void updateNearPairs(State& state, Scratch& scratch) {
   std::erase_if(found, [&](const NearPair& p) {
     const auto known = std::lower_bound(near.begin(), near.end(), p);
     if (known == near.end() || !(*known == p)) return false;
-    known->fresh = true;  // a collection may have new members: pair its shapes anew
+    const auto resized = [&](RigidId id) { return scratch.moved_flag[index(id)] == kResized; };
+    known->fresh |= resized(p.a) || resized(p.b);  // new members: pair its shapes anew
     return true;
   });
   const auto middle = static_cast<std::ptrdiff_t>(near.size());
