@@ -81,13 +81,13 @@ double enoughAfter(const State& state, double blow) {
 /// change of a member's velocity [m/s]; those for whom it was not enough are marked as restless.
 double sweepInside(const State& state, Collection& c, Scratch& scratch, int sweeps) {
   auto& u = scratch.sweep_u;
-  auto& before = scratch.nncg.u_before;  // idle now
+  auto& before = scratch.u;  // idle until the full solve
   const std::size_t n = c.members.size();
   reserveTightly(before, n);
   before.resize(std::max(before.size(), n));
   for (std::size_t i = 0; i < n; ++i) {
     const SolverVelocity& m = u[index(c.members[i])];
-    before[i] = {m.vx, m.vy, m.omega};
+    before[i] = {m.vx, m.vy, m.omega, 0.0, 0.0};
   }
   const Rotation turn = state[c.rigid].rotation;
   for (int s = 0; s < sweeps; ++s) {

@@ -227,7 +227,9 @@ bool WeldTest::tipsFor(const Weld& weld) const {
 }
 
 bool WeldTest::mustTip(const Weld& weld) const {
-  return weld.bridge && weld.vain == 0 && rule() == Rule::Default;
+  const auto frame = static_cast<std::uint32_t>(c_.members.size());
+  const bool on_frame = weld.node_a == frame || weld.node_b == frame;
+  return on_frame && weld.bridge && weld.vain == 0 && rule() == Rule::Default;
 }
 
 double WeldTest::noiseAt(const Weld& weld) const {

@@ -89,7 +89,8 @@ class WeldTest {
   /// What nothing else holds turns on however slowly it begins: then it need not be fast, but be
   /// seen for some steps.
   bool tipsFor(const Weld& weld) const;
-  /// Nothing else holds, and it was not cut in vain before.
+  /// Nothing else holds against the frame, and it was not cut in vain before. In a heap more than a
+  /// weld's own rows would hold: what barely tips soon leans on its neighbours.
   bool mustTip(const Weld& weld) const;
   /// Where nothing else holds, what is left of a sweep is all that could be wrong [m/s].
   double noiseAt(const Weld& weld) const;
