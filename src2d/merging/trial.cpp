@@ -217,36 +217,32 @@ class Trial {
   std::vector<Known> fields_;               ///< of collections that float
 };
 
+/// A weld that was cut, or lost contacts, holds by all that it held by before.
+void holdOn(const State& state, Collection& c, std::uint32_t w) {
+  Weld& weld = c.welds[w];
+  weld.cut = false;
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    for (PointWatch& point : c.contacts[i].watch) point.lost = false;
+  }
+  updateGrip(state, c, w);
+}
+
 /// The welds that stay are as if nothing had been found.
 void forget(const State& state, Collection& c, std::uint32_t w) {
   Weld& weld = c.welds[w];
-  bool lost = false;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    for (PointWatch& point : c.contacts[i].watch) {
-      lost |= point.lost;
-      point.slip = point.opening = {};
-      point.lost = false;
-    }
+    for (PointWatch& point : c.contacts[i].watch) point.slip = point.opening = {};
   }
   weld.turning = {};
-  weld.cut = false;
-  if (lost) updateGrip(state, c, w);
+  holdOn(state, c, w);
   std::erase(c.loosened, w);
 }
 
 }  // namespace
 
 void withholdCuts(const State& state, Collection& c) {
-  for (const auto* welds : {&c.cut_welds, &c.loosened}) {
-    for (const std::uint32_t w : *welds) {
-      Weld& weld = c.welds[w];
-      weld.cut = false;
-      for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-        for (PointWatch& point : c.contacts[i].watch) point.lost = false;
-      }
-      updateGrip(state, c, w);
-    }
-  }
+  for (const std::uint32_t w : c.cut_welds) holdOn(state, c, w);
+  for (const std::uint32_t w : c.loosened) holdOn(state, c, w);
   c.cut_welds.clear();
   c.loosened.clear();
 }
