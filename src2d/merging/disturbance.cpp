@@ -11,27 +11,27 @@ namespace {
 /// A contact that closes slower than this disturbs nobody [m/s].
 constexpr double kGentle = 1e-3;
 
-/// How fast a contact closes that was open in the last step and meets in this one [m/s]; 0 for any
-/// other.
+/// Pairs that meet faster than this are an impact: gravity alone does not do it within two steps,
+/// so a resting body that lost its contact for a moment is none [m/s].
+double impactSpeed(const State& state) {
+  return std::max(2.0 * state.h * state.gravity.norm(), state.settings.unmerging.velocity);
+}
+
+/// How fast a contact closes that was open in the last step and meets in this one; or that was near
+/// enough to slow its bodies down then, and is hit with the rest now [m/s]. 0 for any other.
 double closingSpeed(const State& state, const Contact& contact) {
   const Pose pose_a = state.pose(contact.key.a);
   const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
   double fastest = 0.0;
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
-    if (!point.fresh) continue;
     const Vec2 p = pose_a * point.position;
     const double w_n = (pose_a.rotation * contact.normal).dot(b.velocityAt(p) - a.velocityAt(p));
-    if (w_n + std::max(0.0, point.gap) / state.h >= -kGentle) continue;
+    const double closing = -w_n - std::max(0.0, point.gap) / state.h;
+    if (closing <= (point.fresh ? kGentle : impactSpeed(state))) continue;
     fastest = std::max(fastest, -w_n);
   }
   return fastest;
-}
-
-/// Pairs that meet faster than this are an impact: gravity alone does not do it within two steps,
-/// so a resting body that lost its contact for a moment is none [m/s].
-double impactSpeed(const State& state) {
-  return std::max(2.0 * state.h * state.gravity.norm(), state.settings.unmerging.velocity);
 }
 
 /// True when the frame gains another velocity in this step than in the last one, by more than a
@@ -89,28 +89,32 @@ void orderContacts(State& state, Scratch& scratch) {
   scratch.seeds.clear();
   scratch.disturbed.assign(state.collections.size(), 0);
   if (!state.settings.unmerging.ordering) return;
-  const auto seed = [&](BodyId b, bool hit) {
+  enum class Blow { None, Soft, Hard };
+  const auto seed = [&](BodyId b, Blow blow) {
     scratch.seeds.push_back(static_cast<std::uint32_t>(b));
     const RigidId id = state[b].rigid;
     if (!state.isCollection(id)) return;
     scratch.disturbed[index(id) - state.bodies.size()] = 1;
-    if (hit) state.collection(id).struck = kFollowed;
+    std::int16_t& struck = state.collection(id).struck;
+    if (blow != Blow::None) struck = std::max<std::int16_t>(struck, kFollowed - 1);
+    if (blow == Blow::Hard) struck = kFollowed;
   };
   for (Collection& c : state.collections) {
+    if (c.struck > 0) --c.struck;
     if (isSwept(state, c) && frameJumps(state, c)) {
       scratch.disturbed[index(c.rigid) - state.bodies.size()] = 1;
     }
   }
-  for (const Kick& kick : scratch.kicks) seed(kick.body, true);
-  for (const BodyId b : scratch.stirred) seed(b, false);
+  for (const Kick& kick : scratch.kicks) seed(kick.body, Blow::Hard);
+  for (const BodyId b : scratch.stirred) seed(b, Blow::None);
   for (const BodyPair& pair : scratch.pairs) {
+    double fastest = 0.0;
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-      const Contact& contact = state.contacts[state.contacts.order[i]];
-      if (!closesAnew(state, contact)) continue;
-      seed(pair.a, true);
-      seed(pair.b, true);
-      break;
+      fastest = std::max(fastest, closingSpeed(state, state.contacts[state.contacts.order[i]]));
     }
+    if (fastest == 0.0) continue;
+    const Blow blow = fastest > impactSpeed(state) ? Blow::Hard : Blow::Soft;
+    for (const BodyId b : {pair.a, pair.b}) seed(b, blow);
   }
   if (scratch.notes) {
     for (const std::uint32_t s : scratch.seeds) scratch.notes->seeds.push_back(BodyId{s});

@@ -81,6 +81,7 @@ class Refinement {
     Reached& r = reach(body);
     if (!r.queued) walk_.push_back(body);
     r.queued = true;
+    scratch_.shaken[body] = 1;
   }
 
   /// One sweep from the queued bodies on, breadth first, over the items of each body that it

@@ -129,7 +129,6 @@ bool refines(const UnmergingSettings& settings) {
 void follow(const State& state, Collection& c, Scratch& scratch, double change) {
   constexpr float kForgets = 0.95F;  // in each step
   std::uint8_t& disturbed = scratch.disturbed[index(c.rigid) - state.bodies.size()];
-  if (c.struck > 0) --c.struck;
   const double lingering = c.lingering *= kForgets;
   const bool anew = disturbed != 0 || change > std::max(refinedVelocity(state), lingering);
   if (anew) {
@@ -222,6 +221,7 @@ void refineDisturbed(State& state, Scratch& scratch, double blow) {
 /// One sweep over what shares no body in a row, and more where something is new.
 void sweepByColours(State& state, Scratch& scratch) {
   scratch.restless_bodies.assign(scratch.sweep_u.size(), 0);
+  scratch.shaken.assign(scratch.sweep_u.size(), 0);
   for (JointBlock& k : scratch.sweep_joints) {
     solveJoint(k, {}, scratch.sweep_u[k.a], scratch.sweep_u[k.b]);
   }

@@ -12,76 +12,94 @@
 namespace merge2d {
 namespace {
 
-/// The contacts of all parts but the largest, solved as if they were free.
+std::uint32_t largestOf(const Parts& parts) {
+  std::vector<std::size_t> size(parts.anchored.size(), 0);
+  for (const std::uint32_t p : parts.part) ++size[p];
+  return static_cast<std::uint32_t>(std::ranges::max_element(size) - size.begin());
+}
+
+/// Over how many steps the evidence against a weld was summed.
+int stepsOf(const Collection& c, const Weld& weld) {
+  if (weld.reason == EventReason::RelativeMotion) return weld.turning.steps;
+  int steps = 1;
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    for (const PointWatch& point : c.contacts[i].watch) {
+      const bool slid = weld.reason == EventReason::Sliding;
+      steps = std::max(steps, slid ? point.slip.steps : point.opening.steps);
+    }
+  }
+  return steps;
+}
+
+/// One proposal in the trial.
+struct Tried {
+  Collection* c;
+  const Parts* parts;
+  std::uint32_t host;                 ///< the largest part
+  bool fits;                          ///< few enough would move, and the host stays what it is
+  std::vector<int> steps;             ///< per part: of the evidence against it
+  std::vector<std::uint8_t> moves{};  ///< per part: the result
+
+  /// Where most of it would move, all of it does.
+  bool isMover(std::uint32_t part) const { return part != host || !fits; }
+};
+
+/// The contacts of all that could move, solved as if it were free.
 class Trial {
  public:
-  Trial(State& state, Scratch& scratch, Collection& c, const Parts& parts)
+  Trial(State& state, Scratch& scratch, std::span<const Proposal> proposals)
       : state_(state),
         scratch_(scratch),
-        c_(c),
-        parts_(parts),
-        host_(largest(parts)),
-        kept_(scratch.sweep_u.size(), 0) {}
-
-  bool fits() const {
-    const std::size_t movers = static_cast<std::size_t>(
-        std::ranges::count_if(parts_.part, [&](std::uint32_t p) { return p != host_; }));
-    const bool anchored = parts_.anchored[host_] != 0;
-    return anchored != state_[c_.rigid].floating() && movers > 0 && 2 * movers < parts_.part.size();
+        of_slot_(state.collections.size(), kNone),
+        place_(scratch.sweep_u.size(), kNone) {
+    for (const Proposal& proposal : proposals) {
+      of_slot_[index(proposal.rigid) - state.bodies.size()] =
+          static_cast<std::uint32_t>(tried_.size());
+      tried_.push_back(enter(proposal));
+    }
   }
 
-  /// Per part: whether it would move.
-  std::vector<std::uint8_t> run() {
+  /// Solves, and says what moves.
+  std::vector<Tried> run() {
+    if (std::ranges::none_of(tried_, &Tried::fits)) return tried_;
     list();
     remember();
     freeze();
     solve();
-    std::vector<std::uint8_t> moves(parts_.anchored.size(), 0);
-    for (std::uint32_t m = 0; m < parts_.part.size(); ++m) {
-      const std::uint32_t p = parts_.part[m];
-      if (p != host_ && !moves[p]) moves[p] = movesAway(m);
+    for (Tried& t : tried_) {
+      if (t.fits) judgeParts(t);
     }
     restore();
-    return moves;
+    return tried_;
   }
-
-  std::uint32_t host() const { return host_; }
 
  private:
-  static std::uint32_t largest(const Parts& parts) {
-    std::vector<std::size_t> size(parts.anchored.size(), 0);
-    for (const std::uint32_t p : parts.part) ++size[p];
-    return static_cast<std::uint32_t>(std::ranges::max_element(size) - size.begin());
-  }
+  static constexpr std::uint32_t kNone = ~0u;
 
-  std::size_t membersOf(std::uint32_t part) const {
-    return static_cast<std::size_t>(std::ranges::count(parts_.part, part));
+  Tried enter(const Proposal& proposal) const {
+    const Parts& parts = proposal.parts;
+    const std::uint32_t host = largestOf(parts);
+    const auto movers = static_cast<std::size_t>(
+        std::ranges::count_if(parts.part, [&](std::uint32_t p) { return p != host; }));
+    const bool anchored = parts.anchored[host] != 0;
+    const bool fits = anchored != state_[proposal.rigid].floating() && movers > 0 &&
+                      2 * movers < parts.part.size();
+    return {&state_.collection(proposal.rigid), &parts, host, fits,
+            std::vector<int>(parts.anchored.size(), 1)};
   }
 
   bool isMover(std::uint32_t body) const {
-    return body < state_.bodies.size() && state_.bodies[body].rigid == c_.rigid &&
-           parts_.part[state_[rigidOf(BodyId{body})].member] != host_;
+    if (body >= state_.bodies.size()) return false;  // the world
+    const RigidId id = state_.bodies[body].rigid;
+    if (!state_.isCollection(id)) return false;
+    const std::uint32_t t = of_slot_[index(id) - state_.bodies.size()];
+    if (t == kNone) return false;
+    return tried_[t].isMover(tried_[t].parts->part[state_[rigidOf(BodyId{body})].member]);
   }
 
-  /// Lists what the movers touch, and over how many steps each part was found to part.
+  /// Lists what the movers touch.
   void list() {
-    const Rotation turn = state_[c_.rigid].rotation;
-    steps_.assign(parts_.anchored.size(), 1);
-    const auto partOf = [&](std::uint32_t node) {
-      return node < parts_.part.size() ? parts_.part[node] : host_;
-    };
-    for (const Weld& weld : c_.welds) {
-      const std::uint32_t p = partOf(weld.node_a), q = partOf(weld.node_b);
-      if (p == host_ && q == host_) continue;
-      for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-        items_.push_back({&c_.blocks[c_.contact_block[i]], nullptr, turn});
-      }
-      if (!weld.cut) continue;
-      for (const std::uint32_t part : {p, q}) steps_[part] = std::max(steps_[part], stepsOf(weld));
-    }
-    for (JointBlock& k : c_.joints) {
-      if (isMover(k.a) || isMover(k.b)) items_.push_back({nullptr, &k, turn});
-    }
+    for (Tried& t : tried_) listInside(t);
     for (SweepContact& outer : scratch_.sweep_contacts) {
       if (isMover(outer.block.a) || isMover(outer.block.b)) {
         items_.push_back({&outer.block, nullptr, {}});
@@ -92,25 +110,37 @@ class Trial {
     }
   }
 
-  /// Over how many steps the evidence against a weld was summed.
-  int stepsOf(const Weld& weld) const {
-    if (weld.reason == EventReason::RelativeMotion) return weld.turning.steps;
-    int steps = 1;
-    for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-      for (const PointWatch& point : c_.contacts[i].watch) {
-        const bool slid = weld.reason == EventReason::Sliding;
-        steps = std::max(steps, slid ? point.slip.steps : point.opening.steps);
+  /// The same in one collection, and over how many steps each part was found to part.
+  void listInside(Tried& t) {
+    Collection& c = *t.c;
+    const Rotation turn = state_[c.rigid].rotation;
+    const auto frame = static_cast<std::uint32_t>(t.steps.size());
+    const auto partOf = [&](std::uint32_t node) {
+      return node < t.parts->part.size() ? t.parts->part[node] : frame;
+    };
+    const auto moves = [&](std::uint32_t part) { return part != frame && t.isMover(part); };
+    for (const Weld& weld : c.welds) {
+      const std::uint32_t p = partOf(weld.node_a), q = partOf(weld.node_b);
+      if (!moves(p) && !moves(q)) continue;
+      for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+        items_.push_back({&c.blocks[c.contact_block[i]], nullptr, turn});
+      }
+      if (!weld.cut) continue;
+      for (const std::uint32_t part : {p, q}) {
+        if (part != frame) t.steps[part] = std::max(t.steps[part], stepsOf(c, weld));
       }
     }
-    return steps;
+    for (JointBlock& k : c.joints) {
+      if (isMover(k.a) || isMover(k.b)) items_.push_back({nullptr, &k, turn});
+    }
   }
 
   void remember() {
     for (const SweepItem& item : items_) {
       impulses_.push_back(item.impulses());
       for (const std::uint32_t b : {item.a(), item.b()}) {
-        if (kept_[b]) continue;
-        kept_[b] = 1;
+        if (place_[b] != kNone) continue;
+        place_[b] = static_cast<std::uint32_t>(touched_.size());
         touched_.push_back(b);
         velocities_.push_back(scratch_.sweep_u[b]);
       }
@@ -135,11 +165,17 @@ class Trial {
     }
   }
 
+  /// Of a body before the trial.
+  const SolverVelocity& velocityBefore(BodyId b) const {
+    const std::uint32_t place = place_[index(b)];
+    return place == kNone ? scratch_.sweep_u[index(b)] : velocities_[place];
+  }
+
   /// Of a collection at the end of this step: what floats has the momentum of its members.
   VelocityField fieldOf(RigidId id) {
     const Rigid& r = state_[id];
     if (!r.floating()) return {r.x, r.v, r.omega};
-    auto known = std::ranges::find(fields_, id, &Known::id);
+    const auto known = std::ranges::find(fields_, id, &Known::id);
     if (known != fields_.end()) return known->field;
     const Collection& c = state_.collection(id);
     const Pose frame = r.frame();
@@ -147,10 +183,7 @@ class Trial {
     double l = 0.0;
     for (const BodyId b : c.members) {
       const Body& body = state_[b];
-      const auto kept = std::ranges::find(touched_, static_cast<std::uint32_t>(b));
-      const SolverVelocity& u =
-          kept == touched_.end() ? scratch_.sweep_u[index(b)]
-                                 : velocities_[static_cast<std::size_t>(kept - touched_.begin())];
+      const SolverVelocity& u = velocityBefore(b);
       const Vec2 v(u.vx, u.vy);
       p += body.mass * v;
       l += body.mass * cross(frame * body.local - r.x, v) + body.inertia * u.omega;
@@ -176,25 +209,30 @@ class Trial {
     iteration.run(most, method == SolverMethod::Nncg);
   }
 
+  void judgeParts(Tried& t) {
+    t.moves.assign(t.steps.size(), 0);
+    for (std::uint32_t m = 0; m < t.parts->part.size(); ++m) {
+      const std::uint32_t p = t.parts->part[m];
+      if (p != t.host && !t.moves[p]) t.moves[p] = movesAway(t, m);
+    }
+  }
+
   /// Fast enough to be seen, or not much slower than the sweep found.
-  bool movesAway(std::uint32_t m) {
+  bool movesAway(const Tried& t, std::uint32_t m) {
     constexpr double kMuch = 0.5;
-    const auto b = static_cast<std::uint32_t>(c_.members[m]);
-    const double speed = speedOf(b, scratch_.sweep_u[b]);
-    const auto found = std::ranges::find(touched_, b);
-    if (found == touched_.end()) return true;  // nothing holds it
-    if (speed * steps_[parts_.part[m]] > state_.settings.unmerging.sliding) return true;
-    const auto place = static_cast<std::size_t>(found - touched_.begin());
-    return speed > kMuch * speedOf(b, velocities_[place]);
+    const BodyId b = t.c->members[m];
+    if (place_[index(b)] == kNone) return true;  // nothing holds it
+    const double speed = speedOf(*t.c, b, scratch_.sweep_u[index(b)]);
+    if (speed * t.steps[t.parts->part[m]] > state_.settings.unmerging.sliding) return true;
+    return speed > kMuch * speedOf(*t.c, b, velocityBefore(b));
   }
 
   /// Of a member's fastest corner against the collection [m/s].
-  double speedOf(std::uint32_t body, const SolverVelocity& u) {
-    const BodyId b{body};
+  double speedOf(const Collection& c, BodyId b, const SolverVelocity& u) {
     OrientedBox box = state_.extent(rigidOf(b)).box;
     const Pose pose = state_.pose(b);
     box.frame = pose * box.frame;
-    return fastestCorner(box, {pose.position, {u.vx, u.vy}, u.omega}, fieldOf(c_.rigid));
+    return fastestCorner(box, {pose.position, {u.vx, u.vy}, u.omega}, fieldOf(c.rigid));
   }
 
   struct Known {
@@ -204,16 +242,14 @@ class Trial {
 
   State& state_;
   Scratch& scratch_;
-  Collection& c_;
-  const Parts& parts_;
-  std::uint32_t host_;                      ///< the largest part
-  std::vector<std::uint8_t> kept_;          ///< per body: is in touched_
+  std::vector<Tried> tried_;
+  std::vector<std::uint32_t> of_slot_;      ///< per collection slot: in tried_
+  std::vector<std::uint32_t> place_;        ///< per body: in touched_
   std::vector<SweepItem> items_;            ///< at what could move
   std::vector<Impulses> impulses_;          ///< theirs before the trial
   std::vector<std::uint32_t> touched_;      ///< all bodies at the items
   std::vector<SolverVelocity> velocities_;  ///< theirs before the trial
   std::vector<std::uint32_t> bodies_;       ///< those that respond in the trial
-  std::vector<int> steps_;                  ///< per part: of the evidence against it
   std::vector<Known> fields_;               ///< of collections that float
 };
 
@@ -247,16 +283,17 @@ void withholdCuts(const State& state, Collection& c) {
   c.loosened.clear();
 }
 
-std::optional<Parts> partsThatMove(State& state, Scratch& scratch, Collection& c,
-                                   const Parts& parts) {
-  Trial trial(state, scratch, c, parts);
-  if (!trial.fits()) return parts;
-  const std::vector<std::uint8_t> moves = trial.run();
-  const auto frame = static_cast<std::uint32_t>(moves.size());
+namespace {
+
+/// What the trial makes of one proposal.
+std::optional<Parts> remains(State& state, Scratch& scratch, const Tried& t) {
+  Collection& c = *t.c;
+  const Parts& parts = *t.parts;
+  const auto frame = static_cast<std::uint32_t>(t.moves.size());
   const auto partOf = [&](std::uint32_t node) {
     return node < parts.part.size() ? parts.part[node] : frame;
   };
-  const auto leaves = [&](std::uint32_t part) { return part != frame && moves[part] != 0; };
+  const auto leaves = [&](std::uint32_t part) { return part != frame && t.moves[part] != 0; };
   std::vector<std::uint32_t> leaving;  // welds
   for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
     const std::uint32_t p = partOf(c.welds[w].node_a), q = partOf(c.welds[w].node_b);
@@ -268,10 +305,21 @@ std::optional<Parts> partsThatMove(State& state, Scratch& scratch, Collection& c
     }
   }
   std::erase_if(c.cut_welds, [&](std::uint32_t w) { return !c.welds[w].cut; });
-  if (std::ranges::count(moves, 0) == std::ssize(moves)) return {};
+  if (std::ranges::count(t.moves, 0) == std::ssize(t.moves)) return {};
   for (const std::uint32_t w : leaving) c.welds[w].cut = true;
   Parts result = judge(state, scratch, c);
   for (const std::uint32_t w : leaving) c.welds[w].cut = false;
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::optional<Parts>> partsThatMove(State& state, Scratch& scratch,
+                                                std::span<const Proposal> proposals) {
+  std::vector<std::optional<Parts>> result;
+  for (const Tried& t : Trial(state, scratch, proposals).run()) {
+    result.push_back(t.fits ? remains(state, scratch, t) : *t.parts);
+  }
   return result;
 }
 

@@ -1,19 +1,30 @@
 #pragma once
-/// Whether what a cut would free would move at all, before it is freed.
+/// Whether what cuts would free would move at all, before it is freed.
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "src2d/merging/parts.h"
 
 namespace merge2d {
 
-/// Solves the contacts of all parts but the largest as if they were free already, the largest and
-/// other collections being rigid, as they will be in this step. A part that would stay where it is
-/// stays, and what was found against it is forgotten. Deviation: in the sweep all members move on
-/// their own, so that a blow makes its whole surroundings slip a little, of which nothing is left
-/// when most of them move as one. Guarded by Trial.WhatWouldNotMoveStays.
-std::optional<Parts> partsThatMove(State& state, Scratch& scratch, Collection& c,
-                                   const Parts& parts);
+/// What the tests of this step would make of one collection.
+struct Proposal {
+  RigidId rigid{};
+  Parts parts;
+};
+
+/// Solves the contacts of all parts but the largest of each collection as if they were free
+/// already; what stays is rigid, as it will be in this step. A part that would stay where it is
+/// stays, and what was found against it is forgotten: what comes of each proposal, or nothing.
+/// Deviation: in the sweep all members move on their own, so that a blow makes its whole
+/// surroundings slip a little, of which nothing is left when most of them move as one. Guarded by
+/// Trial.WhatWouldNotMoveStays. All proposals of a step are tried at once, or a blow that goes
+/// through several collections would stop at the next one. Guarded by
+/// Trial.ABlowGoesThroughNeighboursThatPartInTheSameStep.
+std::vector<std::optional<Parts>> partsThatMove(State& state, Scratch& scratch,
+                                                std::span<const Proposal> proposals);
 
 /// Lets all welds hold that were cut or lost contacts since that was last judged; what was summed
 /// against them stays.

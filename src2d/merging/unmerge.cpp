@@ -27,12 +27,25 @@ void reportCuts(const State& state, const Collection& before, Scratch& scratch) 
   noteBrokenGroups(state, before, scratch.notes);
 }
 
-/// What was decided about welds may not be what came of it: `from` one verdict `to` another, in the
-/// decisions from `first` on, where the pair stayed together.
-void restate(const State& state, Notes* notes, std::size_t first, std::string_view to) {
-  if (!notes) return;
-  for (std::size_t i = first; i < notes->decisions.size(); ++i) {
-    Decision& d = notes->decisions[i];
+/// A run of what was noted: one collection's decisions.
+struct Noted {
+  Notes* notes;  ///< null: nobody asks
+  std::size_t first = 0, last = 0;
+
+  explicit Noted(Notes* all) : notes(all) {
+    if (notes) first = last = notes->decisions.size();
+  }
+  /// Ends with what was noted last.
+  void close() {
+    if (notes) last = notes->decisions.size();
+  }
+};
+
+/// What was decided about welds may not be what came of it: one verdict `to` another where the pair
+/// stayed together.
+void restate(const State& state, const Noted& noted, std::string_view to) {
+  for (std::size_t i = noted.first; i < noted.last; ++i) {
+    Decision& d = noted.notes->decisions[i];
     if (d.verdict == "unmerge" && stillTogether(state, d.a, d.b)) d.verdict = to;
   }
 }
@@ -86,29 +99,35 @@ bool waits(const State& state, Collection& c, bool disturbed) {
   return true;
 }
 
-/// One sweep may not have converged: before anything parts, looks again after more, and at whether
-/// it would move. `first` is the first decision of this collection.
+/// One collection, tested.
+struct Tested {
+  std::size_t slot;
+  Noted noted;
+  std::optional<Parts> parts = {};  ///< what it falls into
+};
+
+/// One sweep may not have converged: before anything parts, looks again after more.
 std::optional<Parts> confirmedParts(State& state, Scratch& scratch, Collection& c, WeldTest& test,
-                                    bool joints_loosened, std::size_t first) {
-  restate(state, scratch.notes, first, "recheck");
+                                    bool joints_loosened, Noted& noted) {
+  noted.close();
+  restate(state, noted, "recheck");
   sweepAgain(state, scratch, c);
   confirmJoints(state, c, scratch.sweep_u);
   test.confirmAll();
   std::optional<Parts> parts = partsAtCuts(state, scratch, c, joints_loosened);
   c.refuted = !test.somethingGrows();
-  if (!parts) return {};
-  parts = partsThatMove(state, scratch, c, *parts);
-  if (!parts) {
-    restate(state, scratch.notes, first, "stays");
-    refuse(c);
-    return {};
-  }
-  if (!fallsApart(state, c, *parts)) return {};
   return parts;
 }
 
-/// Tests the welds of one collection, and splits it where it falls apart.
-void testCollection(State& state, Scratch& scratch, std::size_t slot) {
+/// With the paper's rule one look is enough.
+bool confirms(const State& state) {
+  const UnmergingSettings& settings = state.settings.unmerging;
+  return settings.rule == Rule::Default && settings.ordering;
+}
+
+/// Tests the welds of one collection, and finds what it falls into.
+void testCollection(State& state, Scratch& scratch, Tested& tested) {
+  const std::size_t slot = tested.slot;
   Collection& c = state.collections[slot];
   scratch.doubted.clear();
   for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
@@ -116,21 +135,36 @@ void testCollection(State& state, Scratch& scratch, std::size_t slot) {
   if (anyJointBreaks(state, c) && breakInside(state, scratch, c)) return;
   const bool joints_loosened = loosenJoints(state, c, scratch.sweep_u);
   if (joints_loosened) doubtJoints(scratch, c);
-  const std::size_t first = scratch.notes ? scratch.notes->decisions.size() : 0;
   WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
   test.testAll();
-  const UnmergingSettings& settings = state.settings.unmerging;
-  const bool confirms = settings.rule == Rule::Default && settings.ordering;
-  if (confirms && !joints_loosened && waits(state, c, scratch.disturbed[slot] != 0)) {
-    return restate(state, scratch.notes, first, "stays");
+  if (confirms(state) && !joints_loosened && waits(state, c, scratch.disturbed[slot] != 0)) {
+    tested.noted.close();
+    return restate(state, tested.noted, "stays");
   }
-  std::optional<Parts> parts;
-  if (!confirms || !losesAMember(c)) {
-    parts = partsAtCuts(state, scratch, c, joints_loosened);
-    if (!parts) return;
+  if (!confirms(state) || !losesAMember(c)) {
+    tested.parts = partsAtCuts(state, scratch, c, joints_loosened);
+    if (!tested.parts) return;
   }
-  if (confirms) parts = confirmedParts(state, scratch, c, test, joints_loosened, first);
-  if (parts) splitAtCuts(state, scratch, c.rigid, *parts);
+  if (!confirms(state)) return;
+  tested.parts = confirmedParts(state, scratch, c, test, joints_loosened, tested.noted);
+}
+
+/// What would not move stays: asked of all at once.
+void keepWhatStays(State& state, Scratch& scratch, std::vector<Tested>& apart) {
+  if (apart.empty()) return;
+  std::vector<Proposal> proposals;
+  for (const Tested& t : apart) proposals.push_back({state.collections[t.slot].rigid, *t.parts});
+  auto remaining = partsThatMove(state, scratch, proposals);
+  for (std::size_t i = 0; i < apart.size(); ++i) {
+    Collection& c = state.collections[apart[i].slot];
+    apart[i].parts = std::move(remaining[i]);
+    if (!apart[i].parts) {
+      restate(state, apart[i].noted, "stays");
+      refuse(c);
+    } else if (!fallsApart(state, c, *apart[i].parts)) {
+      apart[i].parts.reset();
+    }
+  }
 }
 
 void finishSplits(State& state, Scratch& scratch) {
@@ -144,12 +178,21 @@ void finishSplits(State& state, Scratch& scratch) {
 
 void unmerge(State& state, Scratch& scratch) {
   if (!scratch.sweeping) return;
+  std::vector<Tested> apart;
   const std::size_t slots = state.collections.size();
   for (std::size_t slot = 0; slot < slots; ++slot) {
     if (!isSwept(state, state.collections[slot])) continue;
-    const std::size_t first = scratch.notes ? scratch.notes->decisions.size() : 0;
-    testCollection(state, scratch, slot);
-    restate(state, scratch.notes, first, "cut");  // cut, but held together by others
+    Tested tested{slot, Noted(scratch.notes)};
+    testCollection(state, scratch, tested);
+    tested.noted.close();
+    if (!tested.parts) restate(state, tested.noted, "cut");  // but held together by others
+    if (tested.parts) apart.push_back(std::move(tested));
+  }
+  if (confirms(state)) keepWhatStays(state, scratch, apart);
+  for (const Tested& tested : apart) {
+    const RigidId id = state.collections[tested.slot].rigid;
+    if (tested.parts) splitAtCuts(state, scratch, id, *tested.parts);
+    restate(state, tested.noted, "cut");
   }
   finishSplits(state, scratch);
   forgetExpectedContacts(state, scratch);

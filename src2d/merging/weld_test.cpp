@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src2d/merging/disturbance.h"
 #include "src2d/merging/grip.h"
 #include "src2d/merging/limits.h"
 #include "src2d/merging/metric.h"
@@ -23,6 +24,7 @@ void WeldTest::testAll() {
     testMotion(c_.welds[pivot]);
   }
   testLeaning();
+  if (isStruck()) testShaken();
   // What may be about to part does not fall asleep.
   if (disturbed_) c_.refuted = false;
   if (growing_ && !c_.refuted && !confirming_) c_.settled = false;
@@ -51,7 +53,8 @@ void WeldTest::testContacts(std::uint32_t b) {
       point.lost = false;
       point.opening = {};
     }
-    if (!edge) point.slip = {};
+    const bool idle = !pressed && point.active && rule() == Rule::Default && carriesNothing(weld);
+    if (!edge && !idle) point.slip = {};
     if (scratch_.notes) {
       at_ = state_[c_.rigid].frame() * inner.point(i).position;
     }
@@ -59,7 +62,7 @@ void WeldTest::testContacts(std::uint32_t b) {
     if (edge || !pressed) {
       const ContactVelocity w = velocityAt(k, i);
       if (!pressed && point.active) point.lost = testBroken(weld, point.opening, w.n);
-      if (edge) testSliding(weld, point.slip, w.t);
+      if (edge || idle) testSliding(weld, point.slip, w.t);
     }
     if (pressed) noteCone(weld, k, i, edge);
     c_.watched[b] |= edge || !pressed;
@@ -69,6 +72,18 @@ void WeldTest::testContacts(std::uint32_t b) {
     }
     if (was_lost != point.lost || was_active != point.active) updateGrip(state_, c_, weld);
   }
+}
+
+bool WeldTest::carriesNothing(std::uint32_t w) const {
+  const Weld& weld = c_.welds[w];
+  if (weld.joints > 0) return false;
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    const ContactBlock& k = c_.blocks[c_.contact_block[i]];
+    for (int p = 0; p < k.count; ++p) {
+      if (!broken(k, p)) return false;
+    }
+  }
+  return true;
 }
 
 void WeldTest::noteLoosened(std::uint32_t weld) {
@@ -203,6 +218,35 @@ void WeldTest::testLeaning() {
   }
 }
 
+bool WeldTest::isStruck() const { return c_.struck == kFollowed && rule() == Rule::Default; }
+
+void WeldTest::testShaken() {
+  for (const BodyId member : c_.members) {
+    if (!scratch_.shaken[index(member)]) continue;
+    const std::uint32_t node = state_[rigidOf(member)].member;
+    for (std::uint32_t k = c_.weld_at[node]; k < c_.weld_at[node + 1]; ++k) {
+      Weld& weld = c_.welds[c_.weld_of[k]];
+      const bool other = weld.b == member && scratch_.shaken[index(weld.a)];
+      if (!other && !weld.cut && !weld.expected && weld.joints == 0) testShake(weld);
+    }
+  }
+}
+
+void WeldTest::testShake(Weld& weld) {
+  const Turning now = relativeMotion(weld);
+  const double threshold = state_.settings.unmerging.velocity * caution(weld);
+  if (std::abs(now.fastest) <= threshold || now.nearest <= noise()) return;
+  note(weld, [&] {
+    return Decision{.criterion = "relative-motion",
+                    .equation = "(17)",
+                    .value = std::abs(now.fastest),
+                    .threshold = threshold,
+                    .count = 1,
+                    .verdict = "unmerge"};
+  });
+  cutWeld(weld, EventReason::RelativeMotion);
+}
+
 bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {
   const UnmergingSettings& settings = state_.settings.unmerging;
   weld.turning.steps = std::abs(now.fastest) > settings.velocity ? weld.turning.steps + 1 : 0;
@@ -216,7 +260,8 @@ bool WeldTest::turns(Weld& weld, const Turning& now) {
     return false;
   }
   const double enough = tipsFor(weld) ? 0.0 : settings.velocity * caution(weld);
-  const int steps = mustTip(weld) && c_.struck > 0 ? 1 : settings.steps;  // a blow is over at once
+  const bool at_once = isStruck() || (mustTip(weld) && c_.struck > 0);  // as the blow is over
+  const int steps = at_once ? 1 : settings.steps;
   return weigh(weld.turning, now.fastest, enough, noiseAt(weld)).exceeds &&
          weld.turning.steps >= steps;
 }

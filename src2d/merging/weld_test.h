@@ -45,6 +45,9 @@ class WeldTest {
   /// Broken (Section 6.3) and on edge (Eqs. (19), (20)).
   void testContacts(std::uint32_t b);
 
+  /// No contact of it presses.
+  bool carriesNothing(std::uint32_t weld) const;
+
   /// One of its contacts has opened: see Collection::loosened.
   void noteLoosened(std::uint32_t weld);
 
@@ -78,6 +81,16 @@ class WeldTest {
 
   /// Relative motion of those, long before the contact that carries nothing has opened.
   void testLeaning();
+
+  /// Something hits the collection in this step.
+  bool isStruck() const;
+
+  /// Relative motion of all welds around bodies that a blow reached. Deviation: in the paper only
+  /// contacts at their limits part, which holds for sweeps that have converged. A blow is over in a
+  /// step, and its sweeps leave the last joints of a chain at odds with each other: held together,
+  /// they would take all of it. Guarded by Blow.LiftsWhatStandsAbove.
+  void testShaken();
+  void testShake(Weld& weld);
 
   /// As in the paper: fast enough in several consecutive steps.
   bool moveLoudly(Weld& weld, const Turning& now) const;

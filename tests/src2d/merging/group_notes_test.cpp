@@ -32,9 +32,9 @@ const Group& groupOf(const Snapshot& s, const Decision& d) {
 }
 
 /// Two legs that lean on each other on rough ground, welded.
-Simulation trussArch() {
-  Simulation run(loadScene("truss-arch"), Mode::Merge, true);
-  run.steps(10);
+Simulation trussArch(const Overrides& overrides = {}, int steps = 10) {
+  Simulation run(loadScene("truss-arch", overrides), Mode::Merge, true);
+  run.steps(steps);
   return run;
 }
 
@@ -57,7 +57,8 @@ TEST(GroupNotes, AMergeNamesAllBodiesOfTheGroup) {
 }
 
 TEST(GroupNotes, AnUnmergeNamesTheGroupThatCameApart) {
-  Simulation run = trussArch();
+  // In so short a step the right leg does not get fast enough to be seen to move.
+  Simulation run = trussArch({{"step", "0.001"}}, 200);
   ASSERT_TRUE(run.merged("left-leg"));
   run.kick("left-leg", {-40.0, 20.0});
   std::set<std::string> gone;

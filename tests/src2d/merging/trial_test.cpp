@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/scenes.h"
 
 namespace merge2d {
 namespace {
@@ -65,6 +66,26 @@ TEST(Trial, WhatWouldMoveGoesAtOnce) {
   EXPECT_TRUE(run.merged("b0"));
   run.until(3.0), reference.until(3.0);
   EXPECT_NEAR(run.body("b15").x.x(), reference.body("b15").x.x(), 0.05);
+}
+
+/// Three columns side by side, each a collection: a box is struck that pushes those beside it.
+TEST(Trial, ABlowGoesThroughNeighboursThatPartInTheSameStep) {
+  const auto movedIn = [](Mode mode) {
+    Scene scene = onGround();
+    scene.settings.solver.iterations = 50;
+    for (const double x : {-1.0, 0.0, 1.0}) addColumn(scene, 8, {x, 0.0});
+    Simulation run(scene, mode);
+    run.until(2.5);
+    const Snapshot before = run.now();
+    const BodyId struck{23};
+    run.world().applyImpulse(struck, before.bodies[index(struck)].x, {-7.53, 3.81});
+    run.until(3.0);
+    return moved(before, run.now(), 0.01);
+  };
+  const int reference = movedIn(Mode::Reference);
+  EXPECT_EQ(reference, 16);
+  EXPECT_NEAR(movedIn(Mode::Merge), reference, 2);
+  EXPECT_NEAR(movedIn(Mode::MergeSleep), reference, 2);
 }
 
 }  // namespace

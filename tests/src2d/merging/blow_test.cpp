@@ -1,0 +1,85 @@
+/// Blows frees what they move, and only lose what the reference loses. The solver of both sides
+/// gets enough iterations to converge: with ten the reference itself moves half as many bodies
+/// again.
+
+#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/scenes.h"
+
+namespace merge2d {
+namespace {
+
+/// Bodies that a ball of 10 kg has moved by 10 cm, 3.5 s after it was let go at a wall of 120.
+int movedByBall(Mode mode, const Vec2& velocity, int iterations) {
+  Scene scene = wall(12, 10);
+  scene.settings.solver.iterations = iterations;
+  BodyDesc ball = disc(0.5, {-9.0, 4.0});
+  ball.mass = 10.0;
+  ball.velocity = velocity;
+  ball.pinned_until = 2.5;
+  add(scene, named("ball", ball));
+  Simulation run(scene, mode);
+  run.until(2.5);
+  const Snapshot before = run.now();
+  run.until(6.0);
+  return moved(before, run.now(), 0.1);
+}
+
+struct Ball {
+  double vx, vy;
+};
+class BallAtWall : public testing::TestWithParam<Ball> {};
+
+TEST_P(BallAtWall, MovesAsManyBodiesAsInTheReference) {
+  const Vec2 velocity(GetParam().vx, GetParam().vy);
+  const int reference = movedByBall(Mode::Reference, velocity, 100);
+  EXPECT_GT(reference, 5);
+  for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+    EXPECT_NEAR(movedByBall(mode, velocity, 100), reference, std::max(4.0, 0.25 * reference))
+        << name(mode);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Speeds, BallAtWall,
+                         testing::Values(Ball{9, 1}, Ball{10, 1}, Ball{12, 1}, Ball{15, 1},
+                                         Ball{20, 1}, Ball{30, 8}));
+
+/// A joint that carries nothing slides as one on the edge of its cone does: three such joints held
+/// a row at 3 m/s to the one below, and the wall swallowed the ball.
+TEST(Blow, JointsThatCarryNothingHoldNothing) {
+  const int reference = movedByBall(Mode::Reference, {12.0, 1.0}, 200);
+  EXPECT_NEAR(movedByBall(Mode::Merge, {12.0, 1.0}, 200), reference, 0.25 * reference);
+}
+
+/// A ball that ends a step just short of the wall has been slowed down by then, and is no new
+/// contact in the next one.
+TEST(Blow, IsFeltWhenItHitsTheWallInTheSecondStepOfItsContact) {
+  EXPECT_EQ(movedByBall(Mode::Reference, {9.0, 1.0}, 150), 12);
+  EXPECT_EQ(movedByBall(Mode::MergeSleep, {9.0, 1.0}, 150), 12);
+}
+
+/// Bodies that have moved by 1 cm two seconds after a brick of a wall of 120 was struck.
+int movedByKick(Mode mode, std::uint32_t body, const Vec2& impulse) {
+  Scene scene = wall(12, 10);
+  scene.settings.solver.iterations = 50;
+  Simulation run(scene, mode);
+  run.until(2.5);
+  const Snapshot before = run.now();
+  run.world().applyImpulse(BodyId{body}, before.bodies[body].x, impulse);
+  run.until(4.5);
+  return moved(before, run.now(), 0.01);
+}
+
+/// The sweep lifts what stands above by little between each two bricks, but by much in all.
+TEST(Blow, LiftsWhatStandsAbove) {
+  for (const auto& [body, impulse] :
+       std::map<std::uint32_t, Vec2>{{25, {-55.9, 14.9}}, {55, {-14.0, -6.7}}}) {
+    const int reference = movedByKick(Mode::Reference, body, impulse);
+    EXPECT_GE(reference, 10) << body;
+    for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+      EXPECT_NEAR(movedByKick(mode, body, impulse), reference, 0.4 * reference)
+          << name(mode) << body;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace merge2d
