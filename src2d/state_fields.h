@@ -152,11 +152,13 @@ void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, grip,
          pivots, leaning, cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks,
          welds, weld_at, weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up,
-         struck, refusals, patience, lingering, residual, settled, refuted] = c;
+         struck, refusals, patience, hastened_in, hastened_every, lingering, residual, settled,
+         refuted] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, grip,
      pivots, leaning, cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks,
      welds, weld_at, weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up,
-     struck, refusals, patience, lingering, residual, settled, refuted);
+     struck, refusals, patience, hastened_in, hastened_every, lingering, residual, settled,
+     refuted);
 }
 
 template <class Ar>

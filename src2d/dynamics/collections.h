@@ -139,10 +139,12 @@ struct Collection {
   std::int16_t struck = 0;     ///< the same, since something hit it
   std::int8_t refusals = 0;  ///< times in a row that nothing which seemed to part would have moved
   std::int8_t patience = 0;  ///< steps before that is asked again
-  float lingering = 0.0F;    ///< what the last refinement did not quieten [m/s]
-  float residual = 0.0F;     ///< largest change of a member's velocity in the last sweep [m/s]
-  bool settled = false;      ///< inner forces did not change in the last sweep
-  bool refuted = false;      ///< a closer look found that nothing parts, and nothing is new
+  std::int16_t hastened_in = 0;     ///< steps before slow sweeps are hastened (slow_sweep.h)
+  std::int16_t hastened_every = 0;  ///< and how many there were the last time
+  float lingering = 0.0F;           ///< what the last refinement did not quieten [m/s]
+  float residual = 0.0F;  ///< largest change of a member's velocity in the last sweep [m/s]
+  bool settled = false;   ///< inner forces did not change in the last sweep
+  bool refuted = false;   ///< a closer look found that nothing parts, and nothing is new
 };
 
 /// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.

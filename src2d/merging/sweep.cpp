@@ -11,6 +11,7 @@
 #include "src2d/merging/ordering.h"
 #include "src2d/merging/refine.h"
 #include "src2d/merging/sleep.h"
+#include "src2d/merging/slow_sweep.h"
 
 namespace merge2d {
 namespace {
@@ -148,7 +149,11 @@ double sweepOnce(const State& state, Collection& c, Scratch& scratch) {
   if (awaitsInnerForces(state, scratch, c.rigid)) {
     sweepInside(state, c, scratch, settings.disturbed_sweeps);
   }
-  const double change = sweepInside(state, c, scratch, settings.sweeps);
+  double change = sweepInside(state, c, scratch, settings.sweeps);
+  if (refines(settings) && hastenSweeps(state, c, scratch)) {
+    change = sweepInside(state, c, scratch, settings.sweeps);
+    layOutPush(state, c);
+  }
   c.residual = static_cast<float>(change);
   c.settled = change <= kSettled * residualVelocity(state);
   if (refines(settings)) follow(state, c, scratch, change);
