@@ -118,7 +118,7 @@ struct Scratch {
   std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
   std::vector<std::uint8_t> disturbed;        ///< per collection slot
   std::vector<std::uint8_t> restless_bodies;  ///< per body: a sweep still changes it
-  std::vector<std::uint8_t> shaken;           ///< per body: more sweeps changed it in this step
+  std::vector<std::uint8_t> shaken;           ///< per body: further sweeps changed it in this step
 
   // Unmerge
   bool split = false;                  ///< some collection was taken apart

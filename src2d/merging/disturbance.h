@@ -10,7 +10,8 @@ namespace merge2d {
 /// A disturbance is followed for so many steps after the last sign of it.
 inline constexpr std::int16_t kFollowed = 10;
 
-/// A contact that was open in the last step and closes in this one.
+/// A contact that was open in the last step and closes in this one; or that slowed its bodies down
+/// then, being near, and is hit with the rest now.
 bool closesAnew(const State& state, const Contact& contact);
 
 /// ContactOrdering: the bodies at which something is new: a fresh contact that closes in this step,
