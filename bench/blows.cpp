@@ -1,0 +1,154 @@
+/// Random blows on things that stand, merged and in the reference side by side: how often does
+/// merging get it grossly wrong?
+///
+///   blows [--cases N] [--seed N] [--iterations N] [--quiet]
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "src2d/world.h"
+
+namespace merge2d::bench {
+namespace {
+
+BodyDesc box(const std::string& name, double width, double height, const Vec2& at) {
+  BodyDesc body;
+  body.name = name;
+  body.at = at;
+  const Vec2 h(0.5 * width, 0.5 * height);
+  body.shapes = {Polygon{{{-h.x(), -h.y()}, {h.x(), -h.y()}, h, {-h.x(), h.y()}}}};
+  return body;
+}
+
+/// Boxes of 1 m on the ground; `rows` of `columns`, each row moved by `shift` [m] against the last,
+/// or one box shorter.
+struct Kind {
+  const char* name;
+  int rows, columns;
+  double shift;
+  bool tapers;
+};
+constexpr std::array kKinds{
+    Kind{"wall", 12, 10, 0.5, false},  Kind{"low wall", 6, 4, 0.5, false},
+    Kind{"column", 10, 1, 0.0, false}, Kind{"pyramid", 8, 8, 0.5, true},
+    Kind{"row", 1, 10, 0.0, false},    Kind{"columns", 8, 3, 0.0, false},
+};
+
+Scene sceneOf(const Kind& kind, int iterations) {
+  Scene scene;
+  scene.settings.solver.iterations = iterations;
+  BodyDesc ground = box("ground", 200.0, 1.0, {0.0, -0.5});
+  ground.motion = Motion::Pinned;
+  scene.bodies.push_back(ground);
+  for (int row = 0; row < kind.rows; ++row) {
+    const int columns = kind.tapers ? kind.columns - row : kind.columns;
+    const double left = kind.shift * (kind.tapers ? row : row % 2);
+    for (int column = 0; column < columns; ++column) {
+      const std::string name = fmt::format("box[{},{}]", column, row);
+      scene.bodies.push_back(box(name, 1.0, 1.0, {left + column, 0.5 + row}));
+    }
+  }
+  return scene;
+}
+
+/// The same on every machine: distributions of the library are not.
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  std::size_t below(std::size_t n) { return engine_() % n; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+struct Blow {
+  BodyId body{};
+  Vec2 impulse = Vec2::Zero();  ///< [N s]
+};
+
+Blow randomBlow(Random& random, std::size_t bodies) {
+  const BodyId body{static_cast<std::uint32_t>(1 + random.below(bodies - 1))};
+  const double side = random.below(2) == 0 ? 0.0 : std::numbers::pi;
+  const double angle = random.below(5) == 0 ? random.between(0.0, 2.0 * std::numbers::pi)
+                                            : side + random.between(-0.6, 0.6);
+  const double size = std::exp(random.between(0.0, std::log(200.0)));
+  return {body, size * Vec2(std::cos(angle), std::sin(angle))};
+}
+
+/// Bodies that have moved by 1 cm 0.05, 0.5 and 2 s after the blow.
+std::array<int, 3> movedAfter(const Scene& scene, Mode mode, const Blow& blow) {
+  World world(scene, {.mode = mode, .timings = false});
+  for (int i = 0; i < 250; ++i) world.step();
+  const Snapshot before = world.capture();
+  world.applyImpulse(blow.body, before.bodies[index(blow.body)].x, blow.impulse);
+  std::array<int, 3> moved{};
+  int steps = 0;
+  const std::array until{5, 50, 200};
+  for (std::size_t k = 0; k < until.size(); ++k) {
+    for (; steps < until[k]; ++steps) world.step();
+    const Snapshot now = world.capture();
+    for (std::size_t b = 0; b < now.bodies.size(); ++b) {
+      moved[k] += (now.bodies[b].x - before.bodies[b].x).norm() > 0.01 ? 1 : 0;
+    }
+  }
+  return moved;
+}
+
+/// Half as many as in the reference, or twice as many; of few some more or less do not count.
+bool isOff(int moved, int reference) {
+  if (reference < 4) return moved > reference + 4;
+  return 2 * moved < reference || moved > 2 * reference + 1;
+}
+
+struct Options {
+  int cases = 120, iterations = 30;
+  unsigned seed = 1;
+  bool quiet = false;
+};
+
+void run(const Options& options) {
+  int off = 0;
+  for (int i = 0; i < options.cases; ++i) {
+    const Kind& kind = kKinds[static_cast<std::size_t>(i) % kKinds.size()];
+    const Scene scene = sceneOf(kind, options.iterations);
+    Random random(options.seed + static_cast<unsigned>(i));
+    const Blow blow = randomBlow(random, scene.bodies.size());
+    const auto reference = movedAfter(scene, Mode::Reference, blow);
+    const auto merged = movedAfter(scene, Mode::Merge, blow);
+    bool wrong = false;
+    for (std::size_t k = 0; k < 3; ++k) wrong |= isOff(merged[k], reference[k]);
+    off += wrong ? 1 : 0;
+    if (options.quiet) continue;
+    fmt::print("{} {:8} {:12} {:7.1f} {:7.1f} N s: moved {}/{} {}/{} {}/{}\n",
+               wrong ? "OFF" : "ok ", kind.name, scene.bodies[index(blow.body)].name,
+               blow.impulse.x(), blow.impulse.y(), merged[0], reference[0], merged[1], reference[1],
+               merged[2], reference[2]);
+  }
+  fmt::print(
+      "{} of {} blows with {} iterations move half or twice as many bodies as in the "
+      "reference.\n",
+      off, options.cases, options.iterations);
+}
+
+}  // namespace
+}  // namespace merge2d::bench
+
+int main(int argc, char** argv) {
+  merge2d::bench::Options options;
+  CLI::App app{"Random blows, merged and in the reference"};
+  app.add_option("--cases", options.cases, "How many");
+  app.add_option("--seed", options.seed, "Of the first one");
+  app.add_option("--iterations", options.iterations, "Of the solver, in both");
+  app.add_flag("--quiet", options.quiet, "Only the sum");
+  CLI11_PARSE(app, argc, argv);
+  merge2d::bench::run(options);
+  return 0;
+}
