@@ -133,8 +133,8 @@ void run(const Options& options) {
                merged[2], reference[2]);
   }
   fmt::print(
-      "{} of {} blows with {} iterations move half or twice as many bodies as in the "
-      "reference.\n",
+      "{} of {} blows with {} iterations move fewer than half or more than twice as many bodies as "
+      "in the reference.\n",
       off, options.cases, options.iterations);
 }
 
