@@ -20,8 +20,7 @@ BodyDesc box(const std::string& name, double width, double height, const Vec2& a
   BodyDesc body;
   body.name = name;
   body.at = at;
-  const Vec2 h(0.5 * width, 0.5 * height);
-  body.shapes = {Polygon{{{-h.x(), -h.y()}, {h.x(), -h.y()}, h, {-h.x(), h.y()}}}};
+  body.shapes = {makeBox(width, height)};
   return body;
 }
 
