@@ -36,6 +36,8 @@ class Nncg {
         m_(buffers) {
     reserveTightly(m_.before, blocks);
     reserveTightly(m_.direction, blocks);
+    reserveTightly(m_.u_before, bodies);
+    reserveTightly(m_.u_direction, bodies);
     m_.before.resize(std::max(m_.before.size(), blocks));
     m_.u_before.resize(std::max(m_.u_before.size(), bodies));
     m_.direction.resize(m_.before.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src2d/core/memory.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/joint_sweep.h"
@@ -92,6 +93,7 @@ void addOuterContact(const State& state, const Contact& contact, std::uint32_t s
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
   k.bilateral = isBilateral(state, a, b);
   prepareBlock(k, g, ua, ub);
+  reserveTightly(scratch.sweep_contacts, scratch.sweep_contacts.size() + 1);
   scratch.sweep_contacts.push_back(outer);
 }
 
@@ -150,6 +152,7 @@ void warmStartOuter(const State& state, Scratch& scratch) {
     near[index(contact.key.a)] = near[index(contact.key.b)] = 1;
     addOuterContact(state, contact, slot, scratch);
   });
+  trim(scratch.sweep_contacts);
   if (!state.joints.empty()) listSweepJoints(state, scratch);
   std::size_t row = 0;
   forEach([&](ContactTable::Slot slot, const Contact& contact) {
