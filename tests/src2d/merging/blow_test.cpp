@@ -8,22 +8,6 @@
 namespace merge2d {
 namespace {
 
-/// Bodies that a ball of 10 kg has moved by 10 cm, 3.5 s after it was let go at a wall of 120.
-int movedByBall(Mode mode, const Vec2& velocity, int iterations) {
-  Scene scene = wall(12, 10);
-  scene.settings.solver.iterations = iterations;
-  BodyDesc ball = disc(0.5, {-9.0, 4.0});
-  ball.mass = 10.0;
-  ball.velocity = velocity;
-  ball.pinned_until = 2.5;
-  add(scene, named("ball", ball));
-  Simulation run(scene, mode);
-  run.until(2.5);
-  const Snapshot before = run.now();
-  run.until(6.0);
-  return moved(before, run.now(), 0.1);
-}
-
 /// Which bricks fall is chaos at each single speed: all together tell. None may be swallowed.
 TEST(Blow, BallsMoveAsManyBodiesAsInTheReference) {
   std::map<Mode, int> moved;

@@ -86,6 +86,22 @@ inline int moved(const Snapshot& before, const Snapshot& after, double distance)
   return count;
 }
 
+/// Bodies that a ball of 10 kg has moved by 10 cm, 3.5 s after it was let go at a wall of 120.
+inline int movedByBall(Mode mode, const Vec2& velocity, int iterations) {
+  Scene scene = wall(12, 10);
+  scene.settings.solver.iterations = iterations;
+  BodyDesc ball = disc(0.5, {-9.0, 4.0});
+  ball.mass = 10.0;
+  ball.velocity = velocity;
+  ball.pinned_until = 2.5;
+  add(scene, named("ball", ball));
+  Simulation run(scene, mode);
+  run.until(2.5);
+  const Snapshot before = run.now();
+  run.until(6.0);
+  return moved(before, run.now(), 0.1);
+}
+
 /// The force along the normal between two bodies [N].
 inline double normalForce(const Snapshot& now, BodyId a, BodyId b, double h) {
   double force = 0.0;
