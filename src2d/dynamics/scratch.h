@@ -117,6 +117,7 @@ struct Scratch {
   std::vector<JointBlock> sweep_joints;       ///< outside collections
   std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
   std::vector<std::uint8_t> disturbed;        ///< per collection slot
+  std::vector<std::uint8_t> push_stale;       ///< per collection slot: swept since it was found
   std::vector<std::uint8_t> restless_bodies;  ///< per body: a sweep still changes it
   std::vector<std::uint8_t> shaken;           ///< per body: further sweeps changed it in this step
 

@@ -11,6 +11,7 @@
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/group_notes.h"
 #include "src2d/merging/ready_pairs.h"
+#include "src2d/merging/sweep.h"
 
 namespace merge2d {
 namespace {
@@ -83,12 +84,17 @@ bool weld(State& state, Floors& floors, const BodyPair& pair) {
   return true;
 }
 
+void finishCollections(State& state, Scratch& scratch) {
+  renewPushes(state, scratch);
+  layOutCollections(state);
+}
+
 }  // namespace
 
 void merge(State& state, Scratch& scratch) {
   if (!merges(state.mode)) return;
   const auto pairs = pairsToWeld(state, scratch);
-  if (pairs.empty()) return layOutCollections(state);
+  if (pairs.empty()) return finishCollections(state, scratch);
   Floors floors(state);
   for (const BodyPair& pair : pairs) {
     if (!weld(state, floors, pair)) continue;
@@ -98,7 +104,7 @@ void merge(State& state, Scratch& scratch) {
         {EventType::Merge, pair.a, pair.b, state.collection(id).id, EventReason::None});
   }
   absorbContacts(state);
-  layOutCollections(state);
+  finishCollections(state, scratch);
   dropFreeSlots(state);
   compactContacts(state.contacts);
   collectPairs(state, scratch);

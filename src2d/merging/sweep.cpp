@@ -189,7 +189,7 @@ void sweepBreadthFirst(State& state, Scratch& scratch) {
     }
   }
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
-    if (scratch.disturbed[slot]) layOutPush(state, state.collections[slot]);
+    scratch.push_stale[slot] = scratch.disturbed[slot];
   }
 }
 
@@ -214,7 +214,7 @@ void refineDisturbed(State& state, Scratch& scratch, double blow) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
     settleJoints(state, c, scratch.sweep_u, residualVelocity(state));
-    layOutPush(state, c);
+    scratch.push_stale[slot] = 1;
     c.settled = false;
     const float left = static_cast<float>(change);
     c.lingering = change <= enough ? 0.0F : std::min(left, kOwn * c.residual);
@@ -267,6 +267,7 @@ bool isSwept(const State& state, const Collection& c) {
 
 void sweepCollections(State& state, Scratch& scratch) {
   if (!scratch.sweeping) return;
+  scratch.push_stale.assign(state.collections.size(), 0);
   const bool literal = state.settings.unmerging.rule == Rule::Paper;
   if (literal && !scratch.seeds.empty()) {
     sweepBreadthFirst(state, scratch);
@@ -295,7 +296,16 @@ void sweepAgain(State& state, Scratch& scratch, Collection& c) {
   c.residual = static_cast<float>(change);
   settleJoints(state, c, scratch.sweep_u, residualVelocity(state));
   if (!state.joints.empty()) keepJointForces(state, scratch);
-  layOutPush(state, c);
+  scratch.push_stale[index(c.rigid) - state.bodies.size()] = 1;
+}
+
+void renewPushes(State& state, Scratch& scratch) {
+  const std::size_t slots = std::min(scratch.push_stale.size(), state.collections.size());
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    Collection& c = state.collections[slot];
+    if (scratch.push_stale[slot] && c.id != kNoCollection && !c.stale) layOutPush(state, c);
+  }
+  scratch.push_stale.clear();
 }
 
 }  // namespace merge2d
