@@ -81,6 +81,13 @@ struct NncgBuffers {
   std::vector<Twist> u_before, u_direction;  ///< per body
 };
 
+/// A contact of a collection with its frame, acting on the collection as one body.
+struct Foot {
+  ContactBlock block;
+  BodyId ground{};     ///< the frame's body
+  bool first = false;  ///< the collection is a, not b
+};
+
 /// Lives for one step; its memory is kept.
 struct Scratch {
   std::vector<Load> loads;
@@ -122,6 +129,7 @@ struct Scratch {
   std::vector<std::uint8_t> shaken;           ///< per body: further sweeps changed it in this step
 
   // Unmerge
+  std::vector<Foot> feet;              ///< of the collection at hand
   bool split = false;                  ///< some collection was taken apart
   std::vector<std::uint32_t> doubted;  ///< bodies at welds that may part
   std::vector<std::uint32_t> leant;    ///< bridges that leaned in the last step, see WeldTest

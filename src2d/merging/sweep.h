@@ -17,8 +17,8 @@ void sweepCollections(State& state, Scratch& scratch);
 /// on, before one of its welds is cut.
 void sweepAgain(State& state, Scratch& scratch, Collection& collection);
 
-/// Computes anew what the inner forces do to members, where more sweeps have changed them: once in a
-/// step, and not where all is laid out anew.
+/// Computes anew what the inner forces do to members, where more sweeps have changed them: once in
+/// a step, and not where all is laid out anew.
 void renewPushes(State& state, Scratch& scratch);
 
 /// True for a collection whose inner forces are swept in this step.

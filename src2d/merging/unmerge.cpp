@@ -5,6 +5,7 @@
 
 #include "src2d/contact/detection.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/footing.h"
 #include "src2d/merging/group_notes.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/kicked.h"
@@ -125,6 +126,33 @@ bool confirms(const State& state) {
   return settings.rule == Rule::Default && settings.ordering;
 }
 
+/// Parts a collection from the frame on which, as one body, it cannot stay.
+bool leavesFrame(State& state, Scratch& scratch, Tested& tested) {
+  Collection& c = state.collections[tested.slot];
+  const Footing footing = footingOf(state, scratch, c);
+  if (!footing.gives()) return false;
+  const auto frame = static_cast<std::uint32_t>(c.members.size());
+  for (std::uint32_t k = c.weld_at[frame]; k < c.weld_at[frame + 1]; ++k) {
+    Weld& weld = c.welds[c.weld_of[k]];
+    weld.cut = true;
+    weld.reason = EventReason::RelativeMotion;
+    c.cut_welds.push_back(c.weld_of[k]);
+    if (!scratch.notes) continue;
+    scratch.notes->decisions.push_back({.a = weld.a,
+                                        .b = weld.b,
+                                        .stage = "Unmerge",
+                                        .criterion = "relative-motion",
+                                        .equation = "(17)",
+                                        .value = footing.speed,
+                                        .threshold = footing.enough,
+                                        .count = 1,
+                                        .verdict = "unmerge"});
+  }
+  tested.noted.close();
+  tested.parts = judge(state, scratch, c);
+  return true;
+}
+
 /// Tests the welds of one collection, and finds what it falls into.
 void testCollection(State& state, Scratch& scratch, Tested& tested) {
   const std::size_t slot = tested.slot;
@@ -133,6 +161,7 @@ void testCollection(State& state, Scratch& scratch, Tested& tested) {
   for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
   c.cut_welds.clear();
   if (anyJointBreaks(state, c) && breakInside(state, scratch, c)) return;
+  if (confirms(state) && leavesFrame(state, scratch, tested)) return;
   const bool joints_loosened = loosenJoints(state, c, scratch.sweep_u);
   if (joints_loosened) doubtJoints(scratch, c);
   WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
