@@ -213,9 +213,10 @@ class Explainer {
                              who, atStep(), last.count, test(last));
     } else {
       out.outcome = Outcome::Waiting;
-      out.text =
-          fmt::format("{} wait {}: they passed every test, but only for {} of {} steps. {}.", who,
-                      atStep(), last.count, last.needed, sentence(because(out.tests, {"below"})));
+      const std::string tests = sentence(because(out.tests, {"below"}));
+      out.text = fmt::format("{} wait {}: they passed every test, but only for {} of {} steps.{}",
+                             who, atStep(), last.count, last.needed,
+                             tests.empty() ? "" : fmt::format(" {}.", tests));
     }
   }
 

@@ -115,6 +115,30 @@ Awake reasonToStay(const State& state, std::size_t i, bool restless) {
   return settled ? kNothing : kInnerForces;
 }
 
+/// True while a pair of which one is free counts the steps until it merges, or those before it may
+/// be looked at again: asleep it would never merge.
+bool isAboutToMerge(const State& state, const BodyPair& pair) {
+  if (!merges(state.mode) || state.rigid(pair.a).asleep || state.rigid(pair.b).asleep) return false;
+  const auto free = [&](BodyId b) {
+    return state.rigid(b).floating() && !state.isCollection(state[b].rigid);
+  };
+  if (!free(pair.a) && !free(pair.b)) return false;
+  const int quiet = state.contacts[state.contacts.order[pair.first]].quiet_steps;
+  return quiet != 0 && quiet < state.settings.merging.steps;
+}
+
+/// Keeps the islands of those awake.
+void awaitMerges(const State& state, Scratch& scratch) {
+  for (const BodyPair& pair : scratch.pairs) {
+    if (!isAboutToMerge(state, pair)) continue;
+    for (const BodyId b : {pair.a, pair.b}) {
+      const std::size_t i = index(state[b].rigid);
+      if (!canSleep(state.rigids[i], state, i)) continue;
+      scratch.island_awake[scratch.sets.find(static_cast<std::uint32_t>(i))] = kMotion;
+    }
+  }
+}
+
 }  // namespace
 
 void wakeUp(State& state, Scratch& scratch, RigidId id) {
@@ -162,6 +186,7 @@ void sleepAndWake(State& state, Scratch& scratch) {
     std::uint8_t& island = awake[sets.find(static_cast<std::uint32_t>(i))];
     island = std::max<std::uint8_t>(island, reasonToStay(state, i, restless[i] != 0));
   }
+  awaitMerges(state, scratch);
   bool any = false;
   for (const RigidId id : state.present) {
     const std::size_t i = index(id);

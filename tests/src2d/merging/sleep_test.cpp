@@ -1,5 +1,6 @@
 #include "src2d/merging/sleep.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/src2d/merging/merging_testing.h"
@@ -46,6 +47,22 @@ TEST(Sleep, APileFallsAsleepAndThenCostsNothing) {
     EXPECT_EQ(stats.active_bodies, 0);
     EXPECT_EQ(stats.contacts, 0);
     EXPECT_EQ(stats.internal_contacts, 0);
+  }
+}
+
+/// On hard contacts they stop within a step of landing, and are at rest for long enough to sleep
+/// before they have merged. Asleep they would be asked nothing any more.
+TEST(Sleep, WaitsForWhatIsAboutToMerge) {
+  std::string toml = kGround;
+  for (int i = 0; i < 60; ++i) {
+    toml += fmt::format("[[body]]\nname = \"box{}\"\nat = [{}, {}]\nbox = [0.2, 0.2]\n", i,
+                        3 * i - 90, 0.1 + 0.03 * i);
+  }
+  Simulation run(toml, Mode::MergeSleep, {{"solver.compliance", "1e-6"}});
+  run.until(3.0);
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_TRUE(run.body(fmt::format("box{}", i)).asleep) << i;
+    EXPECT_TRUE(run.merged(fmt::format("box{}", i))) << i;
   }
 }
 
