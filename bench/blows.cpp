@@ -9,20 +9,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 
+#include "bench/random_scene.h"
 #include "src2d/world.h"
 
 namespace merge2d::bench {
 namespace {
-
-BodyDesc box(const std::string& name, double width, double height, const Vec2& at) {
-  BodyDesc body;
-  body.name = name;
-  body.at = at;
-  body.shapes = {makeBox(width, height)};
-  return body;
-}
 
 /// Boxes of 1 m on the ground; `rows` of `columns`, each row moved by `shift` [m] against the last,
 /// or one box shorter.
@@ -54,19 +46,6 @@ Scene sceneOf(const Kind& kind, int iterations) {
   }
   return scene;
 }
-
-/// The same on every machine: distributions of the library are not.
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
-  }
-  std::size_t below(std::size_t n) { return engine_() % n; }
-
- private:
-  std::mt19937 engine_;
-};
 
 struct Blow {
   BodyId body{};

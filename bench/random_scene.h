@@ -1,0 +1,33 @@
+#pragma once
+/// What random scenes are made from.
+
+#include <cstddef>
+#include <random>
+#include <string>
+
+#include "src2d/scene/scene.h"
+
+namespace merge2d::bench {
+
+inline BodyDesc box(const std::string& name, double width, double height, const Vec2& at) {
+  BodyDesc body;
+  body.name = name;
+  body.at = at;
+  body.shapes = {makeBox(width, height)};
+  return body;
+}
+
+/// The same on every machine: distributions of the library are not.
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  std::size_t below(std::size_t n) { return engine_() % n; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+}  // namespace merge2d::bench
