@@ -198,6 +198,21 @@ TEST(World, AHeapHoldsLessThanTwoKilobytesPerBody) {
   }
 }
 
+/// Buffers are given back at each merge: no step tells for all.
+TEST(World, AHeapHoldsLessThanTwoKilobytesPerBodyOnAverage) {
+  for (const Mode mode : {Mode::Reference, Mode::MergeSleep}) {
+    const Scene scene = heap(12, 15);
+    World world(scene, inMode(mode));
+    runSteps(world, 350);
+    std::size_t sum = 0;
+    for (int i = 0; i < 50; ++i) {
+      world.step();
+      sum += world.memoryBytes();
+    }
+    EXPECT_LT(sum / 50 / scene.bodies.size(), 2000u) << name(mode);
+  }
+}
+
 TEST(World, AGivenSceneIsSharedNotCopied) {
   const auto scene = std::make_shared<const Scene>(column(2));
   const World world(scene, inMode(Mode::Reference));

@@ -198,6 +198,13 @@ TEST_P(RowHit, MovesAsInAReferenceThatHasConverged) {
   expectNear(rowHit(Mode::Merge, GetParam(), converged),
              rowHit(Mode::Reference, GetParam(), converged), 0.02);
 }
+TEST_P(RowHit, MovesAsInAReferenceThatHasNotConverged) {
+  const auto reference = rowHit(Mode::Reference, GetParam());
+  const auto merged = rowHit(Mode::Merge, GetParam());
+  const double enough = std::max(0.05 * reference.first, 0.002);  // 0.4% of a box
+  EXPECT_NEAR(merged.first, reference.first, enough);
+  EXPECT_NEAR(merged.second, reference.second, enough);
+}
 INSTANTIATE_TEST_SUITE_P(Impulses, RowHit, testing::Values(1.0, 3.0, 10.0));
 
 // ---- forces ----
