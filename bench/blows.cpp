@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -86,25 +85,19 @@ bool isOff(int moved, int reference) {
   return 2 * moved < reference || moved > 2 * reference + 1;
 }
 
-struct Options {
-  int cases = 120, iterations = 30;
-  unsigned seed = 1;
-  bool quiet = false;
-};
-
-void run(const Options& options) {
+void run(const Cases& cases, int iterations) {
   int off = 0;
-  for (int i = 0; i < options.cases; ++i) {
+  for (int i = 0; i < cases.count; ++i) {
     const Kind& kind = kKinds[static_cast<std::size_t>(i) % kKinds.size()];
-    const Scene scene = sceneOf(kind, options.iterations);
-    Random random(options.seed + static_cast<unsigned>(i));
+    const Scene scene = sceneOf(kind, iterations);
+    Random random = cases.random(i);
     const Blow blow = randomBlow(random, scene.bodies.size());
     const auto reference = movedAfter(scene, Mode::Reference, blow);
     const auto merged = movedAfter(scene, Mode::Merge, blow);
     bool wrong = false;
     for (std::size_t k = 0; k < 3; ++k) wrong |= isOff(merged[k], reference[k]);
     off += wrong ? 1 : 0;
-    if (options.quiet) continue;
+    if (cases.quiet) continue;
     fmt::print("{} {:8} {:12} {:7.1f} {:7.1f} N s: moved {}/{} {}/{} {}/{}\n",
                wrong ? "OFF" : "ok ", kind.name, scene.bodies[index(blow.body)].name,
                blow.impulse.x(), blow.impulse.y(), merged[0], reference[0], merged[1], reference[1],
@@ -113,20 +106,19 @@ void run(const Options& options) {
   fmt::print(
       "{} of {} blows with {} iterations move fewer than half or more than twice as many bodies as "
       "in the reference.\n",
-      off, options.cases, options.iterations);
+      off, cases.count, iterations);
 }
 
 }  // namespace
 }  // namespace merge2d::bench
 
 int main(int argc, char** argv) {
-  merge2d::bench::Options options;
   CLI::App app{"Random blows, merged and in the reference"};
-  app.add_option("--cases", options.cases, "How many");
-  app.add_option("--seed", options.seed, "Of the first one");
-  app.add_option("--iterations", options.iterations, "Of the solver, in both");
-  app.add_flag("--quiet", options.quiet, "Only the sum");
+  merge2d::bench::Cases cases{.count = 120};
+  int iterations = 30;
+  app.add_option("--iterations", iterations, "Of the solver, in both");
+  cases.addTo(app);
   CLI11_PARSE(app, argc, argv);
-  merge2d::bench::run(options);
+  merge2d::bench::run(cases, iterations);
   return 0;
 }

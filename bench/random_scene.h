@@ -1,6 +1,7 @@
 #pragma once
 /// What random scenes are made from.
 
+#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <random>
 #include <string>
@@ -28,6 +29,20 @@ class Random {
 
  private:
   std::mt19937 engine_;
+};
+
+/// Which random scenes to make, and how much to say of them.
+struct Cases {
+  int count = 0;
+  unsigned seed = 1;
+  bool quiet = false;
+
+  void addTo(CLI::App& app) {
+    app.add_option("--cases", count, "How many");
+    app.add_option("--seed", seed, "Of the first one");
+    app.add_flag("--quiet", quiet, "Only the sum");
+  }
+  Random random(int number) const { return Random(seed + static_cast<unsigned>(number)); }
 };
 
 }  // namespace merge2d::bench

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -82,17 +81,11 @@ double angleOfFall(const Scene& scene, Mode mode, double rate) {
   return angle();
 }
 
-struct Options {
-  int cases = 80;
-  unsigned seed = 1;
-  bool quiet = false;
-};
-
-void run(const Options& options) {
+void run(const Cases& cases) {
   int early = 0, late = 0;
   double sum = 0.0;
-  for (int i = 0; i < options.cases; ++i) {
-    Random random(options.seed + static_cast<unsigned>(i));
+  for (int i = 0; i < cases.count; ++i) {
+    Random random = cases.random(i);
     const Wall wall = randomWall(random);
     Scene scene = sceneOf(wall);
     const double merged = angleOfFall(scene, Mode::Merge, wall.rate);
@@ -103,7 +96,7 @@ void run(const Options& options) {
     early += off < -1.0 ? 1 : 0;
     late += off > 1.0 ? 1 : 0;
     sum += std::abs(off);
-    if (options.quiet) continue;
+    if (cases.quiet) continue;
     fmt::print(
         "{} {:2}x{:<2} shift {:4} m, height {:3} m, friction {}, {:3} deg/s: {:5.2f}, "
         "reference {:5.2f} deg\n",
@@ -111,19 +104,17 @@ void run(const Options& options) {
         wall.friction, wall.rate, merged, reference);
   }
   fmt::print("Of {} walls {} fall more than a degree early, {} late; {:.2f} degrees on average.\n",
-             options.cases, early, late, sum / options.cases);
+             cases.count, early, late, sum / cases.count);
 }
 
 }  // namespace
 }  // namespace merge2d::bench
 
 int main(int argc, char** argv) {
-  merge2d::bench::Options options;
   CLI::App app{"Random walls on a ground that tilts, merged and in the reference"};
-  app.add_option("--cases", options.cases, "How many");
-  app.add_option("--seed", options.seed, "Of the first one");
-  app.add_flag("--quiet", options.quiet, "Only the sum");
+  merge2d::bench::Cases cases{.count = 80};
+  cases.addTo(app);
   CLI11_PARSE(app, argc, argv);
-  merge2d::bench::run(options);
+  merge2d::bench::run(cases);
   return 0;
 }

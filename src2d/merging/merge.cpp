@@ -84,6 +84,7 @@ bool weld(State& state, Floors& floors, const BodyPair& pair) {
   return true;
 }
 
+/// Brings up to date what the next sweep starts from.
 void finishCollections(State& state, Scratch& scratch) {
   renewPushes(state, scratch);
   layOutCollections(state);

@@ -152,7 +152,7 @@ double sweepOnce(const State& state, Collection& c, Scratch& scratch) {
   double change = sweepInside(state, c, scratch, settings.sweeps);
   if (refines(settings) && hastenSweeps(state, c, scratch)) {
     change = sweepInside(state, c, scratch, settings.sweeps);
-    layOutPush(state, c);
+    scratch.push_stale[index(c.rigid) - state.bodies.size()] = 1;
   }
   c.residual = static_cast<float>(change);
   c.settled = change <= kSettled * residualVelocity(state);
