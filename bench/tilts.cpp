@@ -1,5 +1,7 @@
 /// Random walls on a ground that tilts slowly, merged and in a hard reference that has converged:
-/// at which angle do they fall?
+/// at which angle do they fall? Soft contacts lean, and what has parted is as soft as in the
+/// reference with the same settings, which falls before the hard one: early is what falls before
+/// both.
 ///
 ///   tilts [--cases N] [--seed N] [--quiet]
 
@@ -89,19 +91,20 @@ void run(const Cases& cases) {
     const Wall wall = randomWall(random);
     Scene scene = sceneOf(wall);
     const double merged = angleOfFall(scene, Mode::Merge, wall.rate);
+    const double soft = angleOfFall(scene, Mode::Reference, wall.rate);
     scene.settings.solver.iterations = 200;
     scene.settings.solver.compliance = 1e-5;
     const double reference = angleOfFall(scene, Mode::Reference, wall.rate);
-    const double off = merged - reference;
+    const double off = merged - std::clamp(merged, std::min(soft, reference), reference);
     early += off < -1.0 ? 1 : 0;
     late += off > 1.0 ? 1 : 0;
     sum += std::abs(off);
     if (cases.quiet) continue;
     fmt::print(
         "{} {:2}x{:<2} shift {:4} m, height {:3} m, friction {}, {:3} deg/s: {:5.2f}, "
-        "reference {:5.2f} deg\n",
+        "reference {:5.2f} deg, soft {:5.2f} deg\n",
         std::abs(off) > 1.0 ? "OFF" : "ok ", wall.columns, wall.rows, wall.shift, wall.height,
-        wall.friction, wall.rate, merged, reference);
+        wall.friction, wall.rate, merged, reference, soft);
   }
   fmt::print("Of {} walls {} fall more than a degree early, {} late; {:.2f} degrees on average.\n",
              cases.count, early, late, sum / cases.count);

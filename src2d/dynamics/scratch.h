@@ -81,11 +81,20 @@ struct NncgBuffers {
   std::vector<Twist> u_before, u_direction;  ///< per body
 };
 
-/// A contact of a collection with its frame, acting on the collection as one body.
-struct Foot {
-  ContactBlock block;
-  BodyId ground{};     ///< the frame's body
-  bool first = false;  ///< the collection is a, not b
+/// Parts of a collection, each taken as one body, and what they touch (merging/rigid_parts.h).
+struct RigidParts {
+  struct Part {
+    Vec2 x = Vec2::Zero();  ///< centre of mass
+    double mass = 0.0, inertia = 0.0;
+    Aabb bounds;  ///< in the collection's frame
+  };
+  DisjointSets sets;
+  std::vector<std::uint32_t> of;       ///< per node of the collection: its part
+  std::vector<Part> parts;             ///< then the frame, then bodies outside that touch some
+  std::vector<SolverVelocity> u;       ///< the same; only the parts respond
+  std::vector<ContactBlock> rows;      ///< contacts between them
+  std::vector<std::uint32_t> weld_of;  ///< per block of those: its weld, the first ones only
+  NncgBuffers nncg;
 };
 
 /// Lives for one step; its memory is kept.
@@ -129,7 +138,7 @@ struct Scratch {
   std::vector<std::uint8_t> shaken;           ///< per body: further sweeps changed it in this step
 
   // Unmerge
-  std::vector<Foot> feet;              ///< of the collection at hand
+  RigidParts rigid_parts;              ///< of the collection at hand
   bool split = false;                  ///< some collection was taken apart
   std::vector<std::uint32_t> doubted;  ///< bodies at welds that may part
   std::vector<std::uint32_t> leant;    ///< bridges that leaned in the last step, see WeldTest

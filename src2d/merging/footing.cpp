@@ -1,10 +1,10 @@
 #include "src2d/merging/footing.h"
 
 #include <algorithm>
-#include <vector>
 
-#include "src2d/merging/collection.h"
+#include "src2d/merging/limits.h"
 #include "src2d/merging/metric.h"
+#include "src2d/merging/rigid_parts.h"
 
 namespace merge2d {
 namespace {
@@ -13,141 +13,104 @@ namespace {
 double loadStep(const State& state, const Collection& c) {
   const Rigid& r = state[c.rigid];
   const Aabb& bounds = state.extent(c.rigid).bounds;
-  const double turning = r.omega * r.omega * bounds.center().norm();
-  return state.h * std::max(state.gravity.norm(), turning);
+  const double radius = r.floating() ? 0.5 * bounds.extent().norm() : bounds.center().norm();
+  return state.h * std::max(state.gravity.norm(), r.omega * r.omega * radius);
+}
+
+/// How the collection would move as one body, after the sweep.
+VelocityField fieldOf(const State& state, const Scratch& scratch, const Collection& c) {
+  const Rigid& r = state[c.rigid];
+  if (!r.floating()) return {r.x, r.v, r.omega};
+  const Pose frame = r.frame();
+  Vec2 p = Vec2::Zero();
+  double l = 0.0;
+  for (const BodyId b : c.members) {
+    const SolverVelocity& u = scratch.sweep_u[index(b)];
+    p += state[b].mass * Vec2(u.vx, u.vy);
+    l += state[b].mass * cross(frame * state[b].local - r.x, Vec2(u.vx, u.vy)) +
+         state[b].inertia * u.omega;
+  }
+  return {r.x, p * r.inv_mass, l * r.inv_inertia};
 }
 
 /// The fastest of the members against the collection [m/s].
 double sway(const State& state, const Scratch& scratch, const Collection& c) {
-  const Rigid& r = state[c.rigid];
+  const VelocityField field = fieldOf(state, scratch, c);
+  const Pose frame = state[c.rigid].frame();
   double fastest = 0.0;
   for (const BodyId b : c.members) {
     const SolverVelocity& u = scratch.sweep_u[index(b)];
-    const Vec2 v = r.velocityAt(r.frame() * state[b].local);
-    fastest = std::max(fastest, (Vec2(u.vx, u.vy) - v).squaredNorm());
+    fastest =
+        std::max(fastest, (Vec2(u.vx, u.vy) - field.at(frame * state[b].local)).squaredNorm());
   }
   return std::sqrt(fastest);
 }
 
-/// All members as one body, with the momentum that the sweep has left them.
-struct Whole {
-  Vec2 x = Vec2::Zero();  ///< its centre of mass
-  SolverVelocity u;
-};
-
-Whole wholeOf(const State& state, const Scratch& scratch, const Collection& c) {
-  const Pose frame = state[c.rigid].frame();
-  Whole whole;
-  double mass = 0.0, inertia = 0.0, l = 0.0;
-  Vec2 p = Vec2::Zero();
-  for (const BodyId b : c.members) {
-    const SolverVelocity& u = scratch.sweep_u[index(b)];
-    mass += state[b].mass;
-    whole.x += state[b].mass * (frame * state[b].local);
-    p += state[b].mass * Vec2(u.vx, u.vy);
-  }
-  whole.x /= mass;
-  for (const BodyId b : c.members) {
-    const SolverVelocity& u = scratch.sweep_u[index(b)];
-    const Vec2 arm = frame * state[b].local - whole.x;
-    inertia += state[b].inertia + state[b].mass * arm.squaredNorm();
-    l += state[b].inertia * u.omega + state[b].mass * cross(arm, Vec2(u.vx, u.vy));
-  }
-  whole.u = {p.x() / mass, p.y() / mass, l / inertia, 1.0 / mass, 1.0 / inertia};
-  return whole;
-}
-
-/// One of its contacts with a body of the frame, acting on the whole.
-Foot makeFoot(const State& state, const Collection& c, const Whole& whole,
-              const ContactBlock& inner, const InternalContact& contact) {
-  const Pose frame = state[c.rigid].frame();
-  const bool first = state[contact.key.a].rigid == c.rigid;
-  const BodyId ground = first ? contact.key.b : contact.key.a;
-  const Vec2 x_ground = state.pose(ground).position;
-  BlockGeometry g;
-  g.normal = frame.rotation * Vec2(inner.nx, inner.ny);
-  g.count = inner.count;
-  for (int i = 0; i < inner.count; ++i) {
-    const Vec2 at = frame * contact.point(i).position;
-    g.arm_a[i] = at - (first ? whole.x : x_ground);
-    g.arm_b[i] = at - (first ? x_ground : whole.x);
-  }
-  Foot foot{{}, ground, first};
-  foot.block.mu = inner.mu;
-  foot.block.bilateral = inner.bilateral;
-  foot.block.lambda = inner.lambda;
-  std::ranges::copy(inner.bias, foot.block.bias);
-  const SolverVelocity still;
-  prepareBlock(foot.block, g, first ? whole.u : still, first ? still : whole.u);
-  return foot;
-}
-
-void listFeet(const State& state, const Collection& c, const Whole& whole,
-              std::vector<Foot>& feet) {
-  feet.clear();
+/// Whether a joint holds it in a way that its contacts do not tell.
+bool hangsOnJoints(const State& state, const Scratch& scratch, const Collection& c) {
   const auto frame = static_cast<std::uint32_t>(c.members.size());
-  for (std::uint32_t k = c.weld_at[frame]; k < c.weld_at[frame + 1]; ++k) {
-    const Weld& weld = c.welds[c.weld_of[k]];
-    for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-      feet.push_back(makeFoot(state, c, whole, c.blocks[c.contact_block[i]], c.contacts[i]));
-    }
+  const bool to_frame =
+      std::any_of(c.weld_of.begin() + c.weld_at[frame], c.weld_of.begin() + c.weld_at[frame + 1],
+                  [&](std::uint32_t weld) { return c.welds[weld].joints > 0; });
+  const auto isMember = [&](std::uint32_t b) {
+    return b < state.bodies.size() && state.bodies[b].rigid == c.rigid;
+  };
+  return to_frame || std::ranges::any_of(scratch.sweep_joints, [&](const JointBlock& k) {
+           return isMember(k.a) || isMember(k.b);
+         });
+}
+
+/// Of what a load keeps swaying, and of nothing that more sweeps look at anyway.
+bool isAsked(const State& state, const Scratch& scratch, const Collection& c, double load) {
+  constexpr std::int64_t kEvery = 8;  // steps
+  constexpr std::size_t kHigh = 3;    // members
+  constexpr double kSways = 0.02;     // of what the load adds in a step
+  if (load == 0.0 || c.members.size() < kHigh || state.step % kEvery != 0) return false;
+  if (scratch.disturbed[index(c.rigid) - state.bodies.size()]) return false;
+  return sway(state, scratch, c) > kSways * load && !hangsOnJoints(state, scratch, c);
+}
+
+/// The place among the members of what all others may stand on.
+std::uint32_t heaviestOf(const State& state, const Collection& c) {
+  const auto mass = [&](BodyId b) { return state[b].mass; };
+  return static_cast<std::uint32_t>(std::ranges::max_element(c.members, {}, mass) -
+                                    c.members.begin());
+}
+
+/// By two points that press inside their cones, or by joints.
+bool joinsFirmly(const Collection& c, const Weld& weld) {
+  int inside = 0;
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    const ContactBlock& k = c.blocks[c.contact_block[i]];
+    for (int p = 0; p < k.count; ++p) inside += !broken(k, p) && !onEdge(k, p) ? 1 : 0;
   }
+  return weld.joints > 0 || inside > 1;
 }
 
-/// One sweep of projected Gauss-Seidel over the feet.
-void sweep(Whole& whole, Scratch& scratch) {
-  for (Foot& foot : scratch.feet) {
-    SolverVelocity ground = scratch.sweep_u[index(foot.ground)];
-    ContactBlock& k = foot.block;
-    if (foot.first) {
-      solveBlock(k, k.nx, k.ny, whole.u, ground);
-    } else {
-      solveBlock(k, k.nx, k.ny, ground, whole.u);
-    }
-  }
-}
-
-/// Of the farthest corner of the collection's box against the frame; what is fixed to one frame
-/// moves as one.
-double speedOf(const Whole& whole, const State& state, const Scratch& scratch,
-               const Collection& c) {
-  const BodyId ground = scratch.feet.front().ground;
-  const SolverVelocity& u = scratch.sweep_u[index(ground)];
-  const Pose frame = state[c.rigid].frame();
-  const Aabb& bounds = state.extent(c.rigid).bounds;
-  const OrientedBox box{frame * Pose{bounds.center(), {}}, 0.5 * bounds.extent()};
-  return fastestCorner(box, {whole.x, {whole.u.vx, whole.u.vy}, whole.u.omega},
-                       {state.pose(ground).position, {u.vx, u.vy}, u.omega});
-}
-
-bool hasJointsToFrame(const Collection& c) {
-  const auto frame = static_cast<std::uint32_t>(c.members.size());
-  return std::any_of(c.weld_of.begin() + c.weld_at[frame], c.weld_of.begin() + c.weld_at[frame + 1],
-                     [&](std::uint32_t weld) { return c.welds[weld].joints > 0; });
+/// Asks with one choice of parts. False when another need not be tried.
+bool holds(const State& state, Scratch& scratch, const Collection& c, const Joins& joins,
+           Footing& footing) {
+  constexpr double kTakesPart = 0.1;  // of the fastest motion
+  if (!formParts(state, scratch, c, joins)) return true;
+  footing.speed = settleParts(state, scratch, c, footing.enough);
+  if (footing.speed <= footing.enough) return true;
+  footing.giving = weldsFasterThan(state, scratch.rigid_parts, c, kTakesPart * footing.speed);
+  return false;
 }
 
 }  // namespace
 
 Footing footingOf(const State& state, Scratch& scratch, const Collection& c) {
-  constexpr std::int64_t kEvery = 8;               // steps
-  constexpr std::size_t kHigh = 6;                 // members: sweeps through fewer are done in time
-  constexpr double kSways = 0.02, kStands = 5e-3;  // of what the load adds in a step
-  constexpr int kMost = 2000;                      // sweeps
-  Footing footing{.enough = kStands * loadStep(state, c)};
-  if (state[c.rigid].floating() || c.members.size() < kHigh || state.step % kEvery != 0) {
-    return footing;
-  }
-  if (scratch.disturbed[index(c.rigid) - state.bodies.size()] || hasJointsToFrame(c))
-    return footing;
-  if (sway(state, scratch, c) <= kSways * loadStep(state, c)) return footing;
-  Whole whole = wholeOf(state, scratch, c);
-  listFeet(state, c, whole, scratch.feet);
-  if (scratch.feet.empty()) return footing;
-  for (int sweeps = 0; sweeps < kMost; ++sweeps) {
-    sweep(whole, scratch);
-    footing.speed = speedOf(whole, state, scratch, c);
-    if (!footing.gives()) break;
-  }
+  constexpr double kStands = 5e-3;  // of what the load adds in a step
+  const double load = loadStep(state, c);
+  Footing footing{.giving = {}, .enough = kStands * load};
+  if (!isAsked(state, scratch, c, load)) return footing;
+  const std::uint32_t host = state[c.rigid].floating() ? heaviestOf(state, c) : ~0u;
+  const auto besideHost = [&](const Weld& weld) {
+    return weld.joints > 0 || (weld.node_a != host && weld.node_b != host);
+  };
+  const auto firmly = [&](const Weld& weld) { return joinsFirmly(c, weld); };
+  if (holds(state, scratch, c, besideHost, footing)) holds(state, scratch, c, firmly, footing);
   return footing;
 }
 

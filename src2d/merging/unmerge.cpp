@@ -105,6 +105,7 @@ struct Tested {
   std::size_t slot;
   Noted noted;
   std::optional<Parts> parts = {};  ///< what it falls into
+  bool sure = false;                ///< and need not be tried
 };
 
 /// One sweep may not have converged: before anything parts, looks again after more.
@@ -126,30 +127,42 @@ bool confirms(const State& state) {
   return settings.rule == Rule::Default && settings.ordering;
 }
 
-/// Parts a collection from the frame on which, as one body, it cannot stay.
-bool leavesFrame(State& state, Scratch& scratch, Tested& tested) {
+void noteFooting(const Collection& c, const Footing& footing, Notes* notes) {
+  if (!notes) return;
+  for (const std::uint32_t w : footing.giving) {
+    notes->decisions.push_back({.a = c.welds[w].a,
+                                .b = c.welds[w].b,
+                                .stage = "Unmerge",
+                                .criterion = "relative-motion",
+                                .equation = "(17)",
+                                .value = footing.speed,
+                                .threshold = footing.enough,
+                                .count = 1,
+                                .verdict = "unmerge"});
+  }
+}
+
+/// Parts what, taken as few rigid bodies, cannot stay where it is.
+bool losesFooting(State& state, Scratch& scratch, Tested& tested) {
   Collection& c = state.collections[tested.slot];
   const Footing footing = footingOf(state, scratch, c);
-  if (!footing.gives()) return false;
-  const auto frame = static_cast<std::uint32_t>(c.members.size());
-  for (std::uint32_t k = c.weld_at[frame]; k < c.weld_at[frame + 1]; ++k) {
-    Weld& weld = c.welds[c.weld_of[k]];
+  if (footing.giving.empty()) return false;
+  for (const std::uint32_t w : footing.giving) {
+    Weld& weld = c.welds[w];
     weld.cut = true;
     weld.reason = EventReason::RelativeMotion;
-    c.cut_welds.push_back(c.weld_of[k]);
-    if (!scratch.notes) continue;
-    scratch.notes->decisions.push_back({.a = weld.a,
-                                        .b = weld.b,
-                                        .stage = "Unmerge",
-                                        .criterion = "relative-motion",
-                                        .equation = "(17)",
-                                        .value = footing.speed,
-                                        .threshold = footing.enough,
-                                        .count = 1,
-                                        .verdict = "unmerge"});
+    weld.turning = {static_cast<float>(footing.speed), 1};
   }
+  Parts parts = judge(state, scratch, c);
+  if (!fallsApart(state, c, parts)) {
+    for (const std::uint32_t w : footing.giving) c.welds[w].cut = false;
+    return false;
+  }
+  c.cut_welds = footing.giving;
+  noteFooting(c, footing, scratch.notes);
   tested.noted.close();
-  tested.parts = judge(state, scratch, c);
+  tested.parts = std::move(parts);
+  tested.sure = true;
   return true;
 }
 
@@ -161,7 +174,7 @@ void testCollection(State& state, Scratch& scratch, Tested& tested) {
   for (const std::uint32_t weld : c.cut_welds) c.welds[weld].cut = false;
   c.cut_welds.clear();
   if (anyJointBreaks(state, c) && breakInside(state, scratch, c)) return;
-  if (confirms(state) && leavesFrame(state, scratch, tested)) return;
+  if (confirms(state) && losesFooting(state, scratch, tested)) return;
   const bool joints_loosened = loosenJoints(state, c, scratch.sweep_u);
   if (joints_loosened) doubtJoints(scratch, c);
   WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
@@ -180,18 +193,22 @@ void testCollection(State& state, Scratch& scratch, Tested& tested) {
 
 /// What would not move stays: asked of all at once.
 void keepWhatStays(State& state, Scratch& scratch, std::vector<Tested>& apart) {
-  if (apart.empty()) return;
   std::vector<Proposal> proposals;
-  for (const Tested& t : apart) proposals.push_back({state.collections[t.slot].rigid, *t.parts});
+  for (const Tested& t : apart) {
+    if (!t.sure) proposals.push_back({state.collections[t.slot].rigid, *t.parts});
+  }
+  if (proposals.empty()) return;
   auto remaining = partsThatMove(state, scratch, proposals);
-  for (std::size_t i = 0; i < apart.size(); ++i) {
-    Collection& c = state.collections[apart[i].slot];
-    apart[i].parts = std::move(remaining[i]);
-    if (!apart[i].parts) {
-      restate(state, apart[i].noted, "stays");
+  std::size_t next = 0;
+  for (Tested& t : apart) {
+    if (t.sure) continue;
+    Collection& c = state.collections[t.slot];
+    t.parts = std::move(remaining[next++]);
+    if (!t.parts) {
+      restate(state, t.noted, "stays");
       refuse(c);
-    } else if (!fallsApart(state, c, *apart[i].parts)) {
-      apart[i].parts.reset();
+    } else if (!fallsApart(state, c, *t.parts)) {
+      t.parts.reset();
     }
   }
 }

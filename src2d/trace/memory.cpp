@@ -35,11 +35,14 @@ std::size_t bytesOfScratch(const Scratch& s) {
                  s.candidates, s.touching, s.near_candidates, s.near_refined, s.seeds, s.stirred,
                  s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
-                 s.push_stale, s.feet, s.others, s.leant, s.ready, s.restless_bodies, s.shaken) +
+                 s.push_stale, s.others, s.leant, s.ready, s.restless_bodies, s.shaken) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order) +
+         bytesOf(s.rigid_parts.of, s.rigid_parts.parts, s.rigid_parts.u, s.rigid_parts.rows,
+                 s.rigid_parts.weld_of, s.rigid_parts.nncg.before, s.rigid_parts.nncg.direction,
+                 s.rigid_parts.nncg.u_before, s.rigid_parts.nncg.u_direction) +
          bytesOf(s.nncg.before, s.nncg.direction, s.nncg.u_before, s.nncg.u_direction) +
-         s.sets.memoryBytes();
+         s.sets.memoryBytes() + s.rigid_parts.sets.memoryBytes();
 }
 
 }  // namespace

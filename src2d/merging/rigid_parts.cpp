@@ -1,0 +1,209 @@
+#include "src2d/merging/rigid_parts.h"
+
+#include <algorithm>
+
+#include "src2d/dynamics/nncg.h"
+#include "src2d/merging/collection.h"
+#include "src2d/merging/metric.h"
+#include "src2d/merging/refine.h"
+
+namespace merge2d {
+namespace {
+
+/// Numbers the parts by their first members; the frame comes after them.
+void numberParts(const Collection& c, RigidParts& p, const Joins& joins) {
+  const auto members = static_cast<std::uint32_t>(c.members.size());
+  p.sets.reset(members);
+  for (const Weld& weld : c.welds) {
+    const bool inside = weld.node_a < members && weld.node_b < members;
+    if (inside && joins(weld)) p.sets.unite(weld.node_a, weld.node_b);
+  }
+  p.of.resize(members + 1);
+  std::uint32_t count = 0;
+  for (std::uint32_t m = 0; m < members; ++m) {
+    const std::uint32_t first = p.sets.find(m);
+    p.of[m] = first == m ? count++ : p.of[first];
+  }
+  p.of[members] = count;
+}
+
+/// More take too long.
+constexpr std::size_t kMostParts = 32, kMostRows = 400;
+
+/// Mass, centre and momentum of each part.
+void gatherParts(const State& state, const Scratch& scratch, const Collection& c, RigidParts& p) {
+  const Pose frame = state[c.rigid].frame();
+  p.parts.assign(p.of.back(), {});
+  p.u.assign(p.of.back(), {});
+  for (std::size_t m = 0; m < c.members.size(); ++m) {
+    const Body& body = state[c.members[m]];
+    const SolverVelocity& u = scratch.sweep_u[index(c.members[m])];
+    RigidParts::Part& part = p.parts[p.of[m]];
+    part.mass += body.mass;
+    part.x += body.mass * (frame * body.local);
+    part.bounds.include(
+        placed(Pose{body.local, body.local_rotation}, state.extent(rigidOf(c.members[m])).bounds));
+    p.u[p.of[m]].vx += body.mass * u.vx;
+    p.u[p.of[m]].vy += body.mass * u.vy;
+  }
+  for (RigidParts::Part& part : p.parts) part.x /= part.mass;
+  for (std::size_t m = 0; m < c.members.size(); ++m) {
+    const Body& body = state[c.members[m]];
+    const SolverVelocity& u = scratch.sweep_u[index(c.members[m])];
+    RigidParts::Part& part = p.parts[p.of[m]];
+    const Vec2 arm = frame * body.local - part.x;
+    part.inertia += body.inertia + body.mass * arm.squaredNorm();
+    p.u[p.of[m]].omega += body.inertia * u.omega + body.mass * cross(arm, Vec2(u.vx, u.vy));
+  }
+  for (std::size_t i = 0; i < p.parts.size(); ++i) {
+    SolverVelocity& u = p.u[i];
+    u.inv_mass = 1.0 / p.parts[i].mass;
+    u.inv_inertia = 1.0 / p.parts[i].inertia;
+    u = {u.vx * u.inv_mass, u.vy * u.inv_mass, u.omega * u.inv_inertia, u.inv_mass, u.inv_inertia};
+  }
+}
+
+/// A body that does not respond, as a further part. Returns its number.
+std::uint32_t addGround(const State& state, const Scratch& scratch, RigidParts& p, BodyId b) {
+  p.parts.emplace_back().x = state.pose(b).position;
+  const SolverVelocity& u = scratch.sweep_u[index(b)];
+  p.u.push_back({u.vx, u.vy, u.omega, 0.0, 0.0});
+  return static_cast<std::uint32_t>(p.u.size() - 1);
+}
+
+/// One contact as it acts on the parts `a` and `b`; `model` has all that does not depend on them.
+void addRow(RigidParts& p, const ContactBlock& model, BlockGeometry& g,
+            const std::array<Vec2, 2>& points, std::uint32_t a, std::uint32_t b) {
+  g.count = model.count;
+  g.softness = model.softness;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(model.count); ++i) {
+    g.arm_a[i] = points[i] - p.parts[a].x;
+    g.arm_b[i] = points[i] - p.parts[b].x;
+  }
+  ContactBlock& k = p.rows.emplace_back();
+  k.a = a;
+  k.b = b;
+  k.mu = model.mu;
+  k.bilateral = model.bilateral;
+  k.lambda = model.lambda;
+  std::ranges::copy(model.bias, k.bias);
+  prepareBlock(k, g, p.u[a], p.u[b]);
+}
+
+/// False when there are too many.
+bool listWelds(const State& state, const Collection& c, RigidParts& p) {
+  const Pose frame = state[c.rigid].frame();
+  const auto partOf = [&](std::uint32_t b) {
+    const bool member = state.bodies[b].rigid == c.rigid;
+    return member ? p.of[state[rigidOf(BodyId{b})].member] : p.of.back();
+  };
+  for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
+    const Weld& weld = c.welds[w];
+    if (p.of[weld.node_a] == p.of[weld.node_b]) continue;
+    if (p.rows.size() + weld.count > kMostRows) return false;
+    for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+      const ContactBlock& inner = c.blocks[c.contact_block[i]];
+      BlockGeometry g;
+      g.normal = frame.rotation * Vec2(inner.nx, inner.ny);
+      const auto& points = c.contacts[i].points;
+      addRow(p, inner, g, {frame * points[0].position, frame * points[1].position}, partOf(inner.a),
+             partOf(inner.b));
+      p.weld_of.push_back(w);
+    }
+  }
+  return true;
+}
+
+/// What leans on members, or they on it. False when there are too many.
+bool listOuterContacts(const State& state, const Scratch& scratch, const Collection& c,
+                       RigidParts& p) {
+  for (const SweepContact& outer : scratch.sweep_contacts) {
+    const Contact& contact = state.contacts.slots[outer.slot];
+    const auto [a, b] = std::pair(contact.key.a, contact.key.b);
+    const bool a_in = state[a].rigid == c.rigid, b_in = state[b].rigid == c.rigid;
+    if (a_in == b_in) continue;
+    if (p.rows.size() == kMostRows) return false;
+    const std::uint32_t ground = addGround(state, scratch, p, a_in ? b : a);
+    const std::uint32_t part = p.of[state[rigidOf(a_in ? a : b)].member];
+    const Pose pose = state.pose(a);
+    BlockGeometry g;
+    g.normal = Vec2(outer.block.nx, outer.block.ny);
+    addRow(p, outer.block, g,
+           {pose * contact.points[0].position, pose * contact.points[1].position},
+           a_in ? part : ground, a_in ? ground : part);
+  }
+  return true;
+}
+
+/// How fast the parts of a row move against each other: their fastest corner [m/s].
+double speedAt(const State& state, const Collection& c, const RigidParts& p,
+               const ContactBlock& row) {
+  const Pose frame = state[c.rigid].frame();
+  const auto field = [&](std::uint32_t i) {
+    return VelocityField{p.parts[i].x, {p.u[i].vx, p.u[i].vy}, p.u[i].omega};
+  };
+  double fastest = 0.0;
+  for (const std::uint32_t i : {row.a, row.b}) {
+    if (p.u[i].inv_mass == 0.0) continue;
+    const Aabb& bounds = p.parts[i].bounds;
+    const OrientedBox box{frame * Pose{bounds.center(), {}}, 0.5 * bounds.extent()};
+    fastest = std::max(fastest, fastestCorner(box, field(row.a), field(row.b)));
+  }
+  return fastest;
+}
+
+double fastestAtWelds(const State& state, const Collection& c, const RigidParts& p) {
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < p.weld_of.size(); ++i) {
+    fastest = std::max(fastest, speedAt(state, c, p, p.rows[i]));
+  }
+  return fastest;
+}
+
+}  // namespace
+
+bool formParts(const State& state, Scratch& scratch, const Collection& c, const Joins& joins) {
+  RigidParts& p = scratch.rigid_parts;
+  numberParts(c, p, joins);
+  if (p.of.back() > kMostParts) return false;
+  gatherParts(state, scratch, c, p);
+  if (!state[c.rigid].floating()) addGround(state, scratch, p, c.anchor);
+  p.rows.clear();
+  p.weld_of.clear();
+  return listWelds(state, c, p) && listOuterContacts(state, scratch, c, p);
+}
+
+double settleParts(const State& state, Scratch& scratch, const Collection& c, double enough) {
+  constexpr int kMost = 400, kRound = 50;  // sweeps
+  constexpr double kSame = 0.01;           // of the speed
+  RigidParts& p = scratch.rigid_parts;
+  const SolverMethod method = state.settings.solver.method;
+  double before = 0.0;
+  for (int done = 0; done < kMost; done += kRound) {
+    Nncg iteration(
+        p.rows.size(), [&](std::size_t i) -> Impulses& { return p.rows[i].lambda; }, p.of.back(),
+        [&](std::size_t i) -> SolverVelocity& { return p.u[i]; },
+        [&] {
+          for (ContactBlock& k : p.rows) sweepBlock(k, {}, p.u, method);
+        },
+        p.nncg);
+    iteration.run(kRound, method == SolverMethod::Nncg);
+    const double fastest = fastestAtWelds(state, c, p);
+    const bool settled = done > 0 && std::abs(fastest - before) < kSame * fastest;
+    if (fastest <= enough || settled) return fastest;
+    before = fastest;
+  }
+  return 0.0;
+}
+
+std::vector<std::uint32_t> weldsFasterThan(const State& state, const RigidParts& p,
+                                           const Collection& c, double speed) {
+  std::vector<std::uint32_t> welds;
+  for (std::size_t i = 0; i < p.weld_of.size(); ++i) {
+    const bool known = !welds.empty() && welds.back() == p.weld_of[i];
+    if (!known && speedAt(state, c, p, p.rows[i]) > speed) welds.push_back(p.weld_of[i]);
+  }
+  return welds;
+}
+
+}  // namespace merge2d
