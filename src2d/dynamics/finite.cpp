@@ -33,8 +33,8 @@ class Report {
  private:
   [[noreturn]] void fail(BodyId body, const char* what, const std::string& numbers) const {
     throw SimulationError(
-        fmt::format("body '{}' is no longer {} after {} in step {} ({}); try a smaller step or "
-                    "softer springs",
+        fmt::format("body '{}' is no longer {} after {} in step {} ({}); try a smaller step, "
+                    "softer springs or shorter levers",
                     name_of_(body), what, name(stage_), state_.step + 1, numbers));
   }
 

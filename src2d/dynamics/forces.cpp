@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 namespace merge2d {
 namespace {
@@ -15,55 +16,80 @@ Vec2 velocityAt(const State& state, BodyId body, const Vec2& p) {
   return state.rigid(body).velocityAt(p);
 }
 
-/// 1/m seen along `direction` at world point `p` of a body, 0 when it does not respond.
-double inverseMassAt(const State& state, BodyId id, const Vec2& p, const Vec2& direction) {
+/// 1/m seen along `direction` at world point `p` of a body, 0 when it does not respond; with no
+/// direction the largest of all.
+double inverseMassAt(const State& state, BodyId id, const Vec2& p,
+                     const std::optional<Vec2>& direction) {
   const Body& body = state[id];
   if (!state.rigid(id).floating()) return 0.0;
-  const double arm = cross(p - state.pose(id).position, direction);
+  const Vec2 from_center = p - state.pose(id).position;
+  const double arm = direction ? cross(from_center, *direction) : from_center.norm();
   return 1.0 / body.mass + arm * arm / body.inertia;
 }
 
-/// A spring that is too stiff for an explicit step is given the force of an implicit one. Without
-/// this limit it would gain energy until it explodes; below it the spring is undamped.
-double stableShare(double h, double stiffness, double damping, double inv_mass) {
-  const double gain = (h * damping + h * h * stiffness) * inv_mass;
-  return gain <= 1.0 ? 1.0 : 1.0 / (1.0 + gain);
-}
-
-struct SpringEnds {
-  Vec2 from, to;
+/// A spring as it is now.
+struct Stretch {
+  BodyId body{}, to_body{};
+  bool other = false;  ///< to_body counts
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
+  double length = 0.0;
+  Vec2 direction = Vec2::Zero();
 };
 
-SpringEnds springEnds(const State& state, const TimedSpring& spring) {
-  const BodyId body{static_cast<std::uint32_t>(spring.body)};
-  const Vec2 from = state.pose(body) * spring.anchor;
-  if (spring.to_body < 0) return {from, spring.to};
-  return {from, state.pose(BodyId{static_cast<std::uint32_t>(spring.to_body)}) * spring.to};
+Stretch stretchOf(const State& state, const TimedSpring& spring) {
+  Stretch s;
+  s.body = BodyId{static_cast<std::uint32_t>(spring.body)};
+  s.other = spring.to_body >= 0;
+  if (s.other) s.to_body = BodyId{static_cast<std::uint32_t>(spring.to_body)};
+  s.from = state.pose(s.body) * spring.anchor;
+  s.to = s.other ? state.pose(s.to_body) * spring.to : spring.to;
+  const Vec2 along = s.to - s.from;
+  s.length = along.norm();
+  if (s.length > 1e-12) s.direction = along / s.length;
+  return s;
+}
+
+/// What an explicit step of a spring does to the velocity of each body at its ends, as a part of
+/// it. A spring without length acts in any direction.
+void addGains(const State& state, const TimedSpring& spring, std::vector<double>& gain) {
+  if (!state.bodies[spring.body].alive) return;
+  const Stretch s = stretchOf(state, spring);
+  std::optional<Vec2> direction;
+  if (spring.rest_length > 0.0) direction = s.direction;
+  const double strength = state.h * spring.damping + state.h * state.h * spring.stiffness;
+  gain[index(s.body)] += strength * inverseMassAt(state, s.body, s.from, direction);
+  if (s.other)
+    gain[index(s.to_body)] += strength * inverseMassAt(state, s.to_body, s.to, direction);
+}
+
+/// Springs that are together too stiff for an explicit step are given the force of an implicit one.
+/// Without this limit they would gain energy until they explode; below it a spring is undamped.
+double stableShare(const Stretch& s, const std::vector<double>& gain) {
+  const double all = gain[index(s.body)] + (s.other ? gain[index(s.to_body)] : 0.0);
+  return all <= 1.0 ? 1.0 : 1.0 / (1.0 + all);
 }
 
 void addSpring(const State& state, const TimedSpring& spring, Scratch& scratch) {
-  const BodyId body{static_cast<std::uint32_t>(spring.body)};
-  if (!state[body].alive) return;
-  const auto [from, to] = springEnds(state, spring);
-  const bool other = spring.to_body >= 0;
-  const BodyId to_body{static_cast<std::uint32_t>(other ? spring.to_body : 0)};
-
-  const Vec2 along = to - from;
-  const double length = along.norm();
-  Vec2 velocity = -velocityAt(state, body, from);
-  if (other) velocity += velocityAt(state, to_body, to);
-  const Vec2 direction = length > 1e-12 ? Vec2(along / length) : Vec2::Zero();
-  double inv_mass = inverseMassAt(state, body, from, direction);
-  if (other) inv_mass += inverseMassAt(state, to_body, to, direction);
-
+  if (!state.bodies[spring.body].alive) return;
+  const Stretch s = stretchOf(state, spring);
+  Vec2 velocity = -velocityAt(state, s.body, s.from);
+  if (s.other) velocity += velocityAt(state, s.to_body, s.to);
   // A spring without length damps every motion of its end, a long one only along itself.
-  const Vec2 damped = spring.rest_length == 0.0 ? velocity : direction * velocity.dot(direction);
+  const Vec2 damped =
+      spring.rest_length == 0.0 ? velocity : s.direction * velocity.dot(s.direction);
   const Vec2 force =
-      stableShare(state.h, spring.stiffness, spring.damping, inv_mass) *
-      (spring.stiffness * (length - spring.rest_length) * direction + spring.damping * damped);
-  scratch.loads.push_back(loadAt(state, body, from, force));
-  if (other) scratch.loads.push_back(loadAt(state, to_body, to, -force));
-  scratch.springs.push_back({from, to, force.dot(direction)});
+      stableShare(s, scratch.spring_gain) *
+      (spring.stiffness * (s.length - spring.rest_length) * s.direction + spring.damping * damped);
+  scratch.loads.push_back(loadAt(state, s.body, s.from, force));
+  if (s.other) scratch.loads.push_back(loadAt(state, s.to_body, s.to, -force));
+  scratch.springs.push_back({s.from, s.to, force.dot(s.direction)});
+}
+
+void addSprings(const State& state, const Actions& actions, Scratch& scratch) {
+  if (actions.springs.empty()) return;
+  scratch.spring_gain.assign(state.bodies.size(), 0.0);
+  for (const TimedSpring& spring : actions.springs) addGains(state, spring, scratch.spring_gain);
+  for (const TimedSpring& spring : actions.springs) addSpring(state, spring, scratch);
 }
 
 double smooth(double s) { return s * s * (3.0 - 2.0 * s); }
@@ -110,7 +136,7 @@ void moveScripted(State& state, const Actions& actions) {
 void listLoads(State& state, Actions& actions, Scratch& scratch) {
   scratch.loads.clear();
   scratch.springs.clear();
-  for (const TimedSpring& spring : actions.springs) addSpring(state, spring, scratch);
+  addSprings(state, actions, scratch);
   const double middle = state.time + 0.5 * state.h;
   for (const ForceDesc& f : actions.forces) {
     const BodyId body{static_cast<std::uint32_t>(f.body)};
@@ -137,8 +163,7 @@ void listKicks(State& state, Actions& actions, Scratch& scratch) {
 double springEnergy(const State& state, const Actions& actions) {
   double energy = 0.0;
   for (const TimedSpring& spring : actions.springs) {
-    const auto [from, to] = springEnds(state, spring);
-    const double stretch = (to - from).norm() - spring.rest_length;
+    const double stretch = stretchOf(state, spring).length - spring.rest_length;
     energy += 0.5 * spring.stiffness * stretch * stretch;
   }
   return energy;

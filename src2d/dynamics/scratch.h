@@ -102,7 +102,8 @@ struct Scratch {
   std::vector<Load> loads;
   std::vector<Kick> kicks;
   std::vector<SpringView> springs;
-  std::vector<BodyPair> pairs;  ///< body pairs in contact, ascending
+  std::vector<double> spring_gain;  ///< per body: what its springs together do to its velocity
+  std::vector<BodyPair> pairs;      ///< body pairs in contact, ascending
   std::vector<Event> events;
   Notes* notes = nullptr;  ///< null: nobody asks
   Stats stats;

@@ -31,9 +31,9 @@ std::size_t bytesOfState(const State& s) {
 }
 
 std::size_t bytesOfScratch(const Scratch& s) {
-  return bytesOf(s.loads, s.kicks, s.springs, s.pairs, s.events, s.moved, s.moved_flag,
-                 s.candidates, s.touching, s.near_candidates, s.near_refined, s.seeds, s.stirred,
-                 s.restless, s.island_awake) +
+  return bytesOf(s.loads, s.kicks, s.springs, s.spring_gain, s.pairs, s.events, s.moved,
+                 s.moved_flag, s.candidates, s.touching, s.near_candidates, s.near_refined, s.seeds,
+                 s.stirred, s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
                  s.push_stale, s.others, s.leant, s.ready, s.restless_bodies, s.shaken) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,

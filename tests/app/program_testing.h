@@ -166,7 +166,7 @@ box = [1, 1]
 repeat = { count = [1, 3], spacing = [1, 1] }
 )";
 
-/// Springs as stiff as steel bridges on a body of a milligram, with levers of 100 km.
+/// A hinge 300 km away from a body of a milligram, which circles it at 10,000 km/s.
 inline constexpr const char* kDiverging = R"(
 format = 1
 step = 0.1
@@ -174,26 +174,19 @@ duration = 500
 [[body]]
 name = "flea"
 mass = 1e-6
+box = [0.1, 0.1]
+at = [0, 0]
+velocity = [0, 1e7]
+spin = 1000
+[[body]]
+name = "dog"
+mass = 10
 box = [1, 1]
 at = [3, 0]
-[[spring]]
-body = "flea"
-anchor = [1e5, 0]
-to = [1e5, 4]
-stiffness = 0.001
-[[spring]]
-body = "flea"
-anchor = [0, -1e5]
-to = [0, 4]
-stiffness = 1e11
-damping = 1e11
-rest_length = 1e5
-[[spring]]
-body = "flea"
-anchor = [1e5, 0]
-to = [1e5, 4]
-stiffness = 1e11
-damping = 1e11
+[[joint]]
+kind = "revolute"
+bodies = ["flea", "dog"]
+at = [3e5, 0]
 )";
 
 }  // namespace merge2d

@@ -108,6 +108,55 @@ TEST(Spring, ASpringThatIsTooStiffForTheStepGainsNoEnergy) {
   }
 }
 
+/// A plate on springs at its corners, which pull it about and turn it.
+TEST(Spring, ManyOnOneBodyGainNoEnergyTogether) {
+  for (const double stiffness : {5e3, 1e5, 1e7, 1e12}) {
+    Scene scene;
+    add(scene, box(2, 1, {0, 0}));
+    for (int i = 0; i < 12; ++i) {
+      const Vec2 at(i % 2 == 0 ? -1.0 : 1.0, 0.1 * (i / 2) - 0.3);
+      scene.springs.push_back({.body = 0,
+                               .anchor = at,
+                               .to = at + Vec2(0.1 * i, 0.2),
+                               .to_body = {},
+                               .stiffness = stiffness,
+                               .damping = 1e-3 * stiffness});
+    }
+    World world = reference(scene);
+    for (int i = 0; i < 1000; ++i) {
+      world.step();
+      ASSERT_LT(see(world, BodyId{0}).x.norm(), 2.0) << "stiffness " << stiffness;
+    }
+    EXPECT_LT(see(world, BodyId{0}).v.norm(), 1e-3) << "stiffness " << stiffness;
+  }
+}
+
+/// It swings down from where it is level, and nothing of it moves faster than a fall from there.
+TEST(Spring, AStiffChainGainsNoEnergy) {
+  for (const double stiffness : {1e4, 1e6, 1e9}) {
+    Scene scene;
+    for (int i = 0; i < 6; ++i) {
+      add(scene, box(0.5, 0.5, {1.0 * i, 0}));
+      SpringDesc spring{.body = static_cast<BodyIndex>(i),
+                        .to = {-1.0, 0.0},
+                        .to_body = {},
+                        .stiffness = stiffness,
+                        .damping = 10.0,
+                        .rest_length = 1.0};
+      if (i > 0) spring.to = Vec2::Zero(), spring.to_body = static_cast<BodyIndex>(i - 1);
+      scene.springs.push_back(spring);
+    }
+    World world = reference(scene);
+    for (int i = 0; i < 2000; ++i) {
+      world.step();
+      const Snapshot now = world.capture();
+      double energy = now.stats.kinetic_energy;
+      for (const BodyState& b : now.bodies) energy += 0.25 * kGravity * b.x.y();
+      ASSERT_LT(energy, 0.5) << "stiffness " << stiffness << " at " << world.time() << " s";
+    }
+  }
+}
+
 TEST(Force, ATimedForceGivesItsImpulseOverTheMass) {
   Scene scene = noGravity();
   add(scene, box(2, 1, {0, 0}));
