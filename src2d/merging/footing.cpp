@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "src2d/merging/limits.h"
-#include "src2d/merging/metric.h"
+#include "src2d/merging/momentum.h"
 #include "src2d/merging/rigid_parts.h"
 
 namespace merge2d {
@@ -17,31 +17,18 @@ double loadStep(const State& state, const Collection& c) {
   return state.h * std::max(state.gravity.norm(), r.omega * r.omega * radius);
 }
 
-/// How the collection would move as one body, after the sweep.
-VelocityField fieldOf(const State& state, const Scratch& scratch, const Collection& c) {
-  const Rigid& r = state[c.rigid];
-  if (!r.floating()) return {r.x, r.v, r.omega};
-  const Pose frame = r.frame();
-  Vec2 p = Vec2::Zero();
-  double l = 0.0;
-  for (const BodyId b : c.members) {
-    const SolverVelocity& u = scratch.sweep_u[index(b)];
-    p += state[b].mass * Vec2(u.vx, u.vy);
-    l += state[b].mass * cross(frame * state[b].local - r.x, Vec2(u.vx, u.vy)) +
-         state[b].inertia * u.omega;
-  }
-  return {r.x, p * r.inv_mass, l * r.inv_inertia};
-}
-
 /// The fastest of the members against the collection [m/s].
 double sway(const State& state, const Scratch& scratch, const Collection& c) {
-  const VelocityField field = fieldOf(state, scratch, c);
+  const auto velocityOf = [&](BodyId b) -> const SolverVelocity& {
+    return scratch.sweep_u[index(b)];
+  };
+  const VelocityField field = fieldOf(state, c, velocityOf);
   const Pose frame = state[c.rigid].frame();
   double fastest = 0.0;
   for (const BodyId b : c.members) {
-    const SolverVelocity& u = scratch.sweep_u[index(b)];
-    fastest =
-        std::max(fastest, (Vec2(u.vx, u.vy) - field.at(frame * state[b].local)).squaredNorm());
+    const SolverVelocity& u = velocityOf(b);
+    const Vec2 v = field.at(frame * state[b].local);
+    fastest = std::max(fastest, (Vec2(u.vx, u.vy) - v).squaredNorm());
   }
   return std::sqrt(fastest);
 }

@@ -5,7 +5,7 @@
 
 #include "src2d/dynamics/nncg.h"
 #include "src2d/merging/grip.h"
-#include "src2d/merging/metric.h"
+#include "src2d/merging/momentum.h"
 #include "src2d/merging/refine.h"
 #include "src2d/merging/spare_welds.h"
 
@@ -171,24 +171,13 @@ class Trial {
     return place == kNone ? scratch_.sweep_u[index(b)] : velocities_[place];
   }
 
-  /// Of a collection at the end of this step: what floats has the momentum of its members.
+  /// Of a collection at the end of this step, as it was before the trial.
   VelocityField fieldOf(RigidId id) {
-    const Rigid& r = state_[id];
-    if (!r.floating()) return {r.x, r.v, r.omega};
     const auto known = std::ranges::find(fields_, id, &Known::id);
     if (known != fields_.end()) return known->field;
-    const Collection& c = state_.collection(id);
-    const Pose frame = r.frame();
-    Vec2 p = Vec2::Zero();
-    double l = 0.0;
-    for (const BodyId b : c.members) {
-      const Body& body = state_[b];
-      const SolverVelocity& u = velocityBefore(b);
-      const Vec2 v(u.vx, u.vy);
-      p += body.mass * v;
-      l += body.mass * cross(frame * body.local - r.x, v) + body.inertia * u.omega;
-    }
-    const VelocityField field{r.x, p * r.inv_mass, l * r.inv_inertia};
+    const VelocityField field =
+        merge2d::fieldOf(state_, state_.collection(id),
+                         [&](BodyId b) -> const SolverVelocity& { return velocityBefore(b); });
     fields_.push_back({id, field});
     return field;
   }

@@ -1,0 +1,28 @@
+#pragma once
+/// How a collection moves as one body.
+
+#include "src2d/dynamics/state.h"
+#include "src2d/merging/metric.h"
+
+namespace merge2d {
+
+/// What floats has the momentum of its members, of which `velocityOf(b)` is the SolverVelocity;
+/// what is fixed moves with its frame.
+template <class VelocityOf>
+VelocityField fieldOf(const State& state, const Collection& c, VelocityOf&& velocityOf) {
+  const Rigid& r = state[c.rigid];
+  if (!r.floating()) return {r.x, r.v, r.omega};
+  const Pose frame = r.frame();
+  Vec2 p = Vec2::Zero();
+  double l = 0.0;
+  for (const BodyId b : c.members) {
+    const Body& body = state[b];
+    const SolverVelocity& u = velocityOf(b);
+    const Vec2 v(u.vx, u.vy);
+    p += body.mass * v;
+    l += body.mass * cross(frame * body.local - r.x, v) + body.inertia * u.omega;
+  }
+  return {r.x, p * r.inv_mass, l * r.inv_inertia};
+}
+
+}  // namespace merge2d
