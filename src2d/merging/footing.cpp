@@ -64,14 +64,33 @@ std::uint32_t heaviestOf(const State& state, const Collection& c) {
                                     c.members.begin());
 }
 
-/// By two points that press inside their cones, or by joints.
-bool joinsFirmly(const Collection& c, const Weld& weld) {
-  int inside = 0;
+template <class Visit>
+void forEachPoint(const Collection& c, const Weld& weld, Visit&& visit) {
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const ContactBlock& k = c.blocks[c.contact_block[i]];
-    for (int p = 0; p < k.count; ++p) inside += !broken(k, p) && !onEdge(k, p) ? 1 : 0;
+    for (int p = 0; p < k.count; ++p) visit(k, p);
   }
-  return weld.joints > 0 || inside > 1;
+}
+
+/// What makes a point hold firmly.
+struct Firmness {
+  double pressure;  ///< it bears more than this part of its weld's
+  double friction;  ///< and less than this part of what its own allows
+};
+/// Those that are not at their limits, and those that are far from them, as the sweep may lag.
+constexpr Firmness kFirm{0.0, kWeldOnEdge}, kFirmer{0.25, 0.8};
+
+/// By two points, or by joints.
+bool joinsFirmly(const Collection& c, const Weld& weld, const Firmness& firm) {
+  double pressure = 0.0;
+  int held = 0;
+  forEachPoint(c, weld, [&](const ContactBlock& k, int i) { pressure += k.lambda_n(i); });
+  forEachPoint(c, weld, [&](const ContactBlock& k, int i) {
+    const bool presses = k.lambda_n(i) > firm.pressure * pressure;
+    const bool sticks = std::abs(k.lambda_t(i)) < firm.friction * k.mu * k.lambda_n(i);
+    held += k.bilateral || (presses && sticks) ? 1 : 0;
+  });
+  return weld.joints > 0 || held > 1;
 }
 
 /// Asks with one choice of parts. False when another need not be tried.
@@ -96,8 +115,11 @@ Footing footingOf(const State& state, Scratch& scratch, const Collection& c) {
   const auto besideHost = [&](const Weld& weld) {
     return weld.joints > 0 || (weld.node_a != host && weld.node_b != host);
   };
-  const auto firmly = [&](const Weld& weld) { return joinsFirmly(c, weld); };
-  if (holds(state, scratch, c, besideHost, footing)) holds(state, scratch, c, firmly, footing);
+  bool stays = holds(state, scratch, c, besideHost, footing);
+  for (const Firmness& firm : {kFirm, kFirmer}) {
+    const auto firmly = [&](const Weld& weld) { return joinsFirmly(c, weld, firm); };
+    stays = stays && holds(state, scratch, c, firmly, footing);
+  }
   return footing;
 }
 

@@ -15,11 +15,13 @@ struct Footing {
 };
 
 /// Takes parts of the collection as rigid bodies on the contacts between them and with its frame:
-/// at first all of it, then what stands on each other, as columns do. What parts cannot hold, with
-/// less freedom, the members cannot. Asked every few steps, of what is high and left in motion by
-/// the last sweep. Deviation: sweeps take the moment of a high tower down to its foot over
-/// thousands of steps, a little between any two bricks, and would hold it long after it had to
-/// fall. Whether it stands is a question of a few contacts, and of few bodies. Guarded by
+/// at first all of it, or what stands on its heaviest member; then what two points join that are
+/// not at their limits, and what two join that are far from them. What parts cannot hold, with less
+/// freedom, the members cannot. Asked every few steps, of what the last sweep has left swaying.
+///
+/// Deviation: sweeps take the moment of a high tower down to its foot over thousands of steps, a
+/// little between any two bricks, and would hold it long after it had to fall. Whether it stands is
+/// a question of a few contacts, and of few bodies. Guarded by
 /// Footing.ATowerFallsWhenItsGroundTiltsTooFar.
 Footing footingOf(const State& state, Scratch& scratch, const Collection& collection);
 
