@@ -49,13 +49,13 @@ Stretch stretchOf(const State& state, const TimedSpring& spring) {
   return s;
 }
 
-/// What an explicit step of a spring does to the velocity of each body at its ends, as a part of
-/// it. A spring without length acts in any direction.
+/// What an explicit step of a spring does to the velocity of each of its ends, relative to that
+/// velocity, summed per body. A spring without length acts in any direction.
 void addGains(const State& state, const TimedSpring& spring, std::vector<double>& gain) {
   if (!state.bodies[spring.body].alive) return;
   const Stretch s = stretchOf(state, spring);
   std::optional<Vec2> direction;
-  if (spring.rest_length > 0.0) direction = s.direction;
+  if (spring.rest_length != 0.0) direction = s.direction;
   const double strength = state.h * spring.damping + state.h * state.h * spring.stiffness;
   gain[index(s.body)] += strength * inverseMassAt(state, s.body, s.from, direction);
   if (s.other)
@@ -63,7 +63,8 @@ void addGains(const State& state, const TimedSpring& spring, std::vector<double>
 }
 
 /// Springs that are together too stiff for an explicit step are given the force of an implicit one.
-/// Without this limit they would gain energy until they explode; below it a spring is undamped.
+/// Without this limit they would gain energy until they explode; below it a spring is left as it
+/// is.
 double stableShare(const Stretch& s, const std::vector<double>& gain) {
   const double all = gain[index(s.body)] + (s.other ? gain[index(s.to_body)] : 0.0);
   return all <= 1.0 ? 1.0 : 1.0 / (1.0 + all);

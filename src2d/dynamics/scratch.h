@@ -93,7 +93,7 @@ struct RigidParts {
   std::vector<Part> parts;             ///< then the frame, then bodies outside that touch some
   std::vector<SolverVelocity> u;       ///< the same; only the parts respond
   std::vector<ContactBlock> rows;      ///< contacts between them
-  std::vector<std::uint32_t> weld_of;  ///< per block of those: its weld, the first ones only
+  std::vector<std::uint32_t> weld_of;  ///< per row at a weld, which come first: its weld
   NncgBuffers nncg;
 };
 

@@ -4,6 +4,7 @@
 
 #include "src2d/merging/limits.h"
 #include "src2d/merging/momentum.h"
+#include "src2d/merging/refine.h"
 #include "src2d/merging/rigid_parts.h"
 
 namespace merge2d {
@@ -33,28 +34,26 @@ double sway(const State& state, const Scratch& scratch, const Collection& c) {
   return std::sqrt(fastest);
 }
 
-/// Whether a joint holds it in a way that its contacts do not tell.
-bool hangsOnJoints(const State& state, const Scratch& scratch, const Collection& c) {
-  const auto frame = static_cast<std::uint32_t>(c.members.size());
-  const bool to_frame =
-      std::any_of(c.weld_of.begin() + c.weld_at[frame], c.weld_of.begin() + c.weld_at[frame + 1],
-                  [&](std::uint32_t weld) { return c.welds[weld].joints > 0; });
+bool hasJoints(const State& state, const Scratch& scratch, const Collection& c) {
   const auto isMember = [&](std::uint32_t b) {
     return b < state.bodies.size() && state.bodies[b].rigid == c.rigid;
   };
-  return to_frame || std::ranges::any_of(scratch.sweep_joints, [&](const JointBlock& k) {
-           return isMember(k.a) || isMember(k.b);
-         });
+  return !c.joints.empty() || std::ranges::any_of(scratch.sweep_joints, [&](const JointBlock& k) {
+    return isMember(k.a) || isMember(k.b);
+  });
 }
 
-/// Of what a load keeps swaying, and of nothing that more sweeps look at anyway.
+/// What keeps swaying under a load is asked, not what more sweeps look at anyway, nor what joints
+/// hold: they are solved in their own way.
 bool isAsked(const State& state, const Scratch& scratch, const Collection& c, double load) {
   constexpr std::int64_t kEvery = 8;  // steps
-  constexpr std::size_t kHigh = 3;    // members
+  constexpr std::size_t kFewest = 3;  // members
   constexpr double kSways = 0.02;     // of what the load adds in a step
-  if (load == 0.0 || c.members.size() < kHigh || state.step % kEvery != 0) return false;
-  if (scratch.disturbed[index(c.rigid) - state.bodies.size()]) return false;
-  return sway(state, scratch, c) > kSways * load && !hangsOnJoints(state, scratch, c);
+  const std::size_t slot = index(c.rigid) - state.bodies.size();
+  if (state.step % kEvery != 0 || c.stale || c.members.size() < kFewest || scratch.disturbed[slot])
+    return false;
+  const double enough = std::max(kSways * load, residualVelocity(state));
+  return sway(state, scratch, c) > enough && !hasJoints(state, scratch, c);
 }
 
 /// The place among the members of what all others may stand on.
@@ -64,44 +63,25 @@ std::uint32_t heaviestOf(const State& state, const Collection& c) {
                                     c.members.begin());
 }
 
-template <class Visit>
-void forEachPoint(const Collection& c, const Weld& weld, Visit&& visit) {
+/// By two points that are not at their limits.
+bool holdsFirmly(const Collection& c, const Weld& weld) {
+  int inside = 0;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const ContactBlock& k = c.blocks[c.contact_block[i]];
-    for (int p = 0; p < k.count; ++p) visit(k, p);
+    for (int p = 0; p < k.count; ++p) inside += !broken(k, p) && !onEdge(k, p) ? 1 : 0;
   }
+  return inside > 1;
 }
 
-/// What makes a point hold firmly.
-struct Firmness {
-  double pressure;  ///< it bears more than this part of its weld's
-  double friction;  ///< and less than this part of what its own allows
-};
-/// Those that are not at their limits, and those that are far from them, as the sweep may lag.
-constexpr Firmness kFirm{0.0, kWeldOnEdge}, kFirmer{0.25, 0.8};
-
-/// By two points, or by joints.
-bool joinsFirmly(const Collection& c, const Weld& weld, const Firmness& firm) {
-  double pressure = 0.0;
-  int held = 0;
-  forEachPoint(c, weld, [&](const ContactBlock& k, int i) { pressure += k.lambda_n(i); });
-  forEachPoint(c, weld, [&](const ContactBlock& k, int i) {
-    const bool presses = k.lambda_n(i) > firm.pressure * pressure;
-    const bool sticks = std::abs(k.lambda_t(i)) < firm.friction * k.mu * k.lambda_n(i);
-    held += k.bilateral || (presses && sticks) ? 1 : 0;
-  });
-  return weld.joints > 0 || held > 1;
-}
-
-/// Asks with one choice of parts. False when another need not be tried.
-bool holds(const State& state, Scratch& scratch, const Collection& c, const Joins& joins,
+/// Asks with one choice of parts. True when some of it gives.
+bool gives(const State& state, Scratch& scratch, const Collection& c, const Joins& joins,
            Footing& footing) {
   constexpr double kTakesPart = 0.1;  // of the fastest motion
-  if (!formParts(state, scratch, c, joins)) return true;
+  if (!formParts(state, scratch, c, joins)) return false;
   footing.speed = settleParts(state, scratch, c, footing.enough);
-  if (footing.speed <= footing.enough) return true;
-  footing.giving = weldsFasterThan(state, scratch.rigid_parts, c, kTakesPart * footing.speed);
-  return false;
+  if (footing.speed <= footing.enough) return false;
+  footing.giving = weldsFasterThan(state, scratch, c, kTakesPart * footing.speed);
+  return true;
 }
 
 }  // namespace
@@ -109,17 +89,14 @@ bool holds(const State& state, Scratch& scratch, const Collection& c, const Join
 Footing footingOf(const State& state, Scratch& scratch, const Collection& c) {
   constexpr double kStands = 5e-3;  // of what the load adds in a step
   const double load = loadStep(state, c);
-  Footing footing{.giving = {}, .enough = kStands * load};
+  Footing footing{.giving = {}, .enough = std::max(kStands * load, residualVelocity(state))};
   if (!isAsked(state, scratch, c, load)) return footing;
   const std::uint32_t host = state[c.rigid].floating() ? heaviestOf(state, c) : ~0u;
   const auto besideHost = [&](const Weld& weld) {
-    return weld.joints > 0 || (weld.node_a != host && weld.node_b != host);
+    return weld.node_a != host && weld.node_b != host;
   };
-  bool stays = holds(state, scratch, c, besideHost, footing);
-  for (const Firmness& firm : {kFirm, kFirmer}) {
-    const auto firmly = [&](const Weld& weld) { return joinsFirmly(c, weld, firm); };
-    stays = stays && holds(state, scratch, c, firmly, footing);
-  }
+  const auto firmly = [&](const Weld& weld) { return holdsFirmly(c, weld); };
+  if (!gives(state, scratch, c, besideHost, footing)) gives(state, scratch, c, firmly, footing);
   return footing;
 }
 

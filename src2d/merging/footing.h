@@ -9,15 +9,15 @@ namespace merge2d {
 
 /// Welds that cannot hold what they join.
 struct Footing {
-  std::vector<std::uint32_t> giving;  ///< welds; none where all stays
-  double speed = 0.0;                 ///< of the fastest corner of a part against another [m/s]
-  double enough = 0.0;                ///< what is slower stays [m/s]
+  std::vector<std::uint32_t> giving;  ///< that take part in the motion; none where all stays
+  double speed = 0.0;                 ///< of the part that moves fastest against another [m/s]
+  double enough = 0.0;                ///< where none is faster, all stays [m/s]
 };
 
 /// Takes parts of the collection as rigid bodies on the contacts between them and with its frame:
 /// at first all of it, or what stands on its heaviest member; then what two points join that are
-/// not at their limits, and what two join that are far from them. What parts cannot hold, with less
-/// freedom, the members cannot. Asked every few steps, of what the last sweep has left swaying.
+/// not at their limits. Where no forces hold the parts, none hold the members. Asked every few
+/// steps, of what the last sweep has left swaying.
 ///
 /// Deviation: sweeps take the moment of a high tower down to its foot over thousands of steps, a
 /// little between any two bricks, and would hold it long after it had to fall. Whether it stands is

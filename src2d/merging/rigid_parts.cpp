@@ -1,14 +1,17 @@
 #include "src2d/merging/rigid_parts.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "src2d/dynamics/nncg.h"
-#include "src2d/merging/collection.h"
-#include "src2d/merging/metric.h"
+#include "src2d/merging/momentum.h"
 #include "src2d/merging/refine.h"
 
 namespace merge2d {
 namespace {
+
+/// More take too long.
+constexpr std::size_t kMostParts = 32, kMostRows = 400;
 
 /// Numbers the parts by their first members; the frame comes after them.
 void numberParts(const Collection& c, RigidParts& p, const Joins& joins) {
@@ -26,9 +29,6 @@ void numberParts(const Collection& c, RigidParts& p, const Joins& joins) {
   }
   p.of[members] = count;
 }
-
-/// More take too long.
-constexpr std::size_t kMostParts = 32, kMostRows = 400;
 
 /// Mass, centre and momentum of each part.
 void gatherParts(const State& state, const Scratch& scratch, const Collection& c, RigidParts& p) {
@@ -63,11 +63,22 @@ void gatherParts(const State& state, const Scratch& scratch, const Collection& c
   }
 }
 
+/// How something beside the parts moves: with its collection where that floats.
+VelocityField fieldAt(const State& state, const Scratch& scratch, BodyId b) {
+  const auto velocityOf = [&](BodyId i) -> const SolverVelocity& {
+    return scratch.sweep_u[index(i)];
+  };
+  const RigidId id = state[b].rigid;
+  if (state.isCollection(id)) return fieldOf(state, state.collection(id), velocityOf);
+  const SolverVelocity& u = velocityOf(b);
+  return {state.pose(b).position, {u.vx, u.vy}, u.omega};
+}
+
 /// A body that does not respond, as a further part. Returns its number.
 std::uint32_t addGround(const State& state, const Scratch& scratch, RigidParts& p, BodyId b) {
-  p.parts.emplace_back().x = state.pose(b).position;
-  const SolverVelocity& u = scratch.sweep_u[index(b)];
-  p.u.push_back({u.vx, u.vy, u.omega, 0.0, 0.0});
+  const VelocityField field = fieldAt(state, scratch, b);
+  p.parts.emplace_back().x = field.x;
+  p.u.push_back({field.v.x(), field.v.y(), field.omega, 0.0, 0.0});
   return static_cast<std::uint32_t>(p.u.size() - 1);
 }
 
@@ -135,21 +146,22 @@ bool listOuterContacts(const State& state, const Scratch& scratch, const Collect
   return true;
 }
 
-/// How fast the parts of a row move against each other: their fastest corner [m/s].
+/// How fast the parts of a row move against each other: the fastest corner of the one that moves
+/// less, as a brick that rocks on a long platform is not far from any of its own corners [m/s].
 double speedAt(const State& state, const Collection& c, const RigidParts& p,
                const ContactBlock& row) {
   const Pose frame = state[c.rigid].frame();
   const auto field = [&](std::uint32_t i) {
     return VelocityField{p.parts[i].x, {p.u[i].vx, p.u[i].vy}, p.u[i].omega};
   };
-  double fastest = 0.0;
+  double speed = std::numeric_limits<double>::infinity();
   for (const std::uint32_t i : {row.a, row.b}) {
     if (p.u[i].inv_mass == 0.0) continue;
     const Aabb& bounds = p.parts[i].bounds;
     const OrientedBox box{frame * Pose{bounds.center(), {}}, 0.5 * bounds.extent()};
-    fastest = std::max(fastest, fastestCorner(box, field(row.a), field(row.b)));
+    speed = std::min(speed, fastestCorner(box, field(row.a), field(row.b)));
   }
-  return fastest;
+  return speed;
 }
 
 double fastestAtWelds(const State& state, const Collection& c, const RigidParts& p) {
@@ -189,15 +201,18 @@ double settleParts(const State& state, Scratch& scratch, const Collection& c, do
         p.nncg);
     iteration.run(kRound, method == SolverMethod::Nncg);
     const double fastest = fastestAtWelds(state, c, p);
-    const bool settled = done > 0 && std::abs(fastest - before) < kSame * fastest;
+    const double change = std::abs(fastest - before);
+    const bool settled = done > 0 && change < kSame * fastest &&
+                         fastest - change * kMost / kRound > enough;  // also if it goes on so
     if (fastest <= enough || settled) return fastest;
     before = fastest;
   }
   return 0.0;
 }
 
-std::vector<std::uint32_t> weldsFasterThan(const State& state, const RigidParts& p,
+std::vector<std::uint32_t> weldsFasterThan(const State& state, const Scratch& scratch,
                                            const Collection& c, double speed) {
+  const RigidParts& p = scratch.rigid_parts;
   std::vector<std::uint32_t> welds;
   for (std::size_t i = 0; i < p.weld_of.size(); ++i) {
     const bool known = !welds.empty() && welds.back() == p.weld_of[i];

@@ -82,8 +82,8 @@ class Trial {
     const auto movers = static_cast<std::size_t>(
         std::ranges::count_if(parts.part, [&](std::uint32_t p) { return p != host; }));
     const bool anchored = parts.anchored[host] != 0;
-    const bool fits = anchored != state_[proposal.rigid].floating() && movers > 0 &&
-                      2 * movers < parts.part.size();
+    const bool fits = !proposal.sure && anchored != state_[proposal.rigid].floating() &&
+                      movers > 0 && 2 * movers < parts.part.size();
     return {&state_.collection(proposal.rigid), &parts, host, fits,
             std::vector<int>(parts.anchored.size(), 1)};
   }
@@ -171,7 +171,7 @@ class Trial {
     return place == kNone ? scratch_.sweep_u[index(b)] : velocities_[place];
   }
 
-  /// Of a collection at the end of this step, as it was before the trial.
+  /// How a collection moves at the end of this step, as the sweep has left it.
   VelocityField fieldOf(RigidId id) {
     const auto known = std::ranges::find(fields_, id, &Known::id);
     if (known != fields_.end()) return known->field;
@@ -239,7 +239,7 @@ class Trial {
   std::vector<std::uint32_t> touched_;      ///< all bodies at the items
   std::vector<SolverVelocity> velocities_;  ///< theirs before the trial
   std::vector<std::uint32_t> bodies_;       ///< those that respond in the trial
-  std::vector<Known> fields_;               ///< of collections that float
+  std::vector<Known> fields_;               ///< of collections that were asked for
 };
 
 /// A weld that was cut, or lost contacts, holds by all that it held by before.

@@ -13,6 +13,7 @@ namespace merge2d {
 struct Proposal {
   RigidId rigid{};
   Parts parts;
+  bool sure = false;  ///< all of it moves, whatever the trial finds
 };
 
 /// Solves the contacts of all parts but the largest of each collection as if they were free

@@ -105,7 +105,7 @@ struct Tested {
   std::size_t slot;
   Noted noted;
   std::optional<Parts> parts = {};  ///< what it falls into
-  bool sure = false;                ///< and need not be tried
+  bool sure = false;                ///< whatever the trial finds
 };
 
 /// One sweep may not have converged: before anything parts, looks again after more.
@@ -142,21 +142,20 @@ void noteFooting(const Collection& c, const Footing& footing, Notes* notes) {
   }
 }
 
-/// Parts what, taken as few rigid bodies, cannot stay where it is.
+/// Parts what, taken as a few rigid bodies, cannot stay where it is.
 bool losesFooting(State& state, Scratch& scratch, Tested& tested) {
   Collection& c = state.collections[tested.slot];
   const Footing footing = footingOf(state, scratch, c);
   if (footing.giving.empty()) return false;
-  for (const std::uint32_t w : footing.giving) {
-    Weld& weld = c.welds[w];
-    weld.cut = true;
-    weld.reason = EventReason::RelativeMotion;
-    weld.turning = {static_cast<float>(footing.speed), 1};
-  }
+  for (const std::uint32_t w : footing.giving) c.welds[w].cut = true;
   Parts parts = judge(state, scratch, c);
   if (!fallsApart(state, c, parts)) {
     for (const std::uint32_t w : footing.giving) c.welds[w].cut = false;
     return false;
+  }
+  for (const std::uint32_t w : footing.giving) {
+    c.welds[w].reason = EventReason::RelativeMotion;
+    c.welds[w].turning = {static_cast<float>(footing.speed), 1};
   }
   c.cut_welds = footing.giving;
   noteFooting(c, footing, scratch.notes);
@@ -193,22 +192,20 @@ void testCollection(State& state, Scratch& scratch, Tested& tested) {
 
 /// What would not move stays: asked of all at once.
 void keepWhatStays(State& state, Scratch& scratch, std::vector<Tested>& apart) {
+  if (apart.empty()) return;
   std::vector<Proposal> proposals;
   for (const Tested& t : apart) {
-    if (!t.sure) proposals.push_back({state.collections[t.slot].rigid, *t.parts});
+    proposals.push_back({state.collections[t.slot].rigid, *t.parts, t.sure});
   }
-  if (proposals.empty()) return;
   auto remaining = partsThatMove(state, scratch, proposals);
-  std::size_t next = 0;
-  for (Tested& t : apart) {
-    if (t.sure) continue;
-    Collection& c = state.collections[t.slot];
-    t.parts = std::move(remaining[next++]);
-    if (!t.parts) {
-      restate(state, t.noted, "stays");
+  for (std::size_t i = 0; i < apart.size(); ++i) {
+    Collection& c = state.collections[apart[i].slot];
+    apart[i].parts = std::move(remaining[i]);
+    if (!apart[i].parts) {
+      restate(state, apart[i].noted, "stays");
       refuse(c);
-    } else if (!fallsApart(state, c, *t.parts)) {
-      t.parts.reset();
+    } else if (!fallsApart(state, c, *apart[i].parts)) {
+      apart[i].parts.reset();
     }
   }
 }

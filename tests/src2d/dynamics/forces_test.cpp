@@ -108,8 +108,8 @@ TEST(Spring, ASpringThatIsTooStiffForTheStepGainsNoEnergy) {
   }
 }
 
-/// A plate on springs at its corners, which pull it about and turn it.
-TEST(Spring, ManyOnOneBodyGainNoEnergyTogether) {
+/// A plate on springs along two of its sides, which pull it about and turn it.
+TEST(Spring, ManyOnOneBodyDoNotExplodeTogether) {
   for (const double stiffness : {5e3, 1e5, 1e7, 1e12}) {
     Scene scene;
     add(scene, box(2, 1, {0, 0}));
