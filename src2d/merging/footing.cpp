@@ -46,12 +46,10 @@ bool hasJoints(const State& state, const Scratch& scratch, const Collection& c) 
 /// What keeps swaying under a load is asked, not what more sweeps look at anyway, nor what joints
 /// hold: they are solved in their own way.
 bool isAsked(const State& state, const Scratch& scratch, const Collection& c, double load) {
-  constexpr std::int64_t kEvery = 8;  // steps
-  constexpr std::size_t kFewest = 3;  // members
+  constexpr std::size_t kFewest = 6;  // members: sweeps through fewer are done in time
   constexpr double kSways = 0.02;     // of what the load adds in a step
-  const std::size_t slot = index(c.rigid) - state.bodies.size();
-  if (state.step % kEvery != 0 || c.stale || c.members.size() < kFewest || scratch.disturbed[slot])
-    return false;
+  if (c.stale || c.members.size() < kFewest) return false;
+  if (scratch.disturbed[index(c.rigid) - state.bodies.size()]) return false;
   const double enough = std::max(kSways * load, residualVelocity(state));
   return sway(state, scratch, c) > enough && !hasJoints(state, scratch, c);
 }
@@ -87,16 +85,20 @@ bool gives(const State& state, Scratch& scratch, const Collection& c, const Join
 }  // namespace
 
 Footing footingOf(const State& state, Scratch& scratch, const Collection& c) {
-  constexpr double kStands = 5e-3;  // of what the load adds in a step
+  constexpr std::int64_t kOften = 8, kSeldom = 32;  // steps
+  constexpr double kStands = 5e-3;                  // of what the load adds in a step
   const double load = loadStep(state, c);
   Footing footing{.giving = {}, .enough = std::max(kStands * load, residualVelocity(state))};
+  const bool floating = state[c.rigid].floating(), seldom = state.step % kSeldom == 0;
+  if (state.step % (floating ? kSeldom : kOften) != 0) return footing;
   if (!isAsked(state, scratch, c, load)) return footing;
-  const std::uint32_t host = state[c.rigid].floating() ? heaviestOf(state, c) : ~0u;
+  const std::uint32_t host = floating ? heaviestOf(state, c) : ~0u;
   const auto besideHost = [&](const Weld& weld) {
     return weld.node_a != host && weld.node_b != host;
   };
   const auto firmly = [&](const Weld& weld) { return holdsFirmly(c, weld); };
-  if (!gives(state, scratch, c, besideHost, footing)) gives(state, scratch, c, firmly, footing);
+  if (gives(state, scratch, c, besideHost, footing) || !seldom) return footing;
+  gives(state, scratch, c, firmly, footing);  // more of them take longer
   return footing;
 }
 

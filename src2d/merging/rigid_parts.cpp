@@ -186,12 +186,13 @@ bool formParts(const State& state, Scratch& scratch, const Collection& c, const 
 }
 
 double settleParts(const State& state, Scratch& scratch, const Collection& c, double enough) {
-  constexpr int kMost = 400, kRound = 50;  // sweeps
-  constexpr double kSame = 0.01;           // of the speed
+  constexpr int kMost = 400, kRound = 50, kFirst = 5;  // sweeps
+  constexpr double kSame = 0.01;                       // of the speed
   RigidParts& p = scratch.rigid_parts;
   const SolverMethod method = state.settings.solver.method;
   double before = 0.0;
-  for (int done = 0; done < kMost; done += kRound) {
+  for (int done = 0; done < kMost;) {
+    const int sweeps = done == 0 ? kFirst : kRound;  // most stay at once
     Nncg iteration(
         p.rows.size(), [&](std::size_t i) -> Impulses& { return p.rows[i].lambda; }, p.of.back(),
         [&](std::size_t i) -> SolverVelocity& { return p.u[i]; },
@@ -199,10 +200,11 @@ double settleParts(const State& state, Scratch& scratch, const Collection& c, do
           for (ContactBlock& k : p.rows) sweepBlock(k, {}, p.u, method);
         },
         p.nncg);
-    iteration.run(kRound, method == SolverMethod::Nncg);
+    iteration.run(sweeps, method == SolverMethod::Nncg);
+    done += sweeps;
     const double fastest = fastestAtWelds(state, c, p);
     const double change = std::abs(fastest - before);
-    const bool settled = done > 0 && change < kSame * fastest &&
+    const bool settled = done > kRound && change < kSame * fastest &&
                          fastest - change * kMost / kRound > enough;  // also if it goes on so
     if (fastest <= enough || settled) return fastest;
     before = fastest;
