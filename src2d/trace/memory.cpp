@@ -30,6 +30,15 @@ std::size_t bytesOfState(const State& s) {
   return total;
 }
 
+std::size_t bytesOfBuffers(const NncgBuffers& m) {
+  return bytesOf(m.before, m.direction, m.u_before, m.u_direction);
+}
+
+std::size_t bytesOfParts(const RigidParts& p) {
+  return bytesOf(p.of, p.parts, p.u, p.rows, p.weld_of) + bytesOfBuffers(p.nncg) +
+         p.sets.memoryBytes();
+}
+
 std::size_t bytesOfScratch(const Scratch& s) {
   return bytesOf(s.loads, s.kicks, s.springs, s.spring_gain, s.pairs, s.events, s.moved,
                  s.moved_flag, s.candidates, s.touching, s.near_candidates, s.near_refined, s.seeds,
@@ -38,11 +47,7 @@ std::size_t bytesOfScratch(const Scratch& s) {
                  s.push_stale, s.others, s.leant, s.ready, s.restless_bodies, s.shaken) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order) +
-         bytesOf(s.rigid_parts.of, s.rigid_parts.parts, s.rigid_parts.u, s.rigid_parts.rows,
-                 s.rigid_parts.weld_of, s.rigid_parts.nncg.before, s.rigid_parts.nncg.direction,
-                 s.rigid_parts.nncg.u_before, s.rigid_parts.nncg.u_direction) +
-         bytesOf(s.nncg.before, s.nncg.direction, s.nncg.u_before, s.nncg.u_direction) +
-         s.sets.memoryBytes() + s.rigid_parts.sets.memoryBytes();
+         bytesOfParts(s.rigid_parts) + bytesOfBuffers(s.nncg) + s.sets.memoryBytes();
 }
 
 }  // namespace
