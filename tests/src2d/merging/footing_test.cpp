@@ -70,7 +70,9 @@ double timeOfFall(Simulation& run, std::size_t which, double end) {
 
 /// The first brick of the highest row.
 std::size_t highestOf(const Wall& wall) {
-  return static_cast<std::size_t>((wall.rows - 1) * wall.columns + 1);
+  const auto rows = static_cast<std::size_t>(wall.rows);
+  const auto columns = static_cast<std::size_t>(wall.columns);
+  return (rows - 1) * columns + 1;
 }
 
 /// When some brick has moved so far, or `end` [s].
