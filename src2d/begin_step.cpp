@@ -73,7 +73,9 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
       const bool concerned = std::any_of(c.welds.begin(), c.welds.end(),
                                          [&](const Weld& w) { return w.a == id || w.b == id; });
       if (c.id == kNoCollection || !concerned) continue;
-      saveForces(c);
+      for (InternalContact& inner : c.contacts) {
+        if (inner.key.a == id || inner.key.b == id) dropBlock(c, inner);
+      }
       c.stale = true;
     }
     layOutCollections(state);

@@ -138,27 +138,27 @@ void fields(Ar& ar, Some<PointWatch> auto& w) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<InternalContact> auto& c) {
-  auto& [since, weld, count, vain, watch, feature, key, normal, points, gap] = c;
-  ar(since, weld, count, vain, watch, feature, key, normal, points, gap);
+  auto& [since, weld, count, vain, watch, block, feature, key, normal, points, gap] = c;
+  ar(since, weld, count, vain, watch, block, feature, key, normal, points, gap);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {
-  auto& [a, b, first, count, node_a, node_b, turning, joints, vain, bridge, expected, cut, reason] =
-      w;
-  ar(a, b, first, count, node_a, node_b, turning, joints, vain, bridge, expected, cut, reason);
+  auto& [a, b, first, count, node_a, node_b, turning, vain, joints, grip, bridge, expected, cut,
+         reason] = w;
+  ar(a, b, first, count, node_a, node_b, turning, vain, joints, grip, bridge, expected, cut,
+     reason);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
-  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, grip,
-         pivots, leaning, cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks,
-         welds, weld_at, weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up,
-         struck, refusals, patience, hastened_in, hastened_every, lingering, residual, settled,
-         refuted] = c;
-  ar(id, rigid, anchor, members, contacts, blocks, block_contact, contact_block, watched, grip,
-     pivots, leaning, cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks,
-     welds, weld_at, weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up,
-     struck, refusals, patience, hastened_in, hastened_every, lingering, residual, settled,
-     refuted);
+  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watched, pivots, leaning,
+         cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
+         weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up, struck,
+         refusals, patience, hastened_in, hastened_every, lingering, residual, settled, refuted] =
+      c;
+  ar(id, rigid, anchor, members, contacts, blocks, block_contact, watched, pivots, leaning,
+     cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
+     weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up, struck, refusals,
+     patience, hastened_in, hastened_every, lingering, residual, settled, refuted);
 }
 
 template <class Ar>

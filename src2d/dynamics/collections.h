@@ -26,9 +26,8 @@ struct Drift {
 };
 
 struct InternalPoint {
-  Vec2 position = Vec2::Zero();  ///< in the collection's frame [m]
-  double lambda_n = 0.0,
-         lambda_t = 0.0;  ///< saved from its block when the blocks are laid out [N s]
+  Vec2 position = Vec2::Zero();           ///< in the collection's frame [m]
+  double lambda_n = 0.0, lambda_t = 0.0;  ///< while the contact has no block [N s]
 };
 
 /// What is known of a point's limits.
@@ -47,11 +46,14 @@ inline constexpr std::int64_t kExpected = -1;
 /// A contact inside a collection: its memory is cold, its block hot. What the tests of a step look
 /// at comes first.
 struct InternalContact {
+  static constexpr std::uint32_t kNoBlock = ~0u;
+
   std::int64_t since = 0;  ///< step of the merge that brought it in, or kExpected
   std::uint32_t weld = 0;  ///< which one it belongs to
   std::int16_t count = 0;
   std::int16_t vain = 0;  ///< as in Contact
   std::array<PointWatch, 2> watch;
+  std::uint32_t block = kNoBlock;  ///< its place among Collection::blocks; kNoBlock: to be made
   std::array<std::uint32_t, 2> feature{};  ///< of each point
   ContactKey key;
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in the collection's frame
@@ -80,6 +82,16 @@ struct InternalContact {
   }
 };
 
+/// What a weld holds by.
+enum class Grip : std::uint8_t {
+  Unknown,  ///< to be found
+  None,     ///< no contact of it has carried a force yet
+  Lost,     ///< all of them have opened
+  Pivot,    ///< one contact
+  Several,  ///< more, which may all be in one place
+  Firm,     ///< two in different places, or joints worth as much: its bodies cannot turn
+};
+
 /// A pair of bodies held together: by a run of Collection::contacts, joints, or both.
 struct Weld {
   BodyId a{}, b{};
@@ -87,21 +99,13 @@ struct Weld {
   std::uint32_t node_a = 0,
                 node_b = 0;  ///< each body's place among the members; the frame's is last
   Drift turning{};           ///< of a pivot, over consecutive steps
-  std::int16_t joints = 0;   ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
   std::int16_t vain = 0;     ///< welds of the pair before it that were cut in vain
-  bool bridge = false;       ///< its cut would leave two parts
-  bool expected = false;     ///< only contacts that may close in this step: no weld yet
-  bool cut = false;          ///< found broken, sliding or moving in this step
+  std::int8_t joints = 0;    ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
+  Grip grip = Grip::Unknown;
+  bool bridge = false;    ///< its cut would leave two parts
+  bool expected = false;  ///< only contacts that may close in this step: no weld yet
+  bool cut = false;       ///< found broken, sliding or moving in this step
   EventReason reason = EventReason::None;
-};
-
-/// What a weld holds by.
-enum class Grip : std::uint8_t {
-  None,     ///< no contact of it has carried a force yet
-  Lost,     ///< all of them have opened
-  Pivot,    ///< one contact
-  Several,  ///< more, which may all be in one place
-  Firm,     ///< two in different places, or joints worth as much: its bodies cannot turn
 };
 
 /// Bodies simulated as one (Section 4).
@@ -112,10 +116,9 @@ struct Collection {
   std::vector<BodyId> members;  ///< ascending; pinned and scripted bodies are never members
   std::vector<InternalContact> contacts;  ///< ascending by key
   std::vector<ContactBlock> blocks;       ///< one per contact, in the order of an undisturbed sweep
-  std::vector<std::uint32_t> block_contact;  ///< which contact a block is
-  std::vector<std::uint32_t> contact_block;  ///< and the other way round
+  /// Which contact a block is; empty when contacts have left since.
+  std::vector<std::uint32_t> block_contact;
   std::vector<std::uint8_t> watched;     ///< per block: is at its limit, or was in the last step
-  std::vector<Grip> grip;                ///< per weld
   std::vector<std::uint32_t> pivots;     ///< Lost or Pivot: the only ones that can turn in 2D
   std::vector<std::uint32_t> leaning;    ///< bridges with a contact that now carries nothing
   std::vector<std::uint32_t> cut_welds;  ///< in the last step

@@ -50,11 +50,10 @@ RigidId asCollection(State& state, RigidId id) {
 void absorbMembers(State& state, RigidId to, RigidId from) {
   Collection &target = state.collection(to), &source = state.collection(from);
   const Pose relative = state[to].frame().toLocal(state[from].frame());
-  saveForces(target);
-  saveForces(source);
   for (const BodyId b : source.members) enlist(state, to, b, state.pose(b), state.angle(b));
   reserveTightly(target.contacts, target.contacts.size() + source.contacts.size());
   for (InternalContact& inner : source.contacts) {
+    dropBlock(source, inner);
     inner.normal = relative.rotation * inner.normal;
     for (InternalPoint& p : inner.points) p.position = relative * p.position;
     target.contacts.push_back(inner);
@@ -89,13 +88,13 @@ void fix(State& state, RigidId id, FrameId frame, const Rigid& anchor) {
   // Re-express members, contacts and shapes in the new frame.
   Collection& c = state.collection(id);
   const Pose relative = r.frame().toLocal(old);
-  saveForces(c);
   removeShapes(state, id, c.members);
   for (const BodyId b : c.members) {
     const Pose local{state[b].local, state[b].local_rotation};
     enlist(state, id, b, old * local, old_angle + state[b].local_angle);
   }
   for (InternalContact& inner : c.contacts) {
+    dropBlock(c, inner);
     inner.normal = relative.rotation * inner.normal;
     for (InternalPoint& p : inner.points) p.position = relative * p.position;
   }
@@ -241,7 +240,6 @@ void absorbContacts(State& state) {
     if (!id) return false;
     if (contact.count == 0) return true;
     Collection& c = state.collection(*id);
-    if (!c.stale) saveForces(c);
     c.stale = true;
 
     InternalContact inner;
@@ -265,14 +263,13 @@ void absorbContacts(State& state) {
   });
 }
 
-void saveForces(Collection& c) {
-  for (std::size_t i = 0; i < c.blocks.size(); ++i) {
-    const ContactBlock& k = c.blocks[i];
-    InternalContact& contact = c.contacts[c.block_contact[i]];
-    for (int p = 0; p < k.count; ++p) {
-      contact.point(p).lambda_n = k.lambda_n(p);
-      contact.point(p).lambda_t = k.lambda_t(p);
-    }
+void dropBlock(const Collection& c, InternalContact& contact) {
+  if (contact.block == InternalContact::kNoBlock) return;
+  const ContactBlock& k = c.blocks[contact.block];
+  contact.block = InternalContact::kNoBlock;
+  for (int i = 0; i < k.count; ++i) {
+    contact.point(i).lambda_n = k.lambda_n(i);
+    contact.point(i).lambda_t = k.lambda_t(i);
   }
 }
 

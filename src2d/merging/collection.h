@@ -45,8 +45,8 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
                                      const std::vector<std::uint32_t>& part,
                                      const std::vector<std::uint8_t>& anchored);
 
-/// Copies the impulses of the blocks back to the contacts.
-void saveForces(Collection& collection);
+/// Takes a contact's impulses out of its block, which no longer fits.
+void dropBlock(const Collection& collection, InternalContact& contact);
 
 /// Brings anchored collections to their frame's pose and velocity.
 void followAnchors(State& state);

@@ -44,7 +44,7 @@ class DetourSearch {
         const std::uint32_t other = weld.node_a == node ? weld.node_b : weld.node_a;
         const bool through_frame = other == frame_ && (to != frame_ || floors_join_);
         if (weld.cut || weld.expected || through_frame || contains(other)) continue;
-        if (c_.grip[number] != Grip::Firm && !hingeTwice(other, weld)) continue;
+        if (weld.grip != Grip::Firm && !hingeTwice(other, weld)) continue;
         if (other == to) return true;
         if (count_ == group_.size()) return false;
         group_[count_++] = other;

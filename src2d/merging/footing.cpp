@@ -65,7 +65,7 @@ std::uint32_t heaviestOf(const State& state, const Collection& c) {
 bool holdsFirmly(const Collection& c, const Weld& weld) {
   int inside = 0;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    const ContactBlock& k = c.blocks[c.contact_block[i]];
+    const ContactBlock& k = c.blocks[c.contacts[i].block];
     for (int p = 0; p < k.count; ++p) inside += !broken(k, p) && !onEdge(k, p) ? 1 : 0;
   }
   return inside > 1;

@@ -1,6 +1,5 @@
 #include "src2d/merging/grip.h"
 
-#include "src2d/core/memory.h"
 #include "src2d/cycles/tolerance.h"
 
 namespace merge2d {
@@ -33,8 +32,8 @@ Grip gripOf(const Collection& c, const Weld& weld, double resolution) {
 }
 
 void setGrip(Collection& c, std::uint32_t weld, double resolution) {
-  c.grip[weld] = gripOf(c, c.welds[weld], resolution);
-  if (!isPivot(c.grip[weld])) c.welds[weld].turning = {};
+  c.welds[weld].grip = gripOf(c, c.welds[weld], resolution);
+  if (!isPivot(c.welds[weld].grip)) c.welds[weld].turning = {};
   c.pivots_stale = true;
 }
 
@@ -56,17 +55,19 @@ void updateGrip(const State& state, Collection& c, std::uint32_t weld) {
 }
 
 void findGrips(const State& state, Collection& c) {
-  reserveTightly(c.grip, c.welds.size());
-  c.grip.resize(c.welds.size());
+  c.pivots_stale = true;
   const double resolution = resolutionOf(state, c);
-  for (std::uint32_t i = 0; i < c.welds.size(); ++i) setGrip(c, i, resolution);
+  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
+    if (c.welds[i].grip == Grip::Unknown) c.welds[i].grip = gripOf(c, c.welds[i], resolution);
+    if (!isPivot(c.welds[i].grip)) c.welds[i].turning = {};
+  }
 }
 
 void listPivots(Collection& c) {
   c.pivots.clear();
   c.pivots_stale = false;
   for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
-    if (isPivot(c.grip[i])) c.pivots.push_back(i);
+    if (isPivot(c.welds[i].grip)) c.pivots.push_back(i);
   }
 }
 

@@ -13,8 +13,8 @@ int activeContacts(const Collection& c, const Weld& weld);
 /// Points of this collection nearer than this count as one [m].
 double resolutionOf(const State& state, const Collection& c);
 
-/// Finds the grip of one weld, and of all. To be called whenever a contact of it has become active,
-/// was lost or presses again, and whenever its joints hold more or less.
+/// Finds the grip of one weld, and of all that are unknown. To be called whenever a contact of it
+/// has become active, was lost or presses again, and whenever its joints hold more or less.
 void updateGrip(const State& state, Collection& c, std::uint32_t weld);
 void findGrips(const State& state, Collection& c);
 

@@ -67,7 +67,7 @@ bool updateWelds(const State& state, Collection& c) {
     const int contacts = holdOf(state, c, weld).contacts();
     if (contacts == weld.joints) continue;
     less |= contacts < weld.joints;
-    weld.joints = static_cast<std::int16_t>(contacts);
+    weld.joints = static_cast<std::int8_t>(contacts);
     if (!c.stale) updateGrip(state, c, i);  // else all are found when it is laid out
   }
   return less;
@@ -147,7 +147,6 @@ bool anyJointBreaks(const State& state, const Collection& c) {
 }
 
 void breakJointsInside(State& state, Scratch& scratch, Collection& c) {
-  saveForces(c);
   c.stale = true;
   for (const JointBlock& k : c.joints) {
     Joint& joint = state.joints[k.joint];
@@ -157,7 +156,7 @@ void breakJointsInside(State& state, Scratch& scratch, Collection& c) {
   for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
     Weld& weld = c.welds[i];
     const bool held = weld.joints > 0;
-    weld.joints = static_cast<std::int16_t>(holdOf(state, c, weld).contacts());
+    weld.joints = static_cast<std::int8_t>(holdOf(state, c, weld).contacts());
     updateGrip(state, c, i);
     if (!held || weld.joints > 0 || weld.count > 0) continue;
     weld.cut = true;

@@ -89,9 +89,8 @@ void forgetExpectedContacts(State& state, const Scratch& scratch) {
   for (Collection& c : state.collections) {
     const auto expected = [](const InternalContact& inner) { return inner.since == kExpected; };
     if (std::ranges::none_of(c.contacts, expected)) continue;
-    if (!c.stale) saveForces(c);
     c.stale = true;
-    c.blocks.clear();
+    c.block_contact.clear();
     std::erase_if(c.contacts, expected);
   }
   layOutFloating(state);

@@ -72,6 +72,15 @@ void fitBox(State& state, RigidId id) {
   state.extents[state[id].extent].box = tightBox(points);
 }
 
+/// No contact has come to the weld or left it, and it has no joints.
+bool keepsContacts(const Collection& c, const Weld& weld, const Weld& old) {
+  if (weld.joints + old.joints > 0 || weld.count != old.count) return false;
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    if (c.contacts[i].block == InternalContact::kNoBlock) return false;
+  }
+  return true;
+}
+
 /// Contacts of one pair of bodies in a row form a weld, and so do its joints.
 void layOutWelds(const State& state, Collection& c) {
   const std::vector<Weld> old = std::exchange(c.welds, {});
@@ -97,7 +106,9 @@ void layOutWelds(const State& state, Collection& c) {
   for (Weld& weld : c.welds) {
     while (o < old.size() && std::pair(old[o].a, old[o].b) < std::pair(weld.a, weld.b)) ++o;
     if (o == old.size()) break;
-    if (old[o].a == weld.a && old[o].b == weld.b) weld.turning = old[o].turning;
+    if (old[o].a != weld.a || old[o].b != weld.b) continue;
+    weld.turning = old[o].turning;
+    if (keepsContacts(c, weld, old[o])) weld.grip = old[o].grip;
   }
 }
 
@@ -154,9 +165,10 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
 
 /// The order of an undisturbed sweep: active contacts first, by colour, so that blocks in a row
 /// share no body and need not wait for each other.
-void layOutBlocks(const State& state, Collection& c) {
+void orderBlocks(Collection& c) {
   constexpr std::uint32_t kColours = 64;
   std::vector<std::uint32_t> colour_of;  // dormant contacts follow after all others
+  colour_of.reserve(c.contacts.size());
   std::array<std::uint32_t, 2 * kColours + 1> first{};
   std::vector<std::uint64_t> used(c.members.size(), 0);
   const auto colours = [&](std::uint32_t node) -> std::uint64_t* {
@@ -179,27 +191,38 @@ void layOutBlocks(const State& state, Collection& c) {
   reserveTightly(c.block_contact, colour_of.size());
   c.block_contact.resize(colour_of.size());
   for (std::uint32_t i = 0; i < colour_of.size(); ++i) c.block_contact[first[colour_of[i]]++] = i;
+}
 
-  reserveTightly(c.contact_block, colour_of.size());
-  c.contact_block.resize(colour_of.size());
-  for (std::uint32_t b = 0; b < c.block_contact.size(); ++b)
-    c.contact_block[c.block_contact[b]] = b;
-  c.blocks.clear();
-  reserveTightly(c.blocks, c.contacts.size());
-  c.watched.assign(c.contacts.size(), 1);
+/// What fitted before moves to its new place; the rest is made.
+void layOutBlocks(const State& state, Collection& c) {
+  orderBlocks(c);
+  const auto old_blocks = std::exchange(c.blocks, {});
+  const auto old_watched = std::exchange(c.watched, {});
+  c.blocks.reserve(c.contacts.size());
+  c.watched.reserve(c.contacts.size());
+  c.points = 0;
+  for (const std::uint32_t contact : c.block_contact) {
+    InternalContact& inner = c.contacts[contact];
+    if (inner.block != InternalContact::kNoBlock) {
+      c.blocks.push_back(old_blocks[inner.block]);
+      c.watched.push_back(old_watched[inner.block]);
+    } else {
+      c.blocks.push_back(makeBlock(state, c, inner));
+      c.watched.push_back(1);
+      inner.count = static_cast<std::int16_t>(
+          c.blocks.back().count);  // points too close to each other count as one
+    }
+    inner.block = static_cast<std::uint32_t>(c.blocks.size() - 1);
+    c.points += inner.count;
+  }
+}
+
+/// What was found of the welds as they were.
+void forgetJudgement(Collection& c) {
   c.cut_welds.clear();
   c.spare.clear();
   c.loosened.clear();
   c.judged = false;
-  c.points = 0;
-  for (const std::uint32_t contact : c.block_contact) {
-    InternalContact& inner = c.contacts[contact];
-    c.blocks.push_back(makeBlock(state, c, inner));
-    inner.count = static_cast<std::int16_t>(
-        c.blocks.back().count);  // points too close to each other count as one
-    c.points += inner.count;
-  }
-  tighten(c.blocks);
 }
 
 }  // namespace
@@ -252,6 +275,7 @@ void layOut(State& state, Collection& c) {
   indexWelds(state, c);
   markBridges(c);
   layOutBlocks(state, c);
+  forgetJudgement(c);
   findGrips(state, c);
   layOutPush(state, c);
   c.stale = false;

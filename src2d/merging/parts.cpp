@@ -14,7 +14,7 @@ namespace {
 bool joinsFirmly(const Collection& c, std::uint32_t number) {
   const Weld& weld = c.welds[number];
   const auto frame = static_cast<std::uint32_t>(c.members.size());
-  return c.grip[number] == Grip::Firm && !weld.cut && !weld.expected && weld.node_a != frame &&
+  return weld.grip == Grip::Firm && !weld.cut && !weld.expected && weld.node_a != frame &&
          weld.node_b != frame;
 }
 

@@ -136,7 +136,7 @@ class Refinement {
     for (std::uint32_t k = c.weld_at[member]; k < c.weld_at[member + 1]; ++k) {
       const Weld& weld = c.welds[c.weld_of[k]];
       for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-        const std::uint32_t block = c.contact_block[i];
+        const std::uint32_t block = c.contacts[i].block;
         sweepOnce(first_block_[slot] + block, {&c.blocks[block], nullptr, state_[id].rotation});
       }
     }

@@ -113,7 +113,7 @@ bool listWelds(const State& state, const Collection& c, RigidParts& p) {
     if (p.of[weld.node_a] == p.of[weld.node_b]) continue;
     if (p.rows.size() + weld.count > kMostRows) return false;
     for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-      const ContactBlock& inner = c.blocks[c.contact_block[i]];
+      const ContactBlock& inner = c.blocks[c.contacts[i].block];
       BlockGeometry g;
       g.normal = frame.rotation * Vec2(inner.nx, inner.ny);
       const auto& points = c.contacts[i].points;

@@ -63,7 +63,7 @@ bool losesAMember(const Collection& c) {
     return std::none_of(c.weld_of.begin() + c.weld_at[node],
                         c.weld_of.begin() + c.weld_at[node + 1], [&](std::uint32_t weld) {
                           return !c.welds[weld].cut && !c.welds[weld].expected &&
-                                 holds(c.grip[weld]);
+                                 holds(c.welds[weld].grip);
                         });
   };
   return std::ranges::any_of(c.cut_welds, [&](std::uint32_t weld) {

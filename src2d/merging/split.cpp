@@ -46,6 +46,7 @@ void leaveWorldFrame(State& state, RigidId id) {
   state[id].x += offset;
   for (const BodyId b : c.members) state[b].local -= offset;
   for (InternalContact& inner : c.contacts) {
+    dropBlock(c, inner);
     for (InternalPoint& point : inner.points) point.position -= offset;
   }
 }
@@ -159,7 +160,6 @@ void forgetPartedWelds(const State& state, Collection& c, FrameId frame) {
 std::vector<RigidId> splitCollection(State& state, RigidId id,
                                      const std::vector<std::uint32_t>& part,
                                      const std::vector<std::uint8_t>& anchored) {
-  saveForces(state.collection(id));
   const Rigid whole = state[id];
   const BodyId anchor = state.collection(id).anchor;
   const auto members = membersOfParts(state.collection(id), part, anchored.size());
@@ -175,7 +175,7 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
     Collection& c = state.collection(id);
     std::size_t staying = 0;
     const auto partOf = [&](BodyId b) { return part[state[rigidOf(b)].member]; };
-    for (const InternalContact& inner : c.contacts) {
+    for (InternalContact& inner : c.contacts) {
       const BodyId a = inner.key.a, b = inner.key.b;
       const bool a_in = state[a].rigid == id, b_in = state[b].rigid == id;
       const std::uint32_t p = partOf(a_in ? a : b), q = partOf(b_in ? b : a);
@@ -184,8 +184,10 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
       if (stays && p == largest) {
         c.contacts[staying++] = inner;
       } else if (stays) {
+        dropBlock(c, inner);
         kept[p].push_back(inner);
       } else {
+        dropBlock(c, inner);
         const Weld* cut = cutByTest(c, inner);
         released.push_back({inner, patienceAfter(state, inner, cut)});
         if (cut) ++released.back().inner.vain;
@@ -215,7 +217,6 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
   } else {
     Collection& c = state.collection(id);
     c.members = members[largest];
-    c.blocks.clear();
     c.block_contact.clear();
     forgetPartedWelds(state, c, anchored[largest] != 0 ? whole.anchor : kFloating);
     c.stale = true;

@@ -123,7 +123,7 @@ class Trial {
       const std::uint32_t p = partOf(weld.node_a), q = partOf(weld.node_b);
       if (!moves(p) && !moves(q)) continue;
       for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-        items_.push_back({&c.blocks[c.contact_block[i]], nullptr, turn});
+        items_.push_back({&c.blocks[c.contacts[i].block], nullptr, turn});
       }
       if (!weld.cut) continue;
       for (const std::uint32_t part : {p, q}) {

@@ -6,7 +6,6 @@
 #include "src2d/merging/grip.h"
 #include "src2d/merging/limits.h"
 #include "src2d/merging/metric.h"
-#include "src2d/merging/refine.h"
 
 namespace merge2d {
 
@@ -78,7 +77,7 @@ bool WeldTest::carriesNothing(std::uint32_t w) const {
   const Weld& weld = c_.welds[w];
   if (weld.joints > 0) return false;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    const ContactBlock& k = c_.blocks[c_.contact_block[i]];
+    const ContactBlock& k = c_.blocks[c_.contacts[i].block];
     for (int p = 0; p < k.count; ++p) {
       if (!broken(k, p)) return false;
     }
@@ -98,7 +97,7 @@ ContactVelocity WeldTest::velocityAt(const ContactBlock& k, int i) const {
 }
 
 WeldTest::Evidence WeldTest::weigh(Drift& drift, double w, double threshold) {
-  return weigh(drift, w, threshold, residualVelocity(state_));
+  return weigh(drift, w, threshold, residual_);
 }
 
 WeldTest::Evidence WeldTest::weigh(Drift& drift, double w, double threshold, double noise) {
@@ -137,7 +136,7 @@ bool WeldTest::testBroken(std::uint32_t weld, Drift& opening, double w_n) {
 }
 
 void WeldTest::testLost(std::uint32_t weld) {
-  const bool lost = c_.grip[weld] == Grip::Lost;
+  const bool lost = c_.welds[weld].grip == Grip::Lost;
   if (lost) cutWeld(c_.welds[weld], EventReason::Broken);
   note(c_.welds[weld], [&] {
     return Decision{.criterion = "broken",
@@ -211,10 +210,10 @@ void WeldTest::leans(std::uint32_t weld) {
 void WeldTest::testLeaning() {
   for (const std::uint32_t weld : leant_) {
     const bool still = std::ranges::find(c_.leaning, weld) != c_.leaning.end();
-    if (!still && !isPivot(c_.grip[weld])) c_.welds[weld].turning = {};
+    if (!still && !isPivot(c_.welds[weld].grip)) c_.welds[weld].turning = {};
   }
   for (const std::uint32_t weld : c_.leaning) {
-    if (!isPivot(c_.grip[weld])) testMotion(c_.welds[weld]);
+    if (!isPivot(c_.welds[weld].grip)) testMotion(c_.welds[weld]);
   }
 }
 
@@ -303,6 +302,21 @@ bool WeldTest::slowerThan(double limit, const Weld& weld, const VelocityField& a
   return linear + std::abs(b.omega - a.omega) * (radius + between) <= limit;
 }
 
+bool WeldTest::clearlySlowerThan(double limit, const Weld& weld) const {
+  const Body &body_a = state_[weld.a], &body_b = state_[weld.b];
+  if (body_a.rigid != c_.rigid || body_b.rigid != c_.rigid) return false;
+  const auto size = [](const Vec2& v) { return v.lpNorm<1>(); };
+  double radius = 0.0;
+  for (const BodyId id : {weld.a, weld.b}) {
+    const OrientedBox& box = state_.extent(rigidOf(id)).box;
+    radius = std::max(radius, size(box.frame.position) + size(box.half));
+  }
+  const double between = size(body_b.local - body_a.local);
+  const SolverVelocity &a = scratch_.sweep_u[index(weld.a)], &b = scratch_.sweep_u[index(weld.b)];
+  const double linear = size({b.vx - a.vx, b.vy - a.vy}) + std::abs(a.omega) * between;
+  return linear + std::abs(b.omega - a.omega) * (radius + between) <= limit;
+}
+
 Vec2 WeldTest::between(const Weld& weld) const {
   const bool both = state_[weld.a].rigid == c_.rigid && state_[weld.b].rigid == c_.rigid;
   if (both) return turn_ * (state_[weld.b].local - state_[weld.a].local);
@@ -310,6 +324,8 @@ Vec2 WeldTest::between(const Weld& weld) const {
 }
 
 WeldTest::Turning WeldTest::relativeMotion(const Weld& weld) const {
+  const double limit = std::max(noiseAt(weld), slowFor(weld));
+  if (!scratch_.notes && clearlySlowerThan(limit, weld)) return {};
   // Seen from the first body, so that it does not matter where in the world they are.
   const auto field = [&](BodyId b, const Vec2& at) {
     const SolverVelocity& u = scratch_.sweep_u[index(b)];
@@ -317,8 +333,7 @@ WeldTest::Turning WeldTest::relativeMotion(const Weld& weld) const {
   };
   const VelocityField a = field(weld.a, Vec2::Zero()), b = field(weld.b, between(weld));
   Turning motion;
-  if (!scratch_.notes && slowerThan(std::max(noiseAt(weld), slowFor(weld)), weld, a, b))
-    return motion;
+  if (!scratch_.notes && slowerThan(limit, weld, a, b)) return motion;
   const Vec2 origin = state_.pose(weld.a).position;
   for (const BodyId id : {weld.a, weld.b}) {
     if (state_[id].rigid != c_.rigid) continue;  // only the box of the body that can move
@@ -349,7 +364,7 @@ double WeldTest::caution(const Weld& weld) const {
   return lived < kSteps * factor ? factor : 1.0;
 }
 
-double WeldTest::noise() const { return std::max<double>(residualVelocity(state_), c_.residual); }
+double WeldTest::noise() const { return std::max<double>(residual_, c_.residual); }
 
 void WeldTest::doubt(const Weld& weld) {
   for (const BodyId b : {weld.a, weld.b}) scratch_.doubted.push_back(static_cast<std::uint32_t>(b));

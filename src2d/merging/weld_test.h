@@ -3,6 +3,7 @@
 
 #include "src2d/dynamics/state.h"
 #include "src2d/merging/metric.h"
+#include "src2d/merging/refine.h"
 
 namespace merge2d {
 
@@ -14,6 +15,7 @@ class WeldTest {
         scratch_(scratch),
         c_(c),
         turn_(state[c.rigid].rotation),
+        residual_(residualVelocity(state)),
         leant_(scratch.leant),
         disturbed_(disturbed),
         whole_(disturbed) {}
@@ -122,6 +124,9 @@ class WeldTest {
   bool slowerThan(double limit, const Weld& weld, const VelocityField& a,
                   const VelocityField& b) const;
 
+  /// The same by a coarser bound, which needs no root and no pose.
+  bool clearlySlowerThan(double limit, const Weld& weld) const;
+
   /// Writes one test down if somebody asks: only then is `test()` made.
   template <class MakeDecision>
   void note(const Weld& weld, MakeDecision&& test) const {
@@ -149,6 +154,7 @@ class WeldTest {
   Scratch& scratch_;
   Collection& c_;
   Rotation turn_;
+  double residual_;                    ///< what a sweep leaves for the next one [m/s]
   std::vector<std::uint32_t>& leant_;  ///< bridges that leaned in the last step
   bool confirming_ = false;
   bool growing_ = false;    ///< some sum grew in this step, and is not too large yet

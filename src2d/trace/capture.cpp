@@ -91,7 +91,7 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
   for (const Collection& c : state.collections) {
     if (c.id == kNoCollection) continue;
     const Pose frame = state[c.rigid].frame();
-    for (std::size_t b = 0; b < c.blocks.size(); ++b) {
+    for (std::size_t b = 0; b < c.block_contact.size(); ++b) {
       const ContactBlock& k = c.blocks[b];
       const Contact contact = c.contacts[c.block_contact[b]].released();
       for (int i = 0; i < k.count; ++i) {
