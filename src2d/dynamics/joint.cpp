@@ -247,6 +247,7 @@ JointForce jointForce(const State& state, const Joint& joint) {
 }
 
 bool breaks(const State& state, const Joint& joint) {
+  if (joint.broken) return false;
   if (joint.break_force == kForever && joint.break_torque == kForever) return false;
   const JointForce load = jointForce(state, joint);
   const bool turns = joint.kind == JointKind::Weld || joint.kind == JointKind::Prismatic;

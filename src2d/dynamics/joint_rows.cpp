@@ -105,6 +105,10 @@ void storeJointImpulses(State& state, Scratch& scratch) {
     joint.lambda = k.lambda;
     if (breaks(state, joint)) breakJoint(state, scratch, joint);
   }
+  for (const std::uint32_t i : scratch.overloaded_joints) {
+    if (!state.joints[i].broken) breakJoint(state, scratch, state.joints[i]);
+  }
+  scratch.overloaded_joints.clear();
 }
 
 }  // namespace merge2d

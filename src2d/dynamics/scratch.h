@@ -139,11 +139,12 @@ struct Scratch {
   std::vector<std::uint8_t> shaken;           ///< per body: further sweeps changed it in this step
 
   // Unmerge
-  RigidParts rigid_parts;              ///< of the collection at hand
-  bool split = false;                  ///< some collection was taken apart
-  std::vector<std::uint32_t> doubted;  ///< bodies at welds that may part
-  std::vector<std::uint32_t> leant;    ///< bridges that leaned in the last step, see WeldTest
-  std::vector<std::uint32_t> others;   ///< welds, see spare_welds.cpp
+  RigidParts rigid_parts;                        ///< of the collection at hand
+  bool split = false;                            ///< some collection was taken apart
+  std::vector<std::uint32_t> overloaded_joints;  ///< break after the full solve
+  std::vector<std::uint32_t> doubted;            ///< bodies at welds that may part
+  std::vector<std::uint32_t> leant;   ///< bridges that leaned in the last step, see WeldTest
+  std::vector<std::uint32_t> others;  ///< welds, see spare_welds.cpp
 
   // Merge
   std::vector<ReadyPair> ready;  ///< ascending by bodies

@@ -15,13 +15,22 @@ struct RowOf {
   double& lambda() const { return joint->lambda[row]; }
 };
 
+/// Away from its bounds a row holds in both directions.
+bool isInside(const JointBlock& k, std::size_t i) {
+  return k.lambda[i] > k.rows[i].lower && k.lambda[i] < k.rows[i].upper;
+}
+
+/// A motor that presses against a limit wants what the limit forbids: the limit holds.
+bool isOverruled(const JointBlock& k, std::size_t i) {
+  return i == kMotorRow && k.motor && k.limit && isInside(k, kLimitRow);
+}
+
 std::vector<RowOf> rowsOf(Collection& c) {
   std::vector<RowOf> rows;
   for (JointBlock& k : c.joints) {
     k.forEachRow([&](std::size_t i) {
-      const JointRow& r = k.rows[i];
-      const bool inside = k.lambda[i] > r.lower && k.lambda[i] < r.upper;
-      if (static_cast<int>(i) < k.coupled || inside) rows.push_back({&k, i});
+      const bool coupled = static_cast<int>(i) < k.coupled;
+      if (coupled || (isInside(k, i) && !isOverruled(k, i))) rows.push_back({&k, i});
     });
   }
   return rows;

@@ -146,13 +146,14 @@ bool anyJointBreaks(const State& state, const Collection& c) {
                      [&](const JointBlock& k) { return breaks(state, state.joints[k.joint]); });
 }
 
-void breakJointsInside(State& state, Scratch& scratch, Collection& c) {
+std::vector<std::uint32_t> takeOverloadedJoints(const State& state, Collection& c) {
   c.stale = true;
-  for (const JointBlock& k : c.joints) {
-    Joint& joint = state.joints[k.joint];
-    if (breaks(state, joint)) breakJoint(state, scratch, joint);
-  }
-  std::erase_if(c.joints, [&](const JointBlock& k) { return state.joints[k.joint].broken; });
+  std::vector<std::uint32_t> taken;
+  std::erase_if(c.joints, [&](const JointBlock& k) {
+    const bool overloaded = breaks(state, state.joints[k.joint]);
+    if (overloaded) taken.push_back(k.joint);
+    return overloaded;
+  });
   for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
     Weld& weld = c.welds[i];
     const bool held = weld.joints > 0;
@@ -161,6 +162,17 @@ void breakJointsInside(State& state, Scratch& scratch, Collection& c) {
     if (!held || weld.joints > 0 || weld.count > 0) continue;
     weld.cut = true;
     weld.reason = EventReason::Broken;
+  }
+  return taken;
+}
+
+void breakWhatStaysInside(State& state, Scratch& scratch, std::span<const std::uint32_t> joints) {
+  for (const std::uint32_t i : joints) {
+    if (isInside(state, state.joints[i])) {
+      breakJoint(state, scratch, state.joints[i]);
+    } else {
+      scratch.overloaded_joints.push_back(i);
+    }
   }
 }
 

@@ -3,6 +3,8 @@
 /// single contact is, and holds only in a rigid group or beside another contact or joint; a weld
 /// holds alone; so do a strong enough brake and a limit that presses.
 
+#include <span>
+
 #include "src2d/dynamics/state.h"
 #include "src2d/merging/cycles.h"
 
@@ -26,8 +28,13 @@ void confirmJoints(State& state, Collection& collection, const std::vector<Solve
 /// True when a joint inside bears more than it can.
 bool anyJointBreaks(const State& state, const Collection& collection);
 
-/// Breaks these joints; the collection is to be laid out anew.
-void breakJointsInside(State& state, Scratch& scratch, Collection& collection);
+/// Takes these joints out of the collection, which is to be laid out anew.
+std::vector<std::uint32_t> takeOverloadedJoints(const State& state, Collection& collection);
+
+/// Breaks those of them whose bodies other things still hold together. Between bodies that came
+/// apart a joint acts once more, in this step's full solve, and breaks then, as without merging: or
+/// the blow that breaks it would go through what it held.
+void breakWhatStaysInside(State& state, Scratch& scratch, std::span<const std::uint32_t> joints);
 
 /// Counts the steps in which the bodies of each joint could have merged: Eqs. (15)-(17), and the
 /// joint must have come to rest.

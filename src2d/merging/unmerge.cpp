@@ -70,14 +70,15 @@ void doubtJoints(Scratch& scratch, const Collection& c) {
   }
 }
 
-/// Breaks the joints that bear too much, also after more sweeps, and parts what they held.
+/// Joints that bear too much, also after more sweeps, hold nothing together any more.
 bool breakInside(State& state, Scratch& scratch, Collection& c) {
   doubtJoints(scratch, c);
   sweepAgain(state, scratch, c);
   if (!anyJointBreaks(state, c)) return false;
-  breakJointsInside(state, scratch, c);
+  const std::vector<std::uint32_t> joints = takeOverloadedJoints(state, c);
   const Parts parts = judge(state, scratch, c);
   if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, c.rigid, parts);
+  breakWhatStaysInside(state, scratch, joints);
   scratch.split = true;  // to be laid out anew
   return true;
 }

@@ -278,6 +278,7 @@ bool WeldTest::mustTip(const Weld& weld) const {
 
 double WeldTest::noiseAt(const Weld& weld) const {
   constexpr double kFaint = 1e-5, kBeyondResidual = 1e2;
+  if (rule() == Rule::Paper) return 0.0;  // the threshold of Eq. (17) alone
   if (!mustTip(weld)) return noise();
   const double faint =
       std::max(kFaint * state_.h * state_.gravity.norm(), kBeyondResidual * c_.residual);

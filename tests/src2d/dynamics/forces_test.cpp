@@ -108,6 +108,26 @@ TEST(Spring, ASpringThatIsTooStiffForTheStepGainsNoEnergy) {
   }
 }
 
+/// Welded to the ground the box does not float, but it would as soon as it is pulled off.
+TEST(Spring, ThatIsTooStiffDoesNotTearOffWhatItCannotLift) {
+  for (const double stiffness : {2e4, 2e5, 2e7}) {
+    for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {
+      Scene scene = onGround();
+      add(scene, box(1, 0.2, {0, 0.1}));
+      scene.springs.push_back({.body = 1,
+                               .anchor = {0, 0.1},
+                               .to = {0, 1.2009},
+                               .to_body = {},
+                               .stiffness = stiffness,
+                               .rest_length = 1.0});
+      World world(scene, inMode(mode));
+      runSeconds(world, 2);
+      EXPECT_NEAR(see(world, BodyId{1}).x.y(), 0.1, 2e-3) << stiffness << " " << name(mode);
+      EXPECT_LT(see(world, BodyId{1}).v.norm(), 1e-3) << stiffness << " " << name(mode);
+    }
+  }
+}
+
 /// A plate on springs along two of its sides, which pull it about and turn it.
 TEST(Spring, ManyOnOneBodyDoNotExplodeTogether) {
   for (const double stiffness : {5e3, 1e5, 1e7, 1e12}) {

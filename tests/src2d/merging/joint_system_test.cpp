@@ -112,5 +112,47 @@ TEST(JointSystem, ARingOfWeldsHoldsItsWeight) {
   }
 }
 
+/// Two planks side by side on the ground, joined so that a motor presses them against a limit; a
+/// stone falls on them.
+std::string motorAtItsLimit(const std::string& joint) {
+  return kGround + R"(
+[[body]]
+name = "left"
+at = [0, 0.1]
+box = [0.6, 0.2]
+[[body]]
+name = "right"
+at = [0.7, 0.1]
+box = [0.6, 0.2]
+[[body]]
+name = "stone"
+at = [0.35, 2]
+angle = 20
+box = [0.4, 0.4]
+pinned_until = 1.0
+[[joint]]
+bodies = ["left", "right"]
+at = [0.35, 0.1]
+)" + joint;
+}
+
+TEST(JointSystem, AMotorThatPressesAgainstALimitGainsNoEnergy) {
+  const double fall = std::sqrt(2.0 * 9.81 * 2.0);  // m/s
+  for (const char* joint :
+       {"kind = \"prismatic\"\naxis = [1, 0.4]\nlimits = [0, 0.1]\n"
+        "motor = { speed = 0.5, force = 10 }\n",
+        "kind = \"revolute\"\nlimits = [0, 20]\nmotor = { speed = 50, torque = 3 }\n"}) {
+    for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {
+      Simulation run(motorAtItsLimit(joint), mode);
+      double fastest = 0.0;
+      run.steps(300, [&] {
+        for (const BodyState& b : run.now().bodies) fastest = std::max(fastest, b.v.norm());
+      });
+      EXPECT_LT(fastest, fall) << name(mode) << "\n" << joint;
+      EXPECT_LT(std::abs(run.body("stone").x.y()), 0.6) << name(mode) << "\n" << joint;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace merge2d

@@ -36,6 +36,19 @@ TEST(Recorder, RecordedStepsEqualUnwatchedOnesBitForBit) {
   }
 }
 
+TEST(Recorder, WhoAsksForReasonsChangesNothingUnderEitherRule) {
+  for (const char* rule : {"default", "paper"}) {
+    const Scene scene = loadScene("tower-platform", {{"unmerging.rule", rule}});
+    World asked(scene, {.mode = Mode::Merge, .timings = false, .decisions = true});
+    World unasked(scene, {.mode = Mode::Merge, .timings = false});
+    for (int i = 0; i < 60; ++i) {
+      asked.step(), unasked.step();
+      ASSERT_EQ(Fingerprint(asked.capture()), Fingerprint(unasked.capture()))
+          << rule << ", step " << i + 1;
+    }
+  }
+}
+
 TEST(Recorder, EachStageHasItsOwnEventsAndDecisions) {
   Recorder recorder(column(2));
   std::size_t decisions = 0;

@@ -1,0 +1,128 @@
+/// Joints that break inside a collection.
+
+#include <fmt/format.h>
+
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+/// A plate over two posts, with a ball welded on top of it.
+std::string ballOnPlate(double height, double speed) {
+  return fmt::format(R"(
+format = 1
+[[body]]
+name = "posts"
+motion = "pinned"
+shapes = [{{ box = [0.2, 1], at = [-0.9, -0.5] }}, {{ box = [0.2, 1], at = [0.9, -0.5] }}]
+[[body]]
+name = "plate"
+at = [0, {0}]
+box = [2, 0.1]
+velocity = [0, {2}]
+[[body]]
+name = "ball"
+at = [0, {1}]
+circle = 0.05
+velocity = [0, {2}]
+[[joint]]
+kind = "weld"
+bodies = ["plate", "ball"]
+at = [0, {0}]
+break_force = 5
+)",
+                     height + 0.05, height + 0.15, -speed);
+}
+
+TEST(JointBreak, WhatTheJointHeldDoesNotPassThroughItsBody) {
+  for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {
+    Simulation struck(ballOnPlate(0.0, 0.0), mode);
+    struck.until(0.5);
+    struck.kick("ball", {0.0, -0.3});
+    struck.until(1.5);
+    EXPECT_EQ(struck.count(EventType::Break), 1) << name(mode);
+    EXPECT_NEAR(struck.body("ball").x.y(), 0.15, 2e-3) << name(mode);
+
+    Simulation landed(ballOnPlate(2.0, 20.0), mode);
+    landed.until(1.0);
+    EXPECT_EQ(landed.count(EventType::Break), 1) << name(mode);
+    EXPECT_NEAR(landed.body("ball").x.y(), 0.15, 2e-3) << name(mode);
+  }
+}
+
+TEST(JointBreak, PassesOnTheBlowThatBreaksItAsWithoutMerging) {
+  const std::string toml = R"(
+format = 1
+gravity = [0, 0]
+[[body]]
+name = "a"
+box = [1, 0.2]
+[[body]]
+name = "b"
+at = [1, 0]
+box = [1, 0.2]
+[[joint]]
+kind = "weld"
+bodies = ["a", "b"]
+at = [0.5, 0]
+break_force = 40
+)";
+  Simulation reference(toml, Mode::Reference), merging(toml, Mode::Merge);
+  for (Simulation* run : {&reference, &merging}) {
+    run->until(0.5);
+    run->kick("b", {0.0, -10.0});
+    run->until(1.0);
+    EXPECT_EQ(run->count(EventType::Break), 1);
+  }
+  ASSERT_EQ(merging.count(EventType::Merge), 1);
+  for (const char* name : {"a", "b"}) {
+    EXPECT_LT((merging.body(name).v - reference.body(name).v).norm(), 1e-6) << name;
+    EXPECT_NEAR(merging.body(name).omega, reference.body(name).omega, 1e-6) << name;
+  }
+}
+
+std::string weldOf(const std::string& a, const std::string& b, double at) {
+  return fmt::format("[[joint]]\nkind = \"weld\"\nbodies = [\"{}\", \"{}\"]\nat = [{}, 0.4]\n", a,
+                     b, at);
+}
+
+/// Six planks in a row between two banks; a load falls on the middle.
+std::string bridge() {
+  std::string toml = R"(
+format = 1
+[[body]]
+name = "banks"
+motion = "pinned"
+shapes = [{ box = [4, 1], at = [-5, 0] }, { box = [4, 1], at = [5, 0] }]
+[[body]]
+name = "plank"
+at = [-2.5, 0.4]
+box = [1, 0.2]
+repeat = { count = [6, 1], spacing = [1, 0] }
+[[body]]
+name = "load"
+at = [0, 3]
+box = [0.8, 0.8]
+mass = 1
+)";
+  for (int i = 0; i < 5; ++i) {
+    toml += weldOf(fmt::format("plank[{},0]", i), fmt::format("plank[{},0]", i + 1), i - 2);
+    toml += "break_force = 400\nbreak_torque = 6\n";
+  }
+  return toml + weldOf("banks", "plank[0,0]", -3) + weldOf("banks", "plank[5,0]", 3);
+}
+
+TEST(JointBreak, EachJointOfABridgeTellsOnceThatItBroke) {
+  for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {
+    Simulation run(bridge(), mode);
+    std::map<std::pair<BodyId, BodyId>, int> breaks;
+    run.steps(200, [&] {
+      for (const Event& e : run.world().events()) breaks[{e.a, e.b}] += e.type == EventType::Break;
+    });
+    EXPECT_GT(run.count(EventType::Break), 0) << name(mode);
+    for (const auto& [pair, times] : breaks) EXPECT_LE(times, 1) << name(mode);
+  }
+}
+
+}  // namespace
+}  // namespace merge2d
