@@ -161,52 +161,6 @@ TEST(Unmerge, ASleepingBoxSlipsWhenThePlatformBelowIsJerkedAway) {
   }
 }
 
-/// How far the last of ten boxes in a row goes when the first is hit from the side [m].
-std::pair<double, double> rowHit(Mode mode, double impulse, const Overrides& overrides = {}) {
-  Simulation run(kGround + R"(
-[[body]]
-name = "box"
-at = [0, 0.25]
-box = [0.5, 0.5]
-repeat = { count = [10, 1], spacing = [0.5, 1] }
-)",
-                 mode, overrides);
-  run.until(3.0);
-  const double first = run.body("box[0,0]").x.x(), last = run.body("box[9,0]").x.x();
-  run.kick("box[0,0]", {impulse, 0.0});
-  run.until(8.0);
-  return {run.body("box[0,0]").x.x() - first, run.body("box[9,0]").x.x() - last};
-}
-
-class RowHit : public testing::TestWithParam<double> {};
-
-void expectNear(const std::pair<double, double>& merged, const std::pair<double, double>& reference,
-                double part) {
-  const double scale = std::max(reference.first, reference.second);
-  EXPECT_GT(scale, 0.005);
-  EXPECT_NEAR(merged.first, reference.first, part * scale);
-  EXPECT_NEAR(merged.second, reference.second, part * scale);
-}
-
-TEST_P(RowHit, MovesAsInTheReference) {
-  expectNear(rowHit(Mode::Merge, GetParam()), rowHit(Mode::Reference, GetParam()), 0.05);
-}
-
-/// With ten iterations the row of a gentle blow is a third off itself, in the reference too.
-TEST_P(RowHit, MovesAsInAReferenceThatHasConverged) {
-  const Overrides converged{{"solver.iterations", "30"}};
-  expectNear(rowHit(Mode::Merge, GetParam(), converged),
-             rowHit(Mode::Reference, GetParam(), converged), 0.02);
-}
-TEST_P(RowHit, MovesAsInAReferenceThatHasNotConverged) {
-  const auto reference = rowHit(Mode::Reference, GetParam());
-  const auto merged = rowHit(Mode::Merge, GetParam());
-  const double enough = std::max(0.05 * reference.first, 0.002);  // 0.4% of a box
-  EXPECT_NEAR(merged.first, reference.first, enough);
-  EXPECT_NEAR(merged.second, reference.second, enough);
-}
-INSTANTIATE_TEST_SUITE_P(Impulses, RowHit, testing::Values(1.0, 3.0, 10.0));
-
 // ---- forces ----
 
 /// The step in which a tall box on the ground leaves its collection when it is pushed from 1 s on.
