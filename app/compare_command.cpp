@@ -11,6 +11,7 @@
 #include "app/interrupt.h"
 #include "app/output_file.h"
 #include "app/parse.h"
+#include "app/picture_file.h"
 #include "app/progress.h"
 #include "app/simulation.h"
 #include "app/usage_error.h"
@@ -89,6 +90,47 @@ void check(const CompareOptions& options) {
   }
 }
 
+/// The files of a comparison: asked for before it begins, so that nobody waits for nothing.
+class Products {
+ public:
+  Products(const CompareOptions& options, const Scene& scene) : options_(options) {
+    if (!options.csv.empty()) {
+      csv_.emplace(options.csv, Replaces{.everything = options.force, .ours = kComparisonCsvStart});
+    }
+    if (options.no_charts) return;
+    folder_ = options.folder.empty() ? fs::path("frames") / scene.name / "compare"
+                                     : fs::path(options.folder);
+    made_.emplace(folder_);
+    for (const fs::path& chart : chartFiles(folder_, !options.no_timings)) {
+      requirePictureMayAppear(chart, options.force);
+    }
+  }
+
+  void writeTable(const Comparison& comparison) {
+    if (csv_) csv_->stream() << comparisonCsv(comparison), csv_->finish();
+  }
+
+  /// The paths of the charts.
+  std::vector<std::string> drawCharts(const Comparison& comparison) const {
+    if (options_.no_charts) return {};
+    return drawComparison(comparison, folder_, options_.charts);
+  }
+
+ private:
+  const CompareOptions& options_;
+  std::optional<OutputFile> csv_;
+  fs::path folder_;  ///< of the charts
+  std::optional<MadeFolder> made_;
+};
+
+void simulate(Comparison& comparison, const Console& console) {
+  Progress progress(console, "step", comparison.steps());
+  while (!comparison.done()) {
+    comparison.advance();
+    progress.update(comparison.stepsDone());
+  }
+}
+
 void compare(const CompareOptions& options) {
   check(options);
   const Console console(options);
@@ -96,27 +138,11 @@ void compare(const CompareOptions& options) {
   Comparison comparison(std::make_shared<const Scene>(loadScene(options, console)),
                         !options.no_timings);
   if (options.window) check(*options.window, comparison);
-  std::unique_ptr<OutputFile> csv;  // opened first, so that nobody waits for nothing
-  if (!options.csv.empty()) {
-    csv = std::make_unique<OutputFile>(
-        options.csv, Replaces{.everything = options.force, .ours = kComparisonCsvStart});
-  }
-  {
-    Progress progress(console, "step", comparison.steps());
-    while (!comparison.done()) {
-      comparison.advance();
-      progress.update(comparison.stepsDone());
-    }
-  }
-  if (csv) csv->stream() << comparisonCsv(comparison), csv->finish();
+  Products products(options, comparison.scene());
+  simulate(comparison, console);
+  products.writeTable(comparison);
   if (!options.json && options.csv != "-") print(comparisonTable(comparison, options.window));
-  std::vector<std::string> charts;
-  if (!options.no_charts) {
-    const fs::path folder = options.folder.empty()
-                                ? fs::path("frames") / comparison.scene().name / "compare"
-                                : fs::path(options.folder);
-    charts = drawComparison(comparison, folder, options.charts);
-  }
+  const std::vector<std::string> charts = products.drawCharts(comparison);
   if (options.json) print(comparisonJson(comparison, options.window, charts));
   for (const std::string& chart : charts) console.note(chart);
 }

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "app/comparison_marks.h"
-#include "app/output_file.h"
 #include "render/chart.h"
 #include "render/png.h"
 
 namespace merge2d {
 namespace {
 
+constexpr const char *kTime = "time.png", *kCounts = "counts.png", *kDistance = "distance.png";
 constexpr std::size_t kBins = 400;       // along the time axis
 constexpr double kLeastDistance = 1e-7;  // [m]; what is less cannot be told apart
 
@@ -170,32 +170,45 @@ Chart distanceChart(const Comparison& comparison, const char* title, double Dist
   return chart;
 }
 
+/// Those of one picture.
+std::vector<Chart> chartsOf(const Comparison& comparison, std::string_view file) {
+  if (file == kTime) return timeCharts(comparison);
+  if (file == kCounts) {
+    return {
+        numberChart(comparison, "Bodies that are simulated", "free bodies and collections, awake",
+                    &StepRow::active_bodies),
+        numberChart(comparison, "Contacts in the full solve", "contact points", &StepRow::contacts),
+        eventChart(comparison)};
+  }
+  return {
+      distanceChart(comparison, "Mean distance of the bodies from the reference", &Distance::mean),
+      distanceChart(comparison, "Largest distance of a body from the reference",
+                    &Distance::largest)};
+}
+
 }  // namespace
+
+std::vector<std::filesystem::path> chartFiles(const std::filesystem::path& folder, bool timings) {
+  std::vector<std::filesystem::path> files;
+  if (timings) files.push_back(folder / kTime);
+  for (const char* file : {kCounts, kDistance}) files.push_back(folder / file);
+  return files;
+}
 
 std::vector<std::string> drawComparison(const Comparison& comparison,
                                         const std::filesystem::path& folder,
                                         const ChartStyle& style) {
-  makeFolder(folder);
   std::vector<std::string> files;
-  const auto draw = [&](const char* file, const std::vector<Chart>& charts) {
-    const std::filesystem::path path = folder / file;
+  for (const std::filesystem::path& file : chartFiles(folder, comparison.timings())) {
+    const std::string name = file.filename().string();
+    const std::vector<Chart> charts = chartsOf(comparison, name);
     Canvas canvas(style.width, style.height * static_cast<int>(charts.size()));
     PngOptions options;
-    options.description = fmt::format("{}: {}", comparison.scene().title, file);
+    options.description = fmt::format("{}: {}", comparison.scene().title, name);
     options.dots_per_inch = kDotsPerInch;
-    savePng(path, drawCharts(canvas, charts, 1, style.theme), options);
-    files.push_back(path.string());
-  };
-  if (comparison.timings()) draw("time.png", timeCharts(comparison));
-  draw("counts.png",
-       {numberChart(comparison, "Bodies that are simulated", "free bodies and collections, awake",
-                    &StepRow::active_bodies),
-        numberChart(comparison, "Contacts in the full solve", "contact points", &StepRow::contacts),
-        eventChart(comparison)});
-  draw("distance.png", {distanceChart(comparison, "Mean distance of the bodies from the reference",
-                                      &Distance::mean),
-                        distanceChart(comparison, "Largest distance of a body from the reference",
-                                      &Distance::largest)});
+    savePng(file, drawCharts(canvas, charts, 1, style.theme), options);
+    files.push_back(file.string());
+  }
   return files;
 }
 

@@ -19,9 +19,11 @@ struct ChartStyle {
 
 inline constexpr double kDotsPerInch = 300.0;
 
-/// Writes time.png (stacked time per stage, a chart per mode; not without timings), counts.png
-/// (bodies, contacts and events over time) and distance.png (from the reference) into the folder,
-/// which is made when it is missing. Returns their paths. Throws IoError.
+/// time.png (stacked time per stage, a chart per mode; not without timings), counts.png (bodies,
+/// contacts and events over time) and distance.png (from the reference).
+std::vector<std::filesystem::path> chartFiles(const std::filesystem::path& folder, bool timings);
+
+/// Writes those files into the folder and returns their paths. Throws IoError.
 std::vector<std::string> drawComparison(const Comparison& comparison,
                                         const std::filesystem::path& folder,
                                         const ChartStyle& style);

@@ -13,6 +13,7 @@
 #include "app/console.h"
 #include "app/help.h"
 #include "app/json.h"
+#include "app/picture_file.h"
 #include "app/render_options.h"
 #include "app/usage_error.h"
 #include "render/graph.h"
@@ -32,9 +33,6 @@ constexpr const char* kCyclesExamples = R"(Examples:
 A graph is text: a line 'pinned A B' names bodies that are fixed, and each other line a pair in
 contact, 'A B 2', with the number of its contacts and, if they are known, their points:
 'A B 2 0,0 1,0.5'. '#' begins a comment.)";
-
-/// So begins what a picture of ours says of itself.
-constexpr const char* kPictureOf = "merge2d: contact graph";
 
 struct CyclesOptions : MessageOptions {
   std::string file;     ///< "-": standard input
@@ -188,28 +186,12 @@ class Report {
   std::vector<std::size_t> cycle_of_;  ///< per pair
 };
 
-/// A picture of ours may be drawn again, others' files only with --force.
-void refuseOthersFile(const CyclesOptions& options) {
-  std::error_code ignored;
-  if (options.force || !fs::exists(options.picture, ignored)) return;
-  if (fs::is_directory(options.picture, ignored)) {
-    throw IoError(fmt::format("cannot write {}: it is a folder", options.picture));
-  }
-  std::ifstream in(options.picture, std::ios::binary);
-  std::string begin(1024, '\0');
-  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  if (begin.find(kPictureOf) == std::string::npos) {
-    throw UsageError(fmt::format("{} exists and would be overwritten; say --force if it may be",
-                                 options.picture));
-  }
-}
-
 void drawPicture(const CyclesOptions& options, const Theme& theme, const ContactGraph& graph,
                  const CycleVerdicts& verdicts) {
   Canvas canvas(options.size.first, options.size.second);
   const Picture picture = drawGraph(canvas, graph, verdicts, theme);
   savePng(options.picture, picture,
-          {.description = fmt::format("{} of {} bodies and {} pairs", kPictureOf,
+          {.description = fmt::format("merge2d: contact graph of {} bodies and {} pairs",
                                       graph.bodies.size(), graph.pairs.size())});
 }
 
@@ -224,7 +206,7 @@ const Theme& themeOf(const CyclesOptions& options) {
 void judgeFile(const CyclesOptions& options) {
   check(options);
   const Theme& theme = themeOf(options);
-  if (!options.picture.empty()) refuseOthersFile(options);
+  if (!options.picture.empty()) requirePictureMayAppear(options.picture, options.force);
   const std::string file = options.file.empty() && inputIsSent() ? "-" : options.file;
   if (file.empty())
     throw UsageError("FILE is missing: a contact graph, or - for the standard input");

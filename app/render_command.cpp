@@ -11,6 +11,7 @@
 #include "app/frames_folder.h"
 #include "app/interrupt.h"
 #include "app/output_file.h"
+#include "app/picture_file.h"
 #include "app/progress.h"
 #include "app/simulation.h"
 #include "app/stage_rendering.h"
@@ -61,6 +62,7 @@ class Rendering {
  private:
   const World& world() const { return simulation_.world(); }
   const Scene& scene() const { return world().scene(); }
+  fs::path sheetFile() const { return folder_ / "contact_sheet.png"; }
   /// Frames drawn per second.
   double speed() const { return static_cast<double>(counts_.written) / std::max(seconds_, 1e-9); }
 
@@ -175,13 +177,12 @@ void Rendering::makeContactSheet() const {
         cells > 1 ? (2 * i * (film_.to - film_.from) + cells - 1) / (2 * (cells - 1)) : 0;
     frames.push_back(shrunk(loadPng(folder_ / frameName(film_.from + way)), kSheetCell));
   }
-  const fs::path file = folder_ / "contact_sheet.png";
-  savePng(file, contactSheet(frames, columns, style_.theme.background),
+  savePng(sheetFile(), contactSheet(frames, columns, style_.theme.background),
           {.alpha = style_.transparent,
            .description = fmt::format("{} pictures from t = {:.2f} s to t = {:.2f} s. {}", cells,
                                       static_cast<double>(film_.from) / film_.fps, snapshot_.time,
                                       describe(snapshot_, style_))});
-  console_.note(fmt::format("{} shows {} frames", file.string(), cells));
+  console_.note(fmt::format("{} shows {} frames", sheetFile().string(), cells));
 }
 
 void Rendering::noteSpeed() const {
@@ -217,6 +218,9 @@ void Rendering::printProducts(const fs::path& animation) const {
 }
 
 void Rendering::run() {
+  if (options_.contact_sheet && fs::exists(folder_)) {
+    requirePictureMayAppear(sheetFile(), options_.force);
+  }
   prepareFolder(folder_, filmJson(scene(), options_, style_), film_, options_, console_);
   run_file_.write(false);
   try {

@@ -1,14 +1,9 @@
 #include "app/stage_pictures.h"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-
 #include "lessons/tables.h"
 #include "render/camera.h"
 #include "render/frame.h"
 #include "render/png.h"
-#include "src2d/core/error.h"
 
 namespace merge2d {
 namespace {
@@ -19,18 +14,6 @@ FrameStyle adapted(FrameStyle style, const World& start) {
   style.mode = start.mode();
   adaptToScene(style, start.scene(), start.capture(), start.bodies());
   return style;
-}
-
-/// Somebody else's file stays.
-void requireOurs(const std::string& file, bool force) {
-  namespace fs = std::filesystem;
-  if (force || !fs::exists(file)) return;
-  if (fs::is_regular_file(file)) {
-    const auto bytes = readFileBytes(file);
-    if (bytes.empty() || inspectPng(bytes).complete) return;
-  }
-  throw IoError(
-      fmt::format("{} is there already and is no picture; say --force to replace it", file));
 }
 
 }  // namespace
@@ -63,9 +46,7 @@ Camera StagePictures::cameraFor(const Snapshot& snapshot) const {
   return fit.height < style_.camera.height ? fit : style_.camera;
 }
 
-std::string StagePictures::save(const StepRecord* record, Stage stage, const std::string& file,
-                                bool force) {
-  requireOurs(file, force);
+std::string StagePictures::save(const StepRecord* record, Stage stage, const std::string& file) {
   if (record == nullptr) {
     Canvas canvas(style_.width, style_.height);
     const Snapshot initial = start_.capture();

@@ -19,8 +19,8 @@ class StagePictures {
   StagePictures(const Scene& scene, Mode mode, FrameStyle style = {});
 
   /// Draws a stage, or without a record the state before the first step, into a file; returns what
-  /// it shows. A file that is no PNG is replaced only with `force`. Throws IoError.
-  std::string save(const StepRecord* record, Stage stage, const std::string& file, bool force);
+  /// it shows. Throws IoError.
+  std::string save(const StepRecord* record, Stage stage, const std::string& file);
 
   const FrameStyle& style() const { return style_; }
 

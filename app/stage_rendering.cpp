@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "app/console.h"
 #include "app/interrupt.h"
 #include "app/output_file.h"
+#include "app/picture_file.h"
 #include "app/run_file.h"
 #include "app/simulation.h"
 #include "app/stage_pictures.h"
@@ -44,51 +46,58 @@ class StageFiles {
       : options_(options),
         console_(console),
         style_(styleOf(options)),
-        record_(recordStep(scene, options)),
         folder_(
             (options.folder.empty() ? fs::path("frames") / scene.name : fs::path(options.folder)) /
             "stages"),
-        pictures_(scene, options.mode, style_) {}
+        made_(folder_),
+        vtt_(file(".vtt").string(), {.everything = options.force, .ours = WebVtt::kStart}),
+        pictures_(scene, options.mode, style_) {
+    for (std::size_t i = 0; i < kStages; ++i) requirePictureMayAppear(picture(i), options.force);
+    if (options.contact_sheet) requirePictureMayAppear(file(".png"), options.force);
+    record_ = recordStep(scene, options);
+  }
 
   const fs::path& folder() const { return folder_; }
-  std::int64_t step() const { return record_.step; }
+  std::int64_t step() const { return record_->step; }
 
   void write() {
-    makeFolder(folder_);
     for (std::size_t i = 0; i < kStages; ++i) drawStage(i);
-    writeFile(file(".vtt").string(), captions_.text(),
-              {.everything = options_.force, .ours = WebVtt::kStart});
+    vtt_.stream() << captions_.text();
+    vtt_.finish();
     if (options_.contact_sheet) writeContactSheet();
   }
 
  private:
   /// "stages/step_000045" and what follows.
   fs::path file(const std::string& rest) const {
-    return folder_ / fmt::format("step_{:06}{}", record_.step, rest);
+    return folder_ / fmt::format("step_{:06}{}", *options_.at, rest);
+  }
+  fs::path picture(std::size_t i) const {
+    return file(fmt::format("_{:02}_{}.png", i + 1, name(static_cast<Stage>(i))));
   }
 
   void drawStage(std::size_t i) {
-    const auto stage = static_cast<Stage>(i);
-    const fs::path picture = file(fmt::format("_{:02}_{}.png", i + 1, name(stage)));
-    const std::string text = pictures_.save(&record_, stage, picture.string(), options_.force);
+    const std::string text = pictures_.save(&*record_, static_cast<Stage>(i), picture(i).string());
     captions_.add(static_cast<std::int64_t>(i), text);
     console_.detail(text);
-    if (options_.contact_sheet) cells_.push_back(shrunk(loadPng(picture), kSheetCell));
+    if (options_.contact_sheet) cells_.push_back(shrunk(loadPng(picture(i)), kSheetCell));
   }
 
   void writeContactSheet() const {
     const fs::path sheet = file(".png");
     savePng(sheet, contactSheet(cells_, options_.contact_sheet->first, style_.theme.background),
             {.alpha = style_.transparent,
-             .description = fmt::format("The eleven stages of step {}.", record_.step)});
+             .description = fmt::format("The eleven stages of step {}.", record_->step)});
     console_.note(fmt::format("{} shows them all", sheet.string()));
   }
 
   const RenderOptions& options_;
   const Console& console_;
   FrameStyle style_;
-  StepRecord record_;
   fs::path folder_;
+  MadeFolder made_;
+  OutputFile vtt_;
+  std::optional<StepRecord> record_;
   StagePictures pictures_;
   WebVtt captions_;  ///< a second for each picture
   std::vector<Picture> cells_;

@@ -7,10 +7,12 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/line_editor.h"
+#include "app/picture_file.h"
 #include "app/simulation.h"
 #include "app/stage_pictures.h"
 #include "app/usage_error.h"
 #include "lessons/player.h"
+#include "src2d/core/error.h"
 
 namespace merge2d {
 namespace {
@@ -47,6 +49,15 @@ void talk(Player& player) {
   }
 }
 
+/// In a dialogue a refusal is an answer, and not the end.
+void requireMayAppear(const std::string& picture, bool force) {
+  try {
+    requirePictureMayAppear(picture, force);
+  } catch (const UsageError& error) {
+    throw IoError(error.what());
+  }
+}
+
 void step(const SceneOptions& options) {
   check(options);
   const Console console(options);
@@ -54,7 +65,8 @@ void step(const SceneOptions& options) {
   StagePictures pictures(scene, options.mode);
   Player player(scene, options.mode, stepCount(scene),
                 [&](const StepRecord* record, Stage stage, const std::string& file) {
-                  return pictures.save(record, stage, file, options.force);
+                  requireMayAppear(file, options.force);
+                  return pictures.save(record, stage, file);
                 });
   print(player.greeting());
   if (isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1) return talk(player);

@@ -4,6 +4,7 @@
 #include <libdeflate.h>
 #include <png.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -21,6 +22,11 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr int kLevel = 1;               // higher levels cost much and gain little on flat pictures
 constexpr png_uint_32 kMaxSide = 8192;  // [px]
+
+// The text that tells what a picture shows: its key, its language, and the key in that language.
+// Other programs do without the last one, and so it also tells whose picture it is.
+constexpr const char* kTextKey = "Description";
+constexpr const char* kTextLanguage = "en";
 
 [[noreturn]] void onError(png_structp, png_const_charp message) {
   throw IoError(fmt::format("PNG: {}", message));
@@ -64,12 +70,12 @@ Bytes compressed(const Bytes& raw) {
 
 void setDescription(png_structp png, png_infop info, const std::string& description) {
   if (description.empty()) return;
-  std::string key = "Description", value = description;
+  std::string key = kTextKey, value = description;
   png_text text{};
   text.compression = PNG_ITXT_COMPRESSION_NONE;  // iTXt is the one in UTF-8
   text.key = key.data();
   text.text = value.data();
-  std::string language = "en", translated = key;
+  std::string language = kTextLanguage, translated = key;
   text.lang = language.data();
   text.lang_key = translated.data();
   png_set_text(png, info, &text, 1);
@@ -172,6 +178,20 @@ PngSummary inspectPng(std::span<const std::uint8_t> bytes) {
     out.complete = chunk->type == "IEND";
   }
   return out;
+}
+
+bool isOurPng(const std::filesystem::path& file) {
+  constexpr std::size_t kHead = 128;  // bytes in which the text begins
+  // After the key two zeros say that the text is not compressed.
+  const std::string text =
+      fmt::format("iTXt{0}{1}{1}{1}{2}{1}{0}{1}", kTextKey, '\0', kTextLanguage);
+  std::ifstream in(file, std::ios::binary);
+  std::string head(kHead, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return std::ranges::equal(head.substr(0, kPngSignature.size()), kPngSignature, {},
+                            [](char c) { return static_cast<std::uint8_t>(c); }) &&
+         head.find(text) != std::string::npos;
 }
 
 std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file) {

@@ -30,6 +30,9 @@ struct PngSummary {
 };
 PngSummary inspectPng(std::span<const std::uint8_t> bytes);
 
+/// Whether the file begins as those with a description do that were written here.
+bool isOurPng(const std::filesystem::path& file);
+
 /// Throws IoError.
 std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file);
 

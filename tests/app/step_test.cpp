@@ -119,6 +119,28 @@ TEST_F(Step, StagePicturesHaveCaptionsOfASecondEach) {
   EXPECT_EQ(read("out/stages/step_000005.vtt"), "notes of mine\n");
 }
 
+TEST_F(Step, RenderLeavesForeignPicturesAlone) {
+  const Words sheet = {"--contact-sheet", "2x1", "-r", "320x180", "-o", "out"};
+  Words stages = {"render", "stack.toml", "--stages", "--at", "5"};
+  Words frames = {"render", "stack.toml", "--steps", "1"};
+  for (Words* arguments : {&stages, &frames}) {
+    arguments->insert(arguments->end(), sheet.begin(), sheet.end());
+    EXPECT_EQ(run(*arguments).code, 0);
+  }
+  const Words before = files("out");
+  for (const char* file : {"stages/step_000005_11_Merge.png", "stages/step_000005.png"}) {
+    const std::string ours = read(std::string("out/") + file);
+    write(std::string("out/") + file, "mine");
+    EXPECT_EQ(run(stages).code, kWrongUsage) << file;
+    EXPECT_EQ(read(std::string("out/") + file), "mine");
+    write(std::string("out/") + file, ours);
+  }
+  write("out/contact_sheet.png", "mine");
+  EXPECT_EQ(run(frames).code, kWrongUsage);
+  EXPECT_EQ(read("out/contact_sheet.png"), "mine");
+  EXPECT_EQ(files("out"), before) << "nor does anything else go";
+}
+
 TEST_F(Step, RenderMakesAContactSheet) {
   const Outcome outcome = run({"render", "stack.toml", "-r", "320x180", "--fps", "20", "-o", "out",
                                "--contact-sheet", "3x2"});

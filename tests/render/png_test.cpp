@@ -56,6 +56,19 @@ TEST(Png, CanCarryADescription) {
   EXPECT_EQ(decodePng(png).width, 8);
 }
 
+TEST(Png, IsKnownAsOursByItsDescription) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "picture.png";
+  savePng(file, gradient(8, 8, true), {.description = "a box", .dots_per_inch = 300.0});
+  EXPECT_TRUE(isOurPng(file));
+  savePng(file, gradient(8, 8, true));
+  EXPECT_FALSE(isOurPng(file)) << "any program could have written it";
+  const std::string text = "iTXtDescription";
+  writeAtomically(file, std::vector<std::uint8_t>(text.begin(), text.end()));
+  EXPECT_FALSE(isOurPng(file));
+  EXPECT_FALSE(isOurPng(folder.path() / "missing.png"));
+}
+
 TEST(Png, CanSayHowLargeItIsInPrint) {
   const auto png = encodePng(gradient(8, 8, true), {.dots_per_inch = 300.0});
   EXPECT_EQ(chunkTypes(png), (std::vector<std::string>{"IHDR", "pHYs", "IDAT", "IEND"}));

@@ -1,0 +1,64 @@
+#include "app/picture_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "app/output_file.h"
+#include "app/usage_error.h"
+#include "render/png.h"
+#include "src2d/core/error.h"
+
+namespace merge2d {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& file, const std::string& why) {
+  throw IoError(fmt::format("cannot write {}: {}", file.string(), why));
+}
+
+/// Tries what writeAtomically does: rights do not tell of every file system.
+void requireWritable(const fs::path& file) {
+  fs::path probe = file;
+  probe += ".part";
+  std::error_code ignored;
+  const bool there = fs::exists(probe, ignored);
+  errno = 0;
+  if (!std::ofstream(probe, std::ios::binary | std::ios::app)) {
+    fail(file, std::generic_category().message(errno));
+  }
+  if (!there) fs::remove(probe, ignored);
+}
+
+}  // namespace
+
+void requirePictureMayAppear(const fs::path& file, bool force) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(file, ignored);
+  if (fs::is_directory(status)) fail(file, "it is a folder");
+  if (fs::exists(status) && !fs::is_regular_file(status)) fail(file, "it is no ordinary file");
+  if (fs::exists(status) && !force && fs::file_size(file, ignored) > 0 && !isOurPng(file)) {
+    throw UsageError(
+        fmt::format("{} is there already and is no picture of merge2d; say --force to replace it",
+                    file.string()));
+  }
+  requireWritable(file);
+}
+
+MadeFolder::MadeFolder(const fs::path& folder) {
+  std::error_code ignored;
+  for (fs::path up = folder; !up.empty() && !fs::exists(up, ignored); up = up.parent_path()) {
+    made_.push_back(up);
+  }
+  makeFolder(folder);
+}
+
+MadeFolder::~MadeFolder() {
+  std::error_code not_empty;
+  for (const fs::path& folder : made_) fs::remove(folder, not_empty);
+}
+
+}  // namespace merge2d
