@@ -15,17 +15,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path of what the user called `name_or_path`: a file as it is, or a built-in scene.
+/// The path of what the user called `name_or_path`: a built-in scene where it is the bare name of
+/// one (`books`; a file of that name is `./books`), else a file as it is.
 fs::path resolve(const std::string& name_or_path) {
   const fs::path path(name_or_path);
+  const bool bare = !path.has_parent_path() && !path.has_extension();
+  const auto builtin = builtinScene(name_or_path);
   std::error_code ignored;
+  if (bare && builtin) return *builtin;
   if (fs::is_regular_file(path, ignored)) return path;
-  if (const auto builtin = builtinScene(name_or_path)) return *builtin;
+  if (builtin) return *builtin;
   if (fs::is_directory(path, ignored)) {
     throw InputError(fmt::format("{} is a folder, not a scene", name_or_path));
   }
-  const bool file = path.has_parent_path() || path.has_extension();
-  if (file) throw InputError(fmt::format("there is no file {}", name_or_path));
+  if (!bare) throw InputError(fmt::format("there is no file {}", name_or_path));
   std::vector<std::string> names;
   for (const BuiltinScene& scene : builtinScenes()) names.push_back(scene.name);
   throw InputError(fmt::format("no built-in scene is called '{}'{}; `merge2d list` names them all",

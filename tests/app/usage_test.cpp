@@ -27,6 +27,14 @@ class Usage : public ProgramTest {
   }
 };
 
+TEST_F(Usage, AFileOfABareNameHidesNoBuiltInScene) {
+  write("books", "mode,step,t\n");
+  EXPECT_EQ(run({"run", "books", "--steps", "1"}).code, kFine);
+  expectError({"run", "./books", "--steps", "1"}, kBadScene, "./books:1:");
+  write("mine", kStack);
+  EXPECT_EQ(run({"run", "mine"}).code, kFine) << "there is no built-in scene of that name";
+}
+
 TEST_F(Usage, AMissingCommandIsWrongUsage) {
   expectError({}, kWrongUsage, "a command is missing: list, validate, run, render");
 }
