@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "src2d/core/error.h"
+#include "src2d/core/utf8.h"
 
 namespace merge2d {
 namespace {
@@ -22,12 +23,15 @@ bool terminal() {
   return isatty(STDERR_FILENO) == 1 && (kind == nullptr || std::string_view(kind) != "dumb");
 }
 
-void say(std::string_view line) { fmt::print(stderr, "{}\n", line); }
+/// Lines with what they quote; `heading` is ours, and may have colours.
+void say(std::string_view lines, std::string_view heading = {}) {
+  fmt::print(stderr, "{}{}\n", heading, escaped(lines, "\n"));
+}
 
 /// "error:" or "warning:", in colour where that can be seen (no-color.org).
 std::string heading(std::string_view word, int color) {
-  if (!terminal() || isSet("NO_COLOR")) return fmt::format("{}:", word);
-  return fmt::format("\033[1;{}m{}:\033[0m", color, word);
+  if (!terminal() || isSet("NO_COLOR")) return fmt::format("{}: ", word);
+  return fmt::format("\033[1;{}m{}:\033[0m ", color, word);
 }
 
 [[noreturn]] void failOutput() {
@@ -47,7 +51,7 @@ void flushOutput() {
 
 void printError(std::string_view message) {
   constexpr int kRed = 31;
-  say(fmt::format("{} {}", heading("error", kRed), message));
+  say(message, heading("error", kRed));
 }
 
 bool watchedTerminal() { return terminal() && !isSet("CI"); }
@@ -62,7 +66,7 @@ void Console::detail(std::string_view message) const {
 
 void Console::warn(std::string_view message) const {
   constexpr int kYellow = 33;
-  if (!quiet_) say(fmt::format("{} {}", heading("warning", kYellow), message));
+  if (!quiet_) say(escaped(message), heading("warning", kYellow));
 }
 
 }  // namespace merge2d

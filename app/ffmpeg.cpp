@@ -98,7 +98,7 @@ void runFfmpeg(const fs::path& program, const FfmpegJob& job) {
   if (status == 0 && !failed) return;
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw IoError(fmt::format("ffmpeg could not write {}; this is its command:\n{}", output.string(),
+  throw IoError(fmt::format("ffmpeg could not write {}; this is its command: {}", output.string(),
                             job.commandLine()));
 }
 

@@ -4,12 +4,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "src2d/core/utf8.h"
+
 namespace merge2d {
 
 /// The command line asks for something that cannot be; the message says what would be right.
 class UsageError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit UsageError(const std::string& message) : std::runtime_error(escaped(message)) {}
 };
 
 }  // namespace merge2d

@@ -90,7 +90,9 @@ std::string table(const Scene& scene, const Inventory& found) {
   row("gravity", fmt::format("{}, {} m/s^2", scene.gravity.x(), scene.gravity.y()));
   row("time",
       fmt::format("{:.6g} s, {} steps of {} s", scene.duration, stepCount(scene), scene.step));
-  for (const std::string& warning : scene.warnings) out += fmt::format("warning: {}\n", warning);
+  for (const std::string& warning : scene.warnings) {
+    out += fmt::format("warning: {}\n", escaped(warning));
+  }
   return out;
 }
 

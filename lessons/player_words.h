@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "lessons/timeline.h"
+#include "src2d/core/utf8.h"
 
 namespace merge2d {
 
 /// A line that cannot be done; the message says what would be right.
 class Refusal : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Refusal(const std::string& message) : std::runtime_error(escaped(message)) {}
 };
 
 /// The words of a line; "…" and '…' hold blanks together, '#' starts a comment.

@@ -2,6 +2,7 @@
 /// Text as characters.
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace merge2d {
@@ -20,6 +21,54 @@ inline std::size_t characterBytes(std::string_view text, std::size_t at) {
   const unsigned least = lead == 0xE0u ? 0xA0u : lead == 0xF0u ? 0x90u : 0x80u;
   const unsigned most = lead == 0xEDu ? 0x9Fu : lead == 0xF4u ? 0x8Fu : 0xBFu;
   return byte(1) >= least && byte(1) <= most ? bytes : 0;
+}
+
+/// Whether a terminal obeys the character rather than showing it (C0, DEL and C1).
+inline bool isControl(std::string_view character) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  if (character.size() == 1) return byte(0) < 0x20u || byte(0) == 0x7Fu;
+  return character.size() == 2 && byte(0) == 0xC2u && byte(1) < 0xA0u;
+}
+
+/// A control character as TOML would write it: \n, \u001b.
+inline std::string escapedControl(std::string_view character) {
+  constexpr std::string_view kControls = "\b\t\n\f\r", kLetters = "btnfr",
+                             kHex = "0123456789abcdef";
+  const std::size_t known = kControls.find(character);
+  if (known != std::string_view::npos) return {'\\', kLetters[known]};
+  const auto code = static_cast<unsigned char>(character.back());
+  return std::string("\\u00") + kHex[code / 16u] + kHex[code % 16u];
+}
+
+/// The text without what a terminal would obey: for messages, which quote what others wrote.
+/// Control characters are escaped but for those in `kept`; what is no UTF-8 becomes U+FFFD.
+inline std::string escaped(std::string_view text, std::string_view kept = {}) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t bytes = characterBytes(text, i);
+    const std::string_view character = text.substr(i, bytes > 0 ? bytes : 1);
+    i += character.size();
+    if (bytes == 0) {
+      out += "\xEF\xBF\xBD";
+    } else if (isControl(character) && kept.find(character) == std::string_view::npos) {
+      out += escapedControl(character);
+    } else {
+      out += character;
+    }
+  }
+  return out;
+}
+
+/// As many whole characters from its beginning as fit into so many bytes.
+inline std::string_view beginning(std::string_view text, std::size_t bytes) {
+  if (text.size() <= bytes) return text;
+  std::size_t end = 0;
+  for (std::size_t next = 0; next <= bytes;) {
+    end = next;
+    const std::size_t size = characterBytes(text, next);
+    next += size > 0 ? size : 1;
+  }
+  return text.substr(0, end);
 }
 
 }  // namespace merge2d

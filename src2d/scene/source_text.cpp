@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "src2d/core/error.h"
 #include "src2d/core/utf8.h"
 
 namespace merge2d {
@@ -13,9 +12,8 @@ namespace {
 
 /// What a terminal shows in one column, and never obeys.
 std::string_view printable(std::string_view character, bool valid) {
-  const char c = character[0];
   if (!valid) return "\xEF\xBF\xBD";  // U+FFFD
-  return static_cast<unsigned char>(c) < 0x20u || c == 0x7F ? " " : character;
+  return isControl(character) ? " " : character;
 }
 
 /// The part of a line around `column` (from 1, in characters) that fits a terminal, and the column
@@ -51,13 +49,13 @@ std::string_view SourceText::line(std::size_t number) const {
   return found;
 }
 
-std::string SourceText::message(const toml::source_position& where,
-                                std::string_view sentence) const {
+PlacedMessage SourceText::message(const toml::source_position& where,
+                                  std::string_view sentence) const {
   const auto [shown, column] = excerpt(line(where.line), where.column);
-  const std::string head = fmt::format("{}:{}:{}: {}", name_, where.line, where.column, sentence);
-  if (shown.empty()) return head;
+  std::string head = fmt::format("{}:{}:{}: {}", name_, where.line, where.column, sentence);
+  if (shown.empty()) return {head, {}};
   const std::string caret(column > 0 ? column - 1 : 0, ' ');
-  return fmt::format("{}\n{:>5} | {}\n{:>5} | {}^", head, where.line, shown, "", caret);
+  return {head, fmt::format("\n{:>5} | {}\n{:>5} | {}^", where.line, shown, "", caret)};
 }
 
 std::string SourceText::place(const toml::source_region& where) const {

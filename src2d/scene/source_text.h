@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "src2d/core/error.h"
 #include "src2d/scene/toml.h"
 
 namespace merge2d {
@@ -24,7 +25,7 @@ class SourceText {
   std::string place(const toml::source_region& where) const;
 
   /// `name:line:column: sentence`, and the line with a caret below `column`.
-  std::string message(const toml::source_position& where, std::string_view sentence) const;
+  PlacedMessage message(const toml::source_position& where, std::string_view sentence) const;
 
   /// Line `number`, from 1, without its end; empty when there is none.
   std::string_view line(std::size_t number) const;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src2d/core/utf8.h"
 #include "src2d/scene/settings_list.h"
 
 namespace merge2d {
@@ -15,7 +16,7 @@ namespace {
 /// How a value of a wrong type or size is shown: "the text \"3\"", "-1", "a table".
 std::string shown(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) {
-    return fmt::format("the text \"{}\"", text->substr(0, 40));
+    return fmt::format("the text \"{}\"", beginning(*text, 40));
   }
   if (const auto number = node.value_exact<double>()) {
     const std::string digits = fmt::format("{}", *number);

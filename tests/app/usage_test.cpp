@@ -27,6 +27,13 @@ class Usage : public ProgramTest {
   }
 };
 
+TEST_F(Usage, ControlCharactersOfTheCommandLineAreShownEscaped) {
+  expectError({"run", "books", "--mode", "\x1b[31m"}, kWrongUsage, "but is '\\u001b[31m'");
+  expectError({"frob\nnicate"}, kWrongUsage, "unknown command 'frob\\nnicate'");
+  expectError({"run", "a\x1b.toml"}, kBadScene, "there is no file a\\u001b.toml\n");
+  expectError({"run", "books", "--steps", "1", "--csv", "no\x1b/x"}, kFailed, "no\\u001b/x");
+}
+
 TEST_F(Usage, AFileOfABareNameHidesNoBuiltInScene) {
   write("books", "mode,step,t\n");
   EXPECT_EQ(run({"run", "books", "--steps", "1"}).code, kFine);

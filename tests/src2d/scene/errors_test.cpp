@@ -248,6 +248,33 @@ TEST(Errors, NamesAreUniqueAndPlain) {
   });
 }
 
+TEST(Errors, ControlCharactersOfTextsAreShownEscaped) {
+  EXPECT_EQ(errorOf("[[body]]\nname = \"a\"\nbox = \"x\\u0000y\"\n"),
+            "s.toml:3:7: 'box' in [[body]] must be [width, height], but is the text "
+            "\"x\\u0000y\"\n"
+            "    3 | box = \"x\\u0000y\"\n"
+            "      |       ^");
+  expectErrors({
+      {R"(step = "\u001b[31m\u009b\u007f")", R"(1:8: 'step' in the scene must be a number, but is )"
+                                             R"(the text "\u001b[31m\u009b\u007f")"},
+      {R"(step = "two\nlines\tand\r\b\f")", R"(1:8: 'step' in the scene must be a number, but )"
+                                            R"(is the text "two\nlines\tand\r\b\f")"},
+      {R"("frc\ntion" = 1)", R"(1:1: unknown key 'frc\ntion' in the scene)"},
+      {R"(step = "ööööööööööööööööööööö")",
+       "1:8: 'step' in the scene must be a number, but is the "
+       "text \"öööööööööööööööööööö\""},
+  });
+}
+
+TEST(Errors, ControlCharactersOfFileNamesAreShownEscaped) {
+  try {
+    loadScene("two\nlines\x1b[31m\xff.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "there is no file two\\nlines\\u001b[31m\xEF\xBF\xBD.toml");
+  }
+}
+
 TEST(Errors, RepeatIsChecked) {
   expectErrors({
       {body("repeat = { count = [2, 2] }"), "3:10: 'repeat' of [[body]] needs the key 'spacing'"},

@@ -106,7 +106,7 @@ TEST(Override, MistakesNameTheOptionAsTyped) {
   EXPECT_EQ(error("", "1"), "--set =1: '' is not a key such as merging.velocity");
   EXPECT_EQ(error("step", ""),
             "--set step=: '' is not a number, true or false, \"a text\" or [a, list]");
-  EXPECT_EQ(error("step", "1\nx = 2"), "--set step=1\nx = 2: a value is one line");
+  EXPECT_EQ(error("step", "1\nx = 2"), R"(--set step=1\nx = 2: a value is one line)");
 }
 
 /// Every setting of the list takes what it is written as, by `--set` as well as in a file.
