@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/comparison_marks.h"
+#include "app/comparison_report.h"
 #include "render/chart.h"
 #include "render/png.h"
 
@@ -98,6 +99,24 @@ Chart emptyChart(const Comparison& comparison, std::string title, std::string y_
   return chart;
 }
 
+std::vector<double> sortedTotals(const Chart& chart) {
+  std::vector<double> totals(chart.series.front().x.size());
+  for (const Series& series : chart.series) {
+    std::ranges::transform(totals, series.y, totals.begin(), std::plus());
+  }
+  std::ranges::sort(totals);
+  return totals;
+}
+
+/// Ends the axis of a chart of times, and says of what goes on how far it goes.
+void endAt(Chart& chart, double high) {
+  chart.y_high = high;
+  const std::vector<double> totals = sortedTotals(chart);
+  if (totals.empty() || totals.back() <= high) return;
+  chart.y_label +=
+      fmt::format("; bars with a tip are cut off, the highest at {:.2g} ms", totals.back());
+}
+
 /// Stacked time per stage in each mode, on one scale. The slowest hundredth is cut off rather than
 /// making all else look small.
 std::vector<Chart> timeCharts(const Comparison& comparison) {
@@ -118,15 +137,11 @@ std::vector<Chart> timeCharts(const Comparison& comparison) {
         return ms;
       }));
     }
-    std::vector<double> totals(chart.series.front().x.size());
-    for (const Series& series : chart.series) {
-      std::ranges::transform(totals, series.y, totals.begin(), std::plus());
-    }
-    std::ranges::sort(totals);
+    const std::vector<double> totals = sortedTotals(chart);
     if (!totals.empty()) high = std::max(high, totals[totals.size() * 99 / 100]);
     charts.push_back(std::move(chart));
   }
-  for (Chart& chart : charts) chart.y_high = high > 0.0 ? 1.2 * high : 1.0;
+  for (Chart& chart : charts) endAt(chart, high > 0.0 ? 1.2 * high : 1.0);
   return charts;
 }
 
@@ -154,8 +169,10 @@ Chart eventChart(const Comparison& comparison) {
 }
 
 Chart distanceChart(const Comparison& comparison, const char* title, double Distance::*number) {
-  Chart chart = emptyChart(comparison, title, "metres");
+  Chart chart = emptyChart(comparison, title, "distance, on a logarithmic scale");
   chart.log_y = true;
+  chart.y_floor = kLeastDistance;
+  chart.y_text = lengthText;
   for (const ModeRun& run : comparison.runs()) {
     Series& series = chart.series.emplace_back(Series{name(run.mode), {}, {}});
     if (run.mode == Mode::Reference) {
@@ -164,7 +181,7 @@ Chart distanceChart(const Comparison& comparison, const char* title, double Dist
     }
     for (const Distance& distance : run.distances) {
       series.x.push_back(distance.time);
-      series.y.push_back(std::max(distance.*number, kLeastDistance));
+      series.y.push_back(distance.*number);
     }
   }
   return chart;

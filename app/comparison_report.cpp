@@ -135,17 +135,6 @@ Json modeJson(const Comparison& comparison, const ModeRun& run) {
   return out;
 }
 
-/// "3.2 mm", in the unit that needs no power of ten.
-std::string lengthText(double metres) {
-  if (metres == 0.0) return "0";
-  if (metres < 1e-12) return "< 0.001 nm";
-  if (metres < 1e-7) return fmt::format("{:.2g} nm", 1e9 * metres);
-  if (metres < 0.995e-4) return fmt::format("{:.2g} um", 1e6 * metres);
-  if (metres < 0.9995) return fmt::format("{:.3g} mm", 1e3 * metres);
-  if (metres < 999.5) return fmt::format("{:.3g} m", metres);
-  return fmt::format("{:.0f} m", metres);
-}
-
 std::string timeText(const std::vector<double>& times, std::size_t k) {
   return k < times.size() ? fmt::format("{:.2f} s", times[k]) : "-";
 }
@@ -229,6 +218,16 @@ std::string distanceRows(const Comparison& comparison) {
 }
 
 }  // namespace
+
+std::string lengthText(double metres) {
+  if (metres == 0.0) return "0";
+  if (metres < 1e-12) return "< 0.001 nm";
+  if (metres < 1e-7) return fmt::format("{:.2g} nm", 1e9 * metres);
+  if (metres < 0.995e-4) return fmt::format("{:.2g} µm", 1e6 * metres);
+  if (metres < 0.9995) return fmt::format("{:.3g} mm", 1e3 * metres);
+  if (metres < 999.5) return fmt::format("{:.3g} m", metres);
+  return fmt::format("{:.0f} m", metres);
+}
 
 std::string comparisonTable(const Comparison& comparison, const std::optional<Window>& window) {
   const Scene& scene = comparison.scene();

@@ -12,6 +12,9 @@ namespace merge2d {
 /// How every table of a comparison begins.
 inline constexpr std::string_view kComparisonCsvStart = "mode,step,t,active_bodies,";
 
+/// "3.2 mm", in the unit that needs no power of ten.
+std::string lengthText(double metres);
+
 /// A column per mode, the numbers with their units; with a window, also the means within it.
 std::string comparisonTable(const Comparison& comparison, const std::optional<Window>& window);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "render/camera.h"
+#include "render/chart_marks.h"
 #include "render/painter.h"
 #include "src2d/core/assert.h"
 
@@ -56,6 +57,7 @@ class ChartPainter {
       drawAreas();
       painter_.beginLayer();
       drawMarks();
+      drawCuts();
       drawAreaNames();
     } else {
       drawMarks();
@@ -79,7 +81,11 @@ class ChartPainter {
     return theme_.collections[i % theme_.collections.size()].fill;
   }
 
-  bool usable(double y) const { return std::isfinite(y) && (!chart_.log_y || y > 0.0); }
+  /// The value that is drawn: nothing is below the axis' foot.
+  double shown(double y) const {
+    return chart_.log_y ? std::max(y, chart_.y_floor.value_or(y)) : y;
+  }
+  bool usable(double y) const { return std::isfinite(y) && (!chart_.log_y || shown(y) > 0.0); }
 
   void findRanges() {
     for (const Series& series : chart_.series) {
@@ -88,7 +94,7 @@ class ChartPainter {
       for (std::size_t i = 0; i < series.x.size(); ++i) {
         if (!usable(series.y[i])) continue;
         x_.include(series.x[i]);
-        y_.include(chart_.stacked ? stackedUpTo(chart_.series.size(), i) : series.y[i]);
+        y_.include(chart_.stacked ? stackedUpTo(chart_.series.size(), i) : shown(series.y[i]));
       }
     }
     if (chart_.stacked && x_.low < x_.high) {
@@ -123,7 +129,7 @@ class ChartPainter {
       names = std::max(names, painter_.text().width(series.name, font_));
     }
     for (const double y : yTicks()) {
-      numbers = std::max(numbers, painter_.text().width(fmt::format("{:g}", y), font_));
+      numbers = std::max(numbers, painter_.text().width(yText(y), font_));
     }
     const float left = std::round(panel_.x + px(30.0F) + numbers);
     const float right = std::round(panel_.right() - px(50.0F) - names);
@@ -134,24 +140,27 @@ class ChartPainter {
     area_.y = top, area_.height = std::max(1.0F, bottom - top);
   }
 
-  /// Each name begins at its line, which is drawn up to it: where a later line would cross a name,
-  /// the name stands in a row above that line's. Names without a row are left out, not their lines.
   void placeMarks() {
+    constexpr std::size_t kLongest = 30;  // characters
     for (const ChartMark& mark : chart_.marks) {
       if (mark.x < x_.low || mark.x > x_.high) continue;
-      const float width = painter_.text().width(mark.name, font_);
-      const float column = std::round(at(mark.x, y_.low).x);
-      const float start = std::min(column, panel_.right() - px(10.0F) - width);
-      marks_.push_back({column, start, start + width + px(10.0F), 0, &mark.name});
+      PlacedMark& placed = marks_.emplace_back();
+      placed.name = shortened(mark.name, kLongest);
+      placed.column = std::round(at(mark.x, y_.low).x);
+      placed.width = painter_.text().width(placed.name, font_);
     }
-    for (std::size_t i = marks_.size(); i-- > 0;) {
-      for (std::size_t later = i + 1; later < marks_.size(); ++later) {
-        const PlacedMark& other = marks_[later];
-        if (!other.named() || std::min(other.start, other.column) >= marks_[i].end) continue;
-        marks_[i].row = std::max(marks_[i].row, other.row + 1);
-      }
-      if (marks_[i].named()) mark_rows_ = std::max(mark_rows_, marks_[i].row + 1);
+    placeNames(marks_, panel_.x + px(10.0F), area_.right(), px(10.0F));
+    for (const PlacedMark& mark : marks_) {
+      if (mark.named) mark_rows_ = std::max(mark_rows_, mark.row + 1);
     }
+  }
+
+  /// "1 mm", "≤ 0.1 µm" at a foot where all that is less is drawn too.
+  std::string yText(double y) const {
+    constexpr double kRounding = 1e-9;
+    const std::string text = chart_.y_text ? chart_.y_text(y) : fmt::format("{:g}", y);
+    const bool foot = chart_.log_y && chart_.y_floor && y <= *chart_.y_floor * (1.0 + kRounding);
+    return foot ? "≤ " + text : text;
   }
 
   std::vector<double> yTicks() const {
@@ -179,8 +188,8 @@ class ChartPainter {
     for (const double y : yTicks()) {
       const float row = std::round(at(x_.low, y).y);
       painter_.box({area_.x, row, area_.width, line}, 0.0F, grid);
-      painter_.write(fmt::format("{:g}", y), font_, {area_.x - px(8.0F), row + drop},
-                     theme_.ink_soft, Align::Right);
+      painter_.write(yText(y), font_, {area_.x - px(8.0F), row + drop}, theme_.ink_soft,
+                     Align::Right);
     }
   }
 
@@ -200,13 +209,13 @@ class ChartPainter {
   void drawMarks() {
     const float line = hairline();
     for (const PlacedMark& mark : marks_) {
-      const float row = mark.named() ? kMarkRow * static_cast<float>(mark.row) : 0.0F;
+      const float row = mark.named ? kMarkRow * static_cast<float>(mark.row) : 0.0F;
       for (float y = area_.bottom() - px(3.0F); y > area_.y - px(row); y -= px(6.0F)) {
         painter_.box({mark.column, std::round(y), line, std::round(px(3.0F))}, 0.0F,
                      {.fill = theme_.ink_soft});
       }
-      if (!mark.named()) continue;
-      painter_.write(*mark.name, font_,
+      if (!mark.named) continue;
+      painter_.write(mark.name, font_,
                      {std::round(mark.start), std::round(area_.y - px(5.0F + row))},
                      theme_.ink_soft);
     }
@@ -236,6 +245,20 @@ class ChartPainter {
     }
   }
 
+  /// A tip above each stack of areas that goes on beyond the axis.
+  void drawCuts() {
+    if (chart_.series.empty()) return;
+    const std::vector<double>& x = chart_.series.front().x;
+    const float half = px(3.0F), height = px(4.0F), base = std::round(area_.y);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      if (stackedUpTo(chart_.series.size(), k) <= y_.high) continue;
+      const float middle = 0.5F * (at(edge(k), y_.low).x + at(edge(k + 1), y_.low).x);
+      const std::array<Pixel, 3> tip = {Pixel{middle - half, base}, Pixel{middle + half, base},
+                                        Pixel{middle, base - height}};
+      painter_.polygon(tip, 0.0F, {.fill = theme_.ink});
+    }
+  }
+
   /// From the top, in the order of the areas.
   void drawAreaNames() {
     const float height = static_cast<float>(font_.size) * 1.5F;
@@ -261,7 +284,7 @@ class ChartPainter {
     };
     for (std::size_t i = 0; i < series.x.size(); ++i) {
       if (!usable(series.y[i])) continue;
-      const Pixel p = at(series.x[i], series.y[i]);
+      const Pixel p = at(series.x[i], shown(series.y[i]));
       if (!column.empty() && std::floor(p.x) != std::floor(column.front().x)) flush();
       column.push_back(p);
     }
@@ -301,17 +324,6 @@ class ChartPainter {
 
   static constexpr float kMarkRow = 16.0F;  ///< height of a row of names
   static constexpr float kInset = 6.0F;     ///< of the first and last value from the frame
-
-  struct PlacedMark {
-    static constexpr std::size_t kRows = 4;
-
-    float column = 0.0F;             ///< of the line [px]
-    float start = 0.0F, end = 0.0F;  ///< of the name, with the space behind it [px]
-    std::size_t row = 0;             ///< of the name, from below
-    const std::string* name = nullptr;
-
-    bool named() const { return row < kRows; }
-  };
 
   Painter& painter_;
   const Chart& chart_;

@@ -1,6 +1,7 @@
 #pragma once
 /// Charts of a few quantities over time, for comparisons: lines, or areas on top of each other.
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,7 +17,7 @@ struct Series {
   std::vector<double> x, y;  ///< of one length, x ascending
 };
 
-/// Something that happened: a thin upright line with a name.
+/// Something that happened: a thin upright line with a name, which is shortened where it is long.
 struct ChartMark {
   double x = 0.0;
   std::string name;
@@ -28,7 +29,11 @@ struct Chart {
   bool log_y = false;                ///< values that are not positive are left out
   bool stacked = false;  ///< areas that add up, the first at the bottom; all share one x
   std::optional<double> x_low{}, x_high{};  ///< of the axis; default: what the series cover
-  std::optional<double> y_high{};           ///< the axis ends here, and what is higher is cut off
+  /// The axis ends here, and what is higher is cut off; stacks that go on have a tip on top.
+  std::optional<double> y_high{};
+  /// Of a logarithmic axis: what is less is drawn here, and the axis says so.
+  std::optional<double> y_floor{};
+  std::function<std::string(double)> y_text{};  ///< of a number at the axis; default: its digits
   std::vector<Series> series{};
   std::vector<ChartMark> marks{};
 };

@@ -164,6 +164,46 @@ TEST(Chart, WritesNamesOfMarksThatAreCloseAboveEachOther) {
   EXPECT_EQ(rowsWith(drawChart(canvas, chart), lightTheme().ink_soft), one);
 }
 
+TEST(Chart, WritesNamesOfLateMarksBesideTheLegendAndNotOverIt) {
+  Canvas canvas(960, 480);
+  Chart chart = sample();
+  chart.marks = {{19.9, "a name that is long"}, {19.95, "another one"}};
+  const Picture picture = drawChart(canvas, chart);
+  int last = 0;  // column of a name
+  for (int y = 0; y < picture.height / 2; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (picture.at(x, y) == lightTheme().ink_soft) last = std::max(last, x);
+    }
+  }
+  EXPECT_GT(last, 600) << "they are there";
+  int end = picture.width - 1;  // of the axis
+  while (picture.at(end, 428) != lightTheme().ink) --end;
+  EXPECT_LE(last, end);
+}
+
+TEST(Chart, PutsATipOnWhatIsCutOff) {
+  Canvas canvas(960, 480);
+  Chart chart = stackOf(1.0, 1.0);
+  chart.y_high = 3.0;
+  const int whole = pixelsOf(drawChart(canvas, chart), lightTheme().ink);
+  chart.y_high = 1.5;
+  EXPECT_GT(pixelsOf(drawChart(canvas, chart), lightTheme().ink), whole);
+}
+
+TEST(Chart, DrawsWhatIsBelowALogarithmicFootAtIt) {
+  Canvas canvas(960, 480);
+  Chart chart;
+  chart.series = {{"zero", {0.0, 1.0, 2.0}, {0.0, 1e-9, 1e-12}}, {"some", {0.0, 2.0}, {1.0, 10.0}}};
+  chart.log_y = true;
+  chart.y_floor = 1e-3;
+  std::vector<double> numbers;
+  chart.y_text = [&](double y) { return numbers.push_back(y), std::string("x"); };
+  const Picture picture = drawChart(canvas, chart);
+  EXPECT_GT(pixelsOf(picture, lineStyle(lightTheme(), 0, 2).color), 100);
+  EXPECT_DOUBLE_EQ(*std::ranges::min_element(numbers), 1e-3);
+  EXPECT_DOUBLE_EQ(*std::ranges::max_element(numbers), 10.0);
+}
+
 TEST(Chart, MarksWhatHappens) {
   Canvas canvas(640, 400);
   Chart chart = sample();
