@@ -44,7 +44,8 @@ std::size_t bytesOfScratch(const Scratch& s) {
                  s.moved_flag, s.candidates, s.touching, s.near_candidates, s.near_refined, s.seeds,
                  s.stirred, s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
-                 s.push_stale, s.others, s.leant, s.ready, s.restless_bodies, s.shaken) +
+                 s.push_stale, s.others, s.doubted, s.overloaded_joints, s.leant, s.ready,
+                 s.restless_bodies, s.shaken) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order) +
          bytesOfParts(s.rigid_parts) + bytesOfBuffers(s.nncg) + s.sets.memoryBytes();
