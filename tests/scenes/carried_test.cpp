@@ -2,6 +2,7 @@
 
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "tests/scenes/scene_testing.h"
 
@@ -240,6 +241,51 @@ TEST(ShipCrane, EachGrabFreesTheContainerThatIsLifted) {
     EXPECT_NEAR(run.body(lifted[n]).x.y(), 8.8, 0.02) << "on the stack";
   }
 }
+
+TEST(ShipCrane, EachGrabFreesItsColumnAlone) {
+  SceneRun run("ship-crane");
+  run.until(88.0);
+  for (int n = 0; n < 4; ++n) {
+    const double grab = 7.0 + 20.5 * n;  // within this second the magnet comes down
+    const std::string column = "cargo[" + std::to_string(8 - n) + ",";
+    std::set<std::string> parted;
+    for (const SceneRun::Logged& e : run.log()) {
+      const double time = 0.01 * static_cast<double>(e.step);
+      if (e.type != EventType::Unmerge || time < grab - 1.0 || time > grab + 3.0) continue;
+      parted.insert(e.b);
+      EXPECT_TRUE(e.a == "ship" || e.a.starts_with(column)) << e.a << " at " << time;
+      EXPECT_TRUE(e.b.starts_with(column)) << e.b << " at " << time;
+    }
+    EXPECT_TRUE(parted.contains(cell("cargo", 8 - n, 7)));
+    EXPECT_LE(parted.size(), 2u) << "it and the lowest of its column";
+  }
+  EXPECT_LE(run.count(EventType::Unmerge), 12) << "and four times the magnet lets go";
+}
+
+class ShipCraneIn : public testing::TestWithParam<Mode> {};
+
+/// Neither the grab nor the neighbours on the quay make a container tip.
+TEST_P(ShipCraneIn, EachContainerStaysUprightAndIsPutDownInItsPlace) {
+  SceneRun run("ship-crane", GetParam());
+  double overlap = 0.0, tilt = 0.0;
+  while (run.world().time() < 88.0 - 1e-9) {
+    run.steps(1);
+    overlap = std::max(overlap, run.now().stats.max_penetration);
+    for (int n = 0; n < 4; ++n) {
+      tilt = std::max(tilt, std::abs(run.body(cell("cargo", 8 - n, 7)).angle));
+    }
+  }
+  EXPECT_LT(overlap, 0.01);
+  EXPECT_LT(tilt, 0.01);
+  for (int n = 0; n < 4; ++n) {
+    const Vec2 place = run.body(cell("cargo", 8 - n, 7)).x;
+    EXPECT_NEAR(place.x(), 4.3 + 2.7 * n, 0.03) << n;
+    EXPECT_NEAR(place.y(), 8.8, 0.01) << n;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(EachMode, ShipCraneIn,
+                         testing::Values(Mode::Reference, Mode::Sleep, Mode::Merge,
+                                         Mode::MergeSleep));
 
 }  // namespace
 }  // namespace merge2d
