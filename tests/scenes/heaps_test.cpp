@@ -1,3 +1,5 @@
+#include <set>
+
 #include "tests/scenes/scene_testing.h"
 
 namespace merge2d {
@@ -57,7 +59,7 @@ void expectInTheTray(const SceneRun& run) {
   for (const BodyState& body : run.now().bodies) {
     EXPECT_TRUE(body.x.allFinite()) << run.nameOf(body.id);
     EXPECT_GT(body.x.y(), 0.0 - (run.dynamic(body.id) ? 0.0 : 1.0)) << run.nameOf(body.id);
-    EXPECT_LT(std::abs(body.x.x()), 20.0) << run.nameOf(body.id);
+    EXPECT_LT(std::abs(body.x.x()), 28.0) << run.nameOf(body.id);
   }
 }
 
@@ -72,6 +74,91 @@ TEST(Funnel, HeapsMergeWhileMoreIsFalling) {
   }
   EXPECT_GT(run.now().stats.bodies, 70);
   EXPECT_LT(active, 0.45 * bodies);
+  expectInTheTray(run);
+}
+
+/// What the funnel and the boxes did over a part of a run.
+struct FunnelWatch {
+  double fastest = 0.0;                 ///< [m/s]
+  double lowest = 1e9, highest = -1e9;  ///< of its centre [m]
+  double under_it = 0.0;                ///< top of what lies below the throat [m]
+  double overlap = 0.0;                 ///< the deepest [m]
+  double room = 1e9;                    ///< to what is nearest, for a box that is born [m]
+  int anchored = 0;                     ///< steps in which it is welded to the ground
+  std::set<BodyId> boxes = {};          ///< that are there
+  double per_body = 0.0;                ///< memory at the end [bytes]
+};
+
+/// How far the boxes that are new this step are from all others, centre to centre.
+double roomOfTheNew(const SceneRun& run, std::set<BodyId>& known) {
+  double room = 1e9;
+  for (const BodyState& born : run.now().bodies) {
+    if (!known.insert(born.id).second) continue;
+    for (const BodyState& other : run.now().bodies) {
+      if (other.id == born.id || !run.nameOf(other.id).ends_with("]")) continue;
+      room = std::min(room, (other.x - born.x).norm());
+    }
+  }
+  return room;
+}
+
+FunnelWatch watchFunnel(SceneRun& run, double until) {
+  FunnelWatch seen;
+  for (const BodyState& body : run.now().bodies) seen.boxes.insert(body.id);
+  while (run.world().time() < until - 1e-9) {
+    run.steps(1);
+    const Snapshot& now = run.now();
+    const BodyState& funnel = run.body("funnel");
+    seen.fastest = std::max(seen.fastest, funnel.v.norm());
+    seen.lowest = std::min(seen.lowest, funnel.x.y());
+    seen.highest = std::max(seen.highest, funnel.x.y());
+    seen.overlap = std::max(seen.overlap, now.stats.max_penetration);
+    seen.anchored += run.anchored("funnel");
+    if (now.bodies.size() == seen.boxes.size()) continue;
+    seen.room = std::min(seen.room, roomOfTheNew(run, seen.boxes));
+    for (const BodyState& body : now.bodies) {
+      const bool below = std::abs(body.x.x()) < 3.0 && body.x.y() < 8.4 && body.v.norm() < 0.5;
+      if (below && run.dynamic(body.id)) seen.under_it = std::max(seen.under_it, body.x.y() + 0.35);
+    }
+  }
+  seen.per_body = static_cast<double>(run.world().memoryBytes()) / run.now().stats.bodies;
+  return seen;
+}
+
+/// It hangs on its springs, above the heap, and sways; no box is born in another.
+void expectFreeFunnel(const FunnelWatch& seen) {
+  EXPECT_GT(seen.fastest, 0.5) << "with the gantry alone it would be 0.15";
+  EXPECT_EQ(seen.anchored, 0);
+  EXPECT_GT(seen.lowest, 11.5);
+  EXPECT_LT(seen.highest, 11.75);
+  EXPECT_LT(seen.under_it, 6.0) << "the throat ends at 8.5";
+  EXPECT_LT(seen.overlap, 0.1);
+  EXPECT_GT(seen.room, 1.2) << "the diagonal of a box is 0.71";
+}
+
+TEST(Funnel, SwaysAboveTheHeaps) {
+  SceneRun run("funnel");
+  expectFreeFunnel(watchFunnel(run, 100.0));
+  expectFreeFunnel(watchFunnel(run, 110.0));
+  expectInTheTray(run);
+}
+
+/// The longest run, in parts of 25 s.
+TEST(LongFunnel, HangsFreeAllTheTime) {
+  SceneRun run("funnel");
+  double per_body = 0.0;
+  while (run.world().time() < 450.0 - 1e-9) {
+    SCOPED_TRACE(run.world().time());
+    const FunnelWatch seen = watchFunnel(run, run.world().time() + 25.0);
+    expectFreeFunnel(seen);
+    if (run.world().time() > 200.0 && per_body == 0.0) per_body = seen.per_body;
+    EXPECT_LE(seen.per_body, per_body == 0.0 ? 1e9 : per_body) << "memory does not grow";
+  }
+  int held = 0;
+  for (const BodyState& body : run.now().bodies) {
+    held += body.collection == run.body("funnel").collection;
+  }
+  EXPECT_GT(held, 250) << "and so are most of the boxes in it";
   expectInTheTray(run);
 }
 
