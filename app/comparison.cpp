@@ -54,6 +54,12 @@ int count(const std::vector<Event>& events, EventType type) {
   return static_cast<int>(std::ranges::count(events, type, &Event::type));
 }
 
+int sum(const std::vector<StepRow>& steps, int StepRow::*number) {
+  int all = 0;
+  for (const StepRow& row : steps) all += row.*number;
+  return all;
+}
+
 Distance between(const Sample& reference, const Sample& other) {
   Distance distance{.time = reference.time};
   int both = 0;
@@ -129,17 +135,9 @@ std::span<const StepRow> ModeRun::within(const Window& window, double h) const {
   return std::span(steps).subspan(first, step(window.to) - first);
 }
 
-int ModeRun::merges() const {
-  int sum = 0;
-  for (const StepRow& row : steps) sum += row.merges;
-  return sum;
-}
-
-int ModeRun::unmerges() const {
-  int sum = 0;
-  for (const StepRow& row : steps) sum += row.unmerges;
-  return sum;
-}
+int ModeRun::merges() const { return sum(steps, &StepRow::merges); }
+int ModeRun::unmerges() const { return sum(steps, &StepRow::unmerges); }
+int ModeRun::brokenJoints() const { return sum(steps, &StepRow::broken_joints); }
 
 int ModeRun::lateEvents() const {
   int sum = 0;
@@ -200,8 +198,12 @@ class Comparison::Lane {
                 .active_bodies = stats.active_bodies,
                 .contacts = stats.contacts,
                 .internal_contacts = stats.internal_contacts,
+                .collections = stats.collections,
+                .asleep = stats.asleep,
                 .merges = count(now_.events, EventType::Merge),
-                .unmerges = count(now_.events, EventType::Unmerge)};
+                .unmerges = count(now_.events, EventType::Unmerge),
+                .broken_joints = count(now_.events, EventType::Break),
+                .max_penetration = stats.max_penetration};
     for (std::size_t s = 0; s < kStages; ++s) {
       row.stage_ms[s] = timings_ ? static_cast<float>(1e3 * stats.seconds[s]) : 0.0F;
     }

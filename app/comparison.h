@@ -22,7 +22,9 @@ struct StepRow {
   double ms = 0.0;                        ///< [ms]
   std::array<float, kStages> stage_ms{};  ///< [ms]; zero without timings
   int active_bodies = 0, contacts = 0, internal_contacts = 0;
-  int merges = 0, unmerges = 0;
+  int collections = 0, asleep = 0;
+  int merges = 0, unmerges = 0, broken_joints = 0;
+  double max_penetration = 0.0;  ///< [m]
 };
 
 /// How far the bodies' centres are from where they are in the reference.
@@ -61,6 +63,7 @@ struct ModeRun {
   std::span<const StepRow> within(const Window& window, double h) const;
   int merges() const;
   int unmerges() const;
+  int brokenJoints() const;
   /// Merges and unmerges in the last quarter of the run: none, once a scene has settled.
   int lateEvents() const;
   double largestDistance() const;  ///< at any step [m]

@@ -123,6 +123,7 @@ Json modeJson(const Comparison& comparison, const ModeRun& run) {
   out["asleep"] = run.last.asleep;
   out["merges"] = run.merges();
   out["unmerges"] = run.unmerges();
+  if (!comparison.scene().joints.empty()) out["broken_joints"] = run.brokenJoints();
   out["late_events"] = run.lateEvents();
   out["flicker"] = run.flicker;
   out["max_penetration"] = run.max_penetration;
@@ -240,10 +241,15 @@ std::string comparisonTable(const Comparison& comparison, const std::optional<Wi
   for (const ModeRun& run : comparison.runs()) out += fmt::format("{:>13}", name(run.mode));
   out += '\n' + meanRows(comparison, allSteps);
   add("active bodies, at the end", [](auto& r) { return std::to_string(r.last.active_bodies); });
+  add("collections, at the end", [](auto& r) { return std::to_string(r.last.collections); });
+  add("bodies asleep, at the end", [](auto& r) { return std::to_string(r.last.asleep); });
   add("merges", [](auto& r) { return std::to_string(r.merges()); });
   add("unmerges", [](auto& r) { return std::to_string(r.unmerges()); });
   add("  both, in the last quarter", [](auto& r) { return std::to_string(r.lateEvents()); });
   add("welds gone in 20 steps", [](auto& r) { return std::to_string(r.flicker); });
+  if (!scene.joints.empty()) {
+    add("broken joints", [](auto& r) { return std::to_string(r.brokenJoints()); });
+  }
   add("deepest overlap, all steps", [](auto& r) { return lengthText(r.max_penetration); });
   out += tippingRows(comparison) + distanceRows(comparison);
   if (window) out += windowRows(comparison, *window);
@@ -276,7 +282,9 @@ std::string comparisonJson(const Comparison& comparison, const std::optional<Win
 std::string comparisonCsv(const Comparison& comparison) {
   const double h = comparison.scene().step;
   std::string out(kComparisonCsvStart);
-  out += "contacts,internal_contacts,merges,unmerges,mean_distance,largest_distance";
+  out +=
+      "contacts,internal_contacts,merges,unmerges,mean_distance,largest_distance,collections,"
+      "asleep,broken_joints,max_penetration";
   if (comparison.timings()) {
     out += ",ms";
     for (std::size_t s = 0; s < kStages; ++s) out += fmt::format(",ms_{}", name(Stage(s)));
@@ -286,10 +294,11 @@ std::string comparisonCsv(const Comparison& comparison) {
     for (std::size_t i = 0; i < run.steps.size(); ++i) {
       const StepRow& row = run.steps[i];
       const Distance& distance = run.distances[i];
-      out += fmt::format("{},{},{:.9g},{},{},{},{},{},{},{}", name(run.mode), i + 1,
+      out += fmt::format("{},{},{:.9g},{},{},{},{},{},{},{},{},{},{},{}", name(run.mode), i + 1,
                          h * static_cast<double>(i + 1), row.active_bodies, row.contacts,
                          row.internal_contacts, row.merges, row.unmerges, distance.mean,
-                         distance.largest);
+                         distance.largest, row.collections, row.asleep, row.broken_joints,
+                         row.max_penetration);
       if (comparison.timings()) out += fmt::format(",{},{}", row.ms, fmt::join(row.stage_ms, ","));
       out += '\n';
     }

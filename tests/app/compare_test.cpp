@@ -282,14 +282,43 @@ TEST_F(Compare, WritesATableWithARowPerModeAndStep) {
   ASSERT_THAT(lines, SizeIs(1 + 4 * 50));
   EXPECT_EQ(lines[0],
             "mode,step,t,active_bodies,contacts,internal_contacts,merges,unmerges,mean_distance,"
-            "largest_distance,ms,ms_ContactDetection,ms_ContactOrdering,ms_SleepAndWake,"
+            "largest_distance,collections,asleep,broken_joints,max_penetration,ms,ms_"
+            "ContactDetection,ms_ContactOrdering,ms_SleepAndWake,"
             "ms_WarmStart,ms_SingleIterationPGS,ms_Unmerge,ms_SolveLCP,ms_AdvanceVelocities,"
             "ms_AccumulateRelativeMotion,ms_AdvancePositions,ms_Merge");
   EXPECT_THAT(lines[1], StartsWith("reference,1,0.01,3,"));
   EXPECT_THAT(lines[200], StartsWith("merge+sleep,50,0.5,"));
   for (const Words& row : rowsOf("all.csv")) {
-    EXPECT_THAT(row, AllOf(SizeIs(22), Each(Not(IsEmpty()))));
+    EXPECT_THAT(row, AllOf(SizeIs(26), Each(Not(IsEmpty()))));
   }
+}
+
+TEST_F(Compare, TellsInItsTableWhatRunTellsOfEachStep) {
+  EXPECT_EQ(run({"compare", "toppled.toml", "--csv", "all.csv", "--no-charts"}).code, 0);
+  EXPECT_EQ(run({"run", "toppled.toml", "--csv", "one.csv"}).code, 0);
+  std::vector<Words> merged = rowsOf("all.csv"), alone = rowsOf("one.csv");
+  std::erase_if(merged, [](const Words& row) { return row[0] != "merge+sleep"; });
+  ASSERT_EQ(merged.size(), alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(merged[i][10], alone[i][4]) << "collections";
+    EXPECT_EQ(merged[i][11], alone[i][5]) << "asleep";
+    EXPECT_EQ(merged[i][13], alone[i][10]) << "max_penetration";
+  }
+}
+
+TEST_F(Compare, CountsBrokenJointsOfASceneThatHasJoints) {
+  write("lamp.toml", R"(
+format = 1
+duration = 0.5
+body = [{ name = "lamp", circle = 0.1, mass = 2 }]
+joint = [{ kind = "revolute", bodies = ["lamp"], at = [0, 0], break_force = 15 }]
+)");
+  const Outcome outcome = run({"compare", "lamp.toml", "--no-charts", "--csv", "all.csv"});
+  EXPECT_THAT(outcome.out, ContainsRegex("\nbroken joints +1 +1 +1 +1\n"));
+  EXPECT_EQ(compared("lamp.toml")["modes"][3]["broken_joints"], 1);
+  EXPECT_EQ(std::ranges::count(rowsOf("all.csv"), "1", [](const Words& row) { return row[12]; }),
+            4);
+  EXPECT_FALSE(compared("stack.toml")["modes"][3].contains("broken_joints"));
 }
 
 TEST_F(Compare, DrawsItsCharts) {
@@ -308,44 +337,6 @@ TEST_F(Compare, DrawsItsCharts) {
         << chart << ": 1920 pixels wide, so of one text size";
     EXPECT_THAT(bytes, HasSubstr("pHYs"));
   }
-}
-
-TEST_F(Compare, RefusesToOverwriteWhatIsNotOurs) {
-  const Words command = {"compare", "stack.toml", "-o", "charts", "--csv", "all.csv"};
-  fs::create_directory(folder() / "charts");
-  const std::string photo = "\x89PNG\r\n\x1a\n and somebody's holidays";
-  for (const std::string& foreign : {std::string("notes of mine"), photo}) {
-    write("charts/counts.png", foreign);
-    const Outcome refused = run(command);
-    EXPECT_EQ(refused.code, 2) << refused.err;
-    EXPECT_THAT(refused.err, AllOf(HasSubstr("charts/counts.png is there already"),
-                                   HasSubstr("say --force to replace it")));
-    EXPECT_THAT(refused.out, IsEmpty());
-    EXPECT_EQ(read("charts/counts.png"), foreign);
-    EXPECT_THAT(files(), ElementsAre("charts", "charts/counts.png", "stack.toml", "toppled.toml"))
-        << "nothing half written";
-  }
-  Words forced = command;
-  forced.push_back("--force");
-  EXPECT_EQ(run(forced).code, 0);
-  EXPECT_EQ(run(command).code, 0) << "those of ours are drawn again";
-}
-
-/// The simulation would fail with another message.
-TEST_F(Compare, RefusesItsFilesBeforeItSimulates) {
-  write("flea.toml", kDiverging);
-  write("charts", "a file");
-  for (const char* folder : {"/proc/x", "/proc", "charts", "charts/of/mine"}) {
-    const Outcome refused = run({"compare", "flea.toml", "-o", folder});
-    EXPECT_EQ(refused.code, 4) << folder;
-    EXPECT_THAT(refused.err, StartsWith("error: cannot write ")) << folder;
-  }
-}
-
-TEST_F(Compare, LeavesNoFolderWithoutCharts) {
-  write("flea.toml", kDiverging);
-  EXPECT_EQ(run({"compare", "flea.toml", "-o", "some/charts"}).code, 1);
-  EXPECT_THAT(files(), ElementsAre("flea.toml", "stack.toml", "toppled.toml"));
 }
 
 TEST_F(Compare, WithoutTimingsTwoRunsGiveTheSameBytes) {
