@@ -109,14 +109,7 @@ class Loader {
   void readTraces(TableReader& top) {
     LessonTrace first{.label = "as it is", .mode = Mode::MergeSleep, .scene = {}};
     if (const auto mode = top.get("mode")) first.mode = modeOf(*mode);
-    std::optional<Value> named = top.require("scene");
-    if (!named) top.done();
-    const std::string wanted = named->text();
-    const fs::path file = folder_ / wanted;
-    const std::string path = fs::is_regular_file(file) ? file.string() : wanted;
-    if (path == wanted && wanted.find('.') != std::string::npos) {
-      named->fail(fmt::format("there is no file '{}' in the lesson's folder", wanted));
-    }
+    const std::string path = scenePath(top);
     const auto load = [&](const Overrides& overrides) {
       Scene scene = loadScene(path, overrides);
       if (const auto seconds = top.get("seconds")) {
@@ -125,31 +118,55 @@ class Loader {
       return scene;
     };
     first.scene = load({});
-    lesson_.traces.push_back(first);
-    labels_.push_back(first.label);
+    add(first);
     for (TableReader& table : top.tables("trace")) {
       LessonTrace trace{.label = "", .mode = first.mode, .scene = {}};
-      if (const auto label = table.require("label")) {
-        trace.label = label->text();
-        if (std::find(labels_.begin(), labels_.end(), trace.label) != labels_.end()) {
-          label->fail(fmt::format("there is another trace '{}'", trace.label));
-        }
-      }
+      if (const auto label = table.require("label")) trace.label = newLabel(*label);
       if (const auto mode = table.get("mode")) trace.mode = modeOf(*mode);
-      Overrides overrides;
-      if (const auto set = table.get("set")) {
-        for (const Value& one : set->elements("[\"key=value\"]")) {
-          const std::string text = one.text();
-          const std::size_t at = text.find('=');
-          if (at == std::string::npos) one.fail("it should read \"key=value\", as after --set");
-          overrides.emplace_back(text.substr(0, at), text.substr(at + 1));
-        }
-      }
+      const Overrides overrides = readOverrides(table);
       table.done();
       trace.scene = load(overrides);
-      labels_.push_back(trace.label);
-      lesson_.traces.push_back(std::move(trace));
+      add(std::move(trace));
     }
+  }
+
+  void add(LessonTrace trace) {
+    labels_.push_back(trace.label);
+    lesson_.traces.push_back(std::move(trace));
+  }
+
+  /// A file of the folder, or the name of a built-in scene.
+  std::string scenePath(TableReader& top) const {
+    const std::optional<Value> named = top.require("scene");
+    if (!named) top.done();
+    const std::string wanted = named->text();
+    const fs::path file = folder_ / wanted;
+    const std::string path = fs::is_regular_file(file) ? file.string() : wanted;
+    if (path == wanted && wanted.find('.') != std::string::npos) {
+      named->fail(fmt::format("there is no file '{}' in the lesson's folder", wanted));
+    }
+    return path;
+  }
+
+  std::string newLabel(const Value& label) const {
+    const std::string text = label.text();
+    if (std::find(labels_.begin(), labels_.end(), text) != labels_.end()) {
+      label.fail(fmt::format("there is another trace '{}'", text));
+    }
+    return text;
+  }
+
+  static Overrides readOverrides(TableReader& table) {
+    Overrides overrides;
+    const auto set = table.get("set");
+    if (!set) return overrides;
+    for (const Value& one : set->elements("[\"key=value\"]")) {
+      const std::string text = one.text();
+      const std::size_t at = text.find('=');
+      if (at == std::string::npos) one.fail("it should read \"key=value\", as after --set");
+      overrides.emplace_back(text.substr(0, at), text.substr(at + 1));
+    }
+    return overrides;
   }
 
   void readParts(TableReader& top) {

@@ -19,6 +19,16 @@ constexpr std::array<std::string_view, 4> kCriteria = {"relative-motion", "slidi
 
 std::string unitOf(std::string_view criterion) { return criterion == "breathing" ? "m" : "m/s"; }
 
+std::set<std::pair<BodyId, BodyId>> touchingPairs(const Recording& r, std::int64_t step) {
+  std::set<std::pair<BodyId, BodyId>> pairs;
+  for (const ContactTrack& c : r.contacts) {
+    for (const Span& s : c.spans) {
+      if (step >= s.first && step < s.first + s.count) pairs.insert({c.a, c.b});
+    }
+  }
+  return pairs;
+}
+
 }  // namespace
 
 /// An option of an answer: its text, the bodies it means in the picture, and whether it is right.
@@ -109,60 +119,81 @@ Question::Answer Question::aboveOrBelow(const Recording& r, std::int64_t step) c
   place_->fail(fmt::format("'{}' is not tested for this pair at step {}", criterion_, step));
 }
 
-Question::Answer Question::answered(const Recording& r, std::int64_t asked_at,
-                                    const Found& found) const {
+Question::Answer Question::ofChoices() const {
   Answer out;
-  const auto called = [&](BodyId b) { return r.bodies[index(b)].name; };
-  if (kind_ == Kind::Words) {
-    for (std::size_t i = 0; i < choices_.size(); ++i) {
-      out.options.push_back({choices_[i], {}, static_cast<int>(i) + 1 == answer_});
-    }
-  } else if (kind_ == Kind::Threshold) {
-    out = aboveOrBelow(r, found.step);
-  } else if (kind_ == Kind::Freed) {
-    out.several = true;
-    std::vector<std::string> freed;
-    for (std::size_t i = 0; i < r.bodies.size(); ++i) {
-      const BodyId b{static_cast<std::uint32_t>(i)};
-      if (r.collection(b, asked_at) == kNoCollection) continue;
-      const bool right = r.collection(b, found.step) == kNoCollection;
-      out.options.push_back({called(b), {b}, right});
-      if (right) freed.push_back(called(b));
-    }
-    out.because = freed.empty()
-                      ? "No body comes free."
-                      : fmt::format("Free at step {}: {}.", found.step, fmt::join(freed, ", "));
-  } else if (kind_ == Kind::Contact) {
-    if (!found.event) reveal_->place().fail("'contact' needs an event, as in \"first unmerge\"");
-    std::set<std::pair<BodyId, BodyId>> pairs, right;
-    for (const ContactTrack& c : r.contacts) {
-      for (const Span& s : c.spans) {
-        if (asked_at >= s.first && asked_at < s.first + s.count) pairs.insert({c.a, c.b});
-      }
-    }
-    for (const TimedEvent& e : r.events) {
-      if (e.step != found.step || e.event.type != found.event->type) continue;
-      right.insert(std::minmax(e.event.a, e.event.b));
-    }
-    pairs.insert(right.begin(), right.end());
-    std::vector<std::string> names;
-    for (const auto& [a, b] : pairs) {
-      const bool is = right.contains({a, b});
-      out.options.push_back({fmt::format("{} and {}", called(a), called(b)), {a, b}, is});
-      if (is) names.push_back(out.options.back().text);
-    }
-    out.because = fmt::format("At step {}: {}.", found.step, fmt::join(names, "; "));
-    if (found.event->reason != EventReason::None) {
-      out.because += fmt::format(" The reason is: {}.", name(found.event->reason));
-    }
-  } else {
-    const int right = r.stats[static_cast<std::size_t>(found.step)].collections;
-    const int first = std::max(0, right - 2);
-    for (int n = first; n < first + 5; ++n)
-      out.options.push_back({std::to_string(n), {}, n == right});
-    out.because = fmt::format("There {} {}.", right == 1 ? "is" : "are", right);
+  for (std::size_t i = 0; i < choices_.size(); ++i) {
+    out.options.push_back({choices_[i], {}, static_cast<int>(i) + 1 == answer_});
   }
   return out;
+}
+
+Question::Answer Question::freedBodies(const Recording& r, std::int64_t asked_at,
+                                       std::int64_t step) {
+  Answer out{.options = {}, .several = true, .because = "No body comes free."};
+  std::vector<std::string> freed;
+  for (std::size_t i = 0; i < r.bodies.size(); ++i) {
+    const BodyId b{static_cast<std::uint32_t>(i)};
+    if (r.collection(b, asked_at) == kNoCollection) continue;
+    const bool right = r.collection(b, step) == kNoCollection;
+    out.options.push_back({r.bodies[i].name, {b}, right});
+    if (right) freed.push_back(r.bodies[i].name);
+  }
+  if (!freed.empty())
+    out.because = fmt::format("Free at step {}: {}.", step, fmt::join(freed, ", "));
+  return out;
+}
+
+/// The pairs that touch, and those of the event even where they do not yet.
+Question::Answer Question::contactOfEvent(const Recording& r, std::int64_t asked_at,
+                                          const Found& found) const {
+  if (!found.event) reveal_->place().fail("'contact' needs an event, as in \"first unmerge\"");
+  std::set<std::pair<BodyId, BodyId>> pairs = touchingPairs(r, asked_at), right;
+  for (const TimedEvent& e : r.events) {
+    if (e.step != found.step || e.event.type != found.event->type) continue;
+    right.insert(std::minmax(e.event.a, e.event.b));
+  }
+  pairs.insert(right.begin(), right.end());
+  Answer out;
+  std::vector<std::string> names;
+  for (const auto& [a, b] : pairs) {
+    const bool is = right.contains({a, b});
+    const std::string both =
+        fmt::format("{} and {}", r.bodies[index(a)].name, r.bodies[index(b)].name);
+    out.options.push_back({both, {a, b}, is});
+    if (is) names.push_back(both);
+  }
+  out.because = fmt::format("At step {}: {}.", found.step, fmt::join(names, "; "));
+  if (found.event->reason != EventReason::None) {
+    out.because += fmt::format(" The reason is: {}.", name(found.event->reason));
+  }
+  return out;
+}
+
+Question::Answer Question::numberOfCollections(const Recording& r, std::int64_t step) {
+  Answer out;
+  const int right = r.stats[static_cast<std::size_t>(step)].collections;
+  const int first = std::max(0, right - 2);
+  for (int n = first; n < first + 5; ++n)
+    out.options.push_back({std::to_string(n), {}, n == right});
+  out.because = fmt::format("There {} {}.", right == 1 ? "is" : "are", right);
+  return out;
+}
+
+Question::Answer Question::answered(const Recording& r, std::int64_t asked_at,
+                                    const Found& found) const {
+  switch (kind_) {
+    case Kind::Words:
+      return ofChoices();
+    case Kind::Threshold:
+      return aboveOrBelow(r, found.step);
+    case Kind::Freed:
+      return freedBodies(r, asked_at, found.step);
+    case Kind::Contact:
+      return contactOfEvent(r, asked_at, found);
+    case Kind::Collections:
+      return numberOfCollections(r, found.step);
+  }
+  return {};
 }
 
 void Question::write(JsonText& out, const Recording& r, std::int64_t asked_at) const {

@@ -31,7 +31,12 @@ class Question {
   enum class Kind { Words, Threshold, Freed, Contact, Collections };
   struct Answer;
   Answer answered(const Recording& recording, std::int64_t asked_at, const Found& found) const;
+  Answer ofChoices() const;
   Answer aboveOrBelow(const Recording& recording, std::int64_t step) const;
+  static Answer freedBodies(const Recording& recording, std::int64_t asked_at, std::int64_t step);
+  Answer contactOfEvent(const Recording& recording, std::int64_t asked_at,
+                        const Found& found) const;
+  static Answer numberOfCollections(const Recording& recording, std::int64_t step);
 
   std::string ask_, because_, criterion_;
   Kind kind_ = Kind::Words;

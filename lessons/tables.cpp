@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
-#include <tuple>
 #include <utility>
+
+#include "lessons/lookup.h"
 
 namespace merge2d {
 namespace {
@@ -24,20 +23,6 @@ std::size_t widthOf(const std::string& cell) {
 
 std::string place(const Vec2& x) { return fmt::format("{:.3f}, {:.3f}", x.x(), x.y()); }
 std::string number(double v) { return shortNumber(v); }
-
-using ContactKeyOf = std::tuple<BodyId, BodyId, std::uint32_t>;
-ContactKeyOf keyOf(const ContactView& c) { return {c.a, c.b, c.feature}; }
-
-std::map<ContactKeyOf, const ContactView*> byKey(const Snapshot& s) {
-  std::map<ContactKeyOf, const ContactView*> all;
-  for (const ContactView& c : s.contacts) all.emplace(keyOf(c), &c);
-  return all;
-}
-
-const BodyState* bodyIn(const Snapshot& s, BodyId id) {
-  const auto found = std::ranges::lower_bound(s.bodies, id, {}, &BodyState::id);
-  return found != s.bodies.end() && found->id == id ? &*found : nullptr;
-}
 
 /// A record and what its tables are made of.
 class StageTables {
@@ -204,49 +189,6 @@ class StageTables {
   const RowFilter& filter_;
 };
 
-/// Pairs of which some test cut the weld, whether or not others hold them together.
-std::size_t cutWelds(const Snapshot& s) {
-  std::set<std::pair<BodyId, BodyId>> pairs;
-  for (const Decision& d : s.decisions) {
-    const bool cut = d.verdict == "cut" || d.verdict == "unmerge";
-    if (d.stage == "Unmerge" && cut) pairs.insert(std::minmax(d.a, d.b));
-  }
-  return pairs.size();
-}
-
-std::size_t countVerdict(const Snapshot& s, std::string_view verdict) {
-  return static_cast<std::size_t>(std::ranges::count(s.decisions, verdict, &Decision::verdict));
-}
-
-std::string solveSummary(const StepRecord& record) {
-  std::size_t sticking = 0, sliding = 0, open = 0;
-  for (const ContactView& c : record[Stage::SolveLCP].after.contacts) {
-    if (c.internal) continue;
-    sticking += c.state == ContactState::Sticking;
-    sliding += c.state == ContactState::Sliding;
-    open += c.state == ContactState::Broken;
-  }
-  const Stats& stats = record.after.stats;
-  return fmt::format("{} solved: {} stick, {} slide, {} carry nothing; residual {}",
-                     counted(static_cast<std::size_t>(stats.contacts), "contact", "contacts"),
-                     sticking, sliding, open, shortNumber(stats.residual));
-}
-
-/// How many bodies moved, and how far at most.
-std::string motionSummary(const Snapshot& before, const Snapshot& after) {
-  double farthest = 0.0;
-  std::size_t moved = 0;
-  for (const BodyState& b : after.bodies) {
-    const BodyState* old = bodyIn(before, b.id);
-    if (old == nullptr) continue;
-    const double way = (b.x - old->x).norm();
-    moved += way > 0.0;
-    farthest = std::max(farthest, way);
-  }
-  return fmt::format("{} moved, at most {} m", counted(moved, "body", "bodies"),
-                     shortNumber(farthest));
-}
-
 }  // namespace
 
 void TextTable::add(std::vector<std::string> row, double rank) {
@@ -310,85 +252,6 @@ const char* purpose(Stage stage) {
 std::string stageTable(const Words& words, const StepRecord& record, Stage stage,
                        const RowFilter& filter) {
   return StageTables(words, record, filter).of(stage);
-}
-
-std::string summary(const StepRecord& record, Stage stage) {
-  const Snapshot& after = record[stage].after;
-  const Snapshot& before = record.before_stage(stage);
-  const auto count = [](std::size_t n, const char* one, const char* many) {
-    return counted(n, one, many);
-  };
-  switch (stage) {
-    case Stage::ContactDetection: {
-      std::size_t fresh = 0, inside = 0;
-      for (const ContactView& c : after.contacts) fresh += c.fresh, inside += c.internal;
-      return fmt::format("{}: {} inside collections, {} new, {} pruned",
-                         count(after.contacts.size(), "contact", "contacts"), inside, fresh,
-                         record.notes.pruned.size());
-    }
-    case Stage::ContactOrdering:
-      return record.notes.order.empty()
-                 ? "nothing new concerns a collection"
-                 : fmt::format("{} ordered, from {}",
-                               count(record.notes.order.size(), "contact", "contacts"),
-                               count(record.notes.seeds.size(), "seed", "seeds"));
-    case Stage::SleepAndWake:
-      return fmt::format("{} asleep; {} fell asleep, {} woke up",
-                         count(static_cast<std::size_t>(
-                                   std::ranges::count(after.bodies, true, &BodyState::asleep)),
-                               "body", "bodies"),
-                         countVerdict(after, "sleep"), countVerdict(after, "wake"));
-    case Stage::WarmStart:
-      return record[stage].own.empty()
-                 ? "no collection is awake, so there is nothing to sweep"
-                 : fmt::format("{} start from the impulses of the last step",
-                               count(record[stage].own.size(), "body", "bodies"));
-    case Stage::SingleIterationPGS: {
-      double largest = 0.0;
-      const auto old = byKey(before);
-      for (const ContactView& c : after.contacts) {
-        const auto found = old.find(keyOf(c));
-        if (found == old.end()) continue;
-        largest = std::max(largest, std::abs(c.lambda_n - found->second->lambda_n));
-      }
-      return fmt::format("the largest change of a normal impulse is {} N s", shortNumber(largest));
-    }
-    case Stage::Unmerge: {
-      const auto ended = std::ranges::count(after.events, EventType::Unmerge, &Event::type);
-      return fmt::format("{} cut, {} came apart; {} → {}", count(cutWelds(after), "weld", "welds"),
-                         count(static_cast<std::size_t>(ended), "pair", "pairs"),
-                         count(before.collections.size(), "collection", "collections"),
-                         after.collections.size());
-    }
-    case Stage::SolveLCP:
-      return solveSummary(record);
-    case Stage::AdvanceVelocities: {
-      double largest = 0.0;
-      for (const BodyState& b : after.bodies) {
-        const BodyState* old = bodyIn(before, b.id);
-        if (old != nullptr) largest = std::max(largest, (b.v - old->v).norm());
-      }
-      return fmt::format("the largest change of a velocity is {} m/s", shortNumber(largest));
-    }
-    case Stage::AccumulateRelativeMotion: {
-      std::size_t quiet = 0, pairs = 0;
-      for (const Decision& d : after.decisions) {
-        if (d.criterion != "relative-motion") continue;
-        ++pairs;
-        quiet += d.count > 0;
-      }
-      return fmt::format("{} tested, {} passed all tests", count(pairs, "pair", "pairs"), quiet);
-    }
-    case Stage::AdvancePositions:
-      return motionSummary(before, after);
-    case Stage::Merge: {
-      const auto joined = std::ranges::count(after.events, EventType::Merge, &Event::type);
-      return fmt::format("{}; {} → {}", count(static_cast<std::size_t>(joined), "merge", "merges"),
-                         count(before.collections.size(), "collection", "collections"),
-                         after.collections.size());
-    }
-  }
-  return {};
 }
 
 }  // namespace merge2d
