@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/console.h"
@@ -71,10 +72,33 @@ Recording recorded(const Scene& scene, Mode mode, Detail detail, const Console& 
   return recording;
 }
 
+/// Where a page goes: asked for before it is made, so that nobody waits for a refusal.
+class PageFile {
+ public:
+  PageFile(const LessonOptions& options, const std::string& name)
+      : path_(options.output.empty() ? (fs::path("frames") / name / "lesson.html").string()
+                                     : options.output) {
+    if (options.output.empty()) made_.emplace(fs::path(path_).parent_path());
+    file_.emplace(path_, Replaces{.everything = options.force, .ours = kPageStart});
+  }
+
+  void write(const PageContent& content) {
+    file_->stream() << makePage(content);
+    file_->finish();
+    if (path_ != "-") print(fmt::format("{}\n", path_));
+  }
+
+ private:
+  std::string path_;
+  std::optional<MadeFolder> made_;
+  std::optional<OutputFile> file_;
+};
+
 /// A scene's page: no text, no questions, the reference as ghost.
-PageContent scenePage(const LessonOptions& options, const Console& console, std::string& name_out) {
+PageContent scenePage(const LessonOptions& options, const Console& console,
+                      std::optional<PageFile>& file) {
   const Scene scene = loadScene(options, console);
-  name_out = scene.name;
+  file.emplace(options, scene.name);
   PageContent content{.title = scene.title, .lesson = "null", .traces = {}};
   content.traces.push_back(
       {std::string(name(options.mode)), recorded(scene, options.mode, Detail::Full, console)});
@@ -86,14 +110,14 @@ PageContent scenePage(const LessonOptions& options, const Console& console, std:
 }
 
 PageContent lessonPage(const fs::path& folder, const LessonOptions& options, const Console& console,
-                       std::string& name_out) {
+                       std::optional<PageFile>& file) {
   if (!options.overrides.empty() || options.steps || options.seconds) {
     throw UsageError(
         "a lesson says itself how its scene is run; --set, --seed, --steps and "
         "--seconds are for scenes");
   }
   const Lesson lesson = loadLesson(folder);
-  name_out = lesson.name;
+  file.emplace(options, lesson.name);
   std::vector<Recording> recordings =
       recordLesson(lesson, [](std::int64_t) { stopIfInterrupted(); });
   for (const std::string& failure : failures(lesson, recordings)) console.warn(failure);
@@ -109,17 +133,12 @@ void run(const LessonOptions& options) {
   check(options);
   const Console console(options);
   catchInterrupts();
-  std::string name;
+  std::optional<PageFile> file;
   refuseUnknownName(options.scene);
   const auto folder = lessonNamed(options.scene);
   const PageContent content =
-      folder ? lessonPage(*folder, options, console, name) : scenePage(options, console, name);
-  const std::string path = options.output.empty()
-                               ? (fs::path("frames") / name / "lesson.html").string()
-                               : options.output;
-  if (options.output.empty()) makeFolder(fs::path(path).parent_path());
-  writeFile(path, makePage(content), {.everything = options.force, .ours = kPageStart});
-  if (path != "-") print(fmt::format("{}\n", path));
+      folder ? lessonPage(*folder, options, console, file) : scenePage(options, console, file);
+  file->write(content);
 }
 
 }  // namespace

@@ -101,6 +101,19 @@ void makeFolder(const fs::path& folder) {
   if (failed) fail(folder.string(), failed.message());
 }
 
+MadeFolder::MadeFolder(const fs::path& folder) {
+  std::error_code ignored;
+  for (fs::path up = folder; !up.empty() && !fs::exists(up, ignored); up = up.parent_path()) {
+    made_.push_back(up);
+  }
+  makeFolder(folder);
+}
+
+MadeFolder::~MadeFolder() {
+  std::error_code not_empty;
+  for (const fs::path& folder : made_) fs::remove(folder, not_empty);
+}
+
 std::string shellQuoted(const std::string& path) {
   constexpr std::string_view kPlain = "/._-+,:@%=";
   const bool plain = std::ranges::all_of(path, [&](char c) {

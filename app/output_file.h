@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace merge2d {
 
@@ -45,6 +46,20 @@ void writeFile(const std::string& path, std::string_view text, const Replaces& r
 
 /// Makes a folder and those above it, where there are none. Throws IoError.
 void makeFolder(const std::filesystem::path& folder);
+
+/// A folder, made together with those above it where they are missing. What was made goes again
+/// where nothing was put into it.
+class MadeFolder {
+ public:
+  /// Throws IoError.
+  explicit MadeFolder(const std::filesystem::path& folder);
+  ~MadeFolder();
+  MadeFolder(const MadeFolder&) = delete;
+  MadeFolder& operator=(const MadeFolder&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< the innermost first
+};
 
 /// The path as it can be typed into a shell.
 std::string shellQuoted(const std::string& path);

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <system_error>
 
-#include "app/output_file.h"
 #include "app/usage_error.h"
 #include "render/png.h"
 #include "src2d/core/error.h"
@@ -46,19 +45,6 @@ void requirePictureMayAppear(const fs::path& file, bool force) {
                     file.string()));
   }
   requireWritable(file);
-}
-
-MadeFolder::MadeFolder(const fs::path& folder) {
-  std::error_code ignored;
-  for (fs::path up = folder; !up.empty() && !fs::exists(up, ignored); up = up.parent_path()) {
-    made_.push_back(up);
-  }
-  makeFolder(folder);
-}
-
-MadeFolder::~MadeFolder() {
-  std::error_code not_empty;
-  for (const fs::path& folder : made_) fs::remove(folder, not_empty);
 }
 
 }  // namespace merge2d

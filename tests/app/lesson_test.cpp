@@ -28,6 +28,16 @@ TEST_F(ProgramTest, LessonReplacesAPageButNoForeignFile) {
   EXPECT_EQ(read("page.html"), "<!DOCTYPE html>\n<p>Mine.</p>\n");
 }
 
+/// The simulation would fail with another message.
+TEST_F(ProgramTest, LessonRefusesItsFileBeforeItSimulates) {
+  write("flea.toml", kDiverging);
+  write("page.html", "mine");
+  EXPECT_EQ(run({"lesson", "flea.toml"}).code, 1);
+  EXPECT_EQ(run({"lesson", "flea.toml", "-o", "page.html"}).code, 2);
+  EXPECT_EQ(run({"lesson", "flea.toml", "-o", "/proc/page.html"}).code, 4);
+  EXPECT_EQ(files(), (Words{"flea.toml", "page.html"})) << "nor is a folder left";
+}
+
 TEST_F(ProgramTest, LessonSuggestsLessonsAndScenes) {
   const auto refusal = [&](const char* name) {
     const Outcome outcome = run({"lesson", name});
