@@ -46,6 +46,24 @@ TEST(UnmergePivot, TheBoxTurnsAboutOneContact) {
   EXPECT_LT(run.body("box").angle, -1.0) << "it fell";
 }
 
+/// The default and the paper's rules see the first contact break; with every single contact allowed
+/// to hold, what is left is a pivot that only the relative motion tells.
+TEST(UnmergePivot, IsFoundByTheRelativeMotionWhereASingleContactHolds) {
+  const auto parted = [](const Overrides& overrides) {
+    SceneRun run("unmerge-pivot", Mode::Merge, overrides);
+    run.until(2.5);
+    for (const SceneRun::Logged& e : run.log()) {
+      if (e.type == EventType::Unmerge) return std::pair(e.step, e.reason);
+    }
+    return std::pair(std::int64_t{-1}, EventReason::None);
+  };
+  using enum EventReason;
+  EXPECT_EQ(parted({}), std::pair(std::int64_t{101}, Cycle));
+  EXPECT_EQ(parted({{"merging.cycles", "off"}}), std::pair(std::int64_t{107}, RelativeMotion));
+  EXPECT_EQ(parted({{"merging.rule", "paper"}, {"unmerging.rule", "paper"}}),
+            std::pair(std::int64_t{114}, Broken));
+}
+
 TEST(UnmergePivot, TurnsAsInTheReference) {
   SceneRun run("unmerge-pivot", Mode::Merge), reference("unmerge-pivot", Mode::Reference);
   run.until(2.2), reference.until(2.2);
