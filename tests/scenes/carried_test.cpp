@@ -181,7 +181,31 @@ TEST(Spinner, MergesAtOrdinarySpeedAndNotAtHighSpeed) {
   EXPECT_EQ(merged({}), 4);
   EXPECT_EQ(merged({{"body.tray.script.spin", "120"}}), 0);
   EXPECT_EQ(merged({{"body.tray.script.spin", "120"}, {"step", "0.001"}}), 4);
-  EXPECT_EQ(merged({{"body.tray.script.spin", "120"}, {"solver.stabilisation", "post"}}), 4);
+  for (const char* spin : {"120", "180", "240"}) {
+    EXPECT_EQ(merged({{"body.tray.script.spin", spin}}), 0) << spin;
+    EXPECT_EQ(merged({{"body.tray.script.spin", spin}, {"solver.stabilisation", "post"}}), 4)
+        << spin;
+  }
+}
+
+TEST(Wagon, ToysAndBooksAreMergedUntilTheBlow) {
+  SceneRun run("wagon");
+  for (double t = 0.5; t < 3.06; t += 0.05) {
+    run.until(t);
+    for (const BodyState& body : run.now().bodies) {
+      const std::string& name = run.nameOf(body.id);
+      if (name.starts_with("block[")) {
+        EXPECT_TRUE(run.together("wagon", name)) << name << " at " << t;
+      } else if (name.starts_with("book[")) {
+        EXPECT_TRUE(run.together("bookcase", name)) << name << " at " << t;
+        EXPECT_TRUE(run.anchored(name)) << name << " at " << t;
+      }
+    }
+  }
+  EXPECT_EQ(run.count(EventType::Unmerge), 0);
+  run.until(3.25);
+  EXPECT_FALSE(run.merged("book[2,4]"));
+  EXPECT_FALSE(run.together("wagon", "block[0,4]"));
 }
 
 TEST(Wagon, HitsTheBookcaseAndAllMergesWithTheMovingTruck) {

@@ -31,6 +31,31 @@ TEST(Dominoes, FallOneAfterTheOther) {
   EXPECT_NEAR(static_cast<double>(before), 830, 25);
 }
 
+/// The steps in which one after the other has turned by 45 degrees.
+std::vector<std::int64_t> stepsOfFalls(Mode mode) {
+  SceneRun run("dominoes", mode);
+  std::vector<std::int64_t> out;
+  while (run.world().time() < 12.0 - 1e-9) {
+    run.steps(1);
+    const auto fallen = std::ranges::count_if(
+        run.now().bodies, [](const BodyState& b) { return std::abs(b.angle) > 0.7854; });
+    while (static_cast<std::int64_t>(out.size()) < fallen) out.push_back(run.world().steps());
+  }
+  return out;
+}
+
+TEST(Dominoes, TheKthFallsWithinAHundredthOfASecondOfTheReference) {
+  const std::vector<std::int64_t> reference = stepsOfFalls(Mode::Reference);
+  ASSERT_EQ(reference.size(), 50u);
+  for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+    const std::vector<std::int64_t> merged = stepsOfFalls(mode);
+    ASSERT_EQ(merged.size(), 50u);
+    for (std::size_t k = 0; k < 50; ++k) {
+      EXPECT_LE(std::abs(merged[k] - reference[k]), 1) << k << " in " << name(mode);
+    }
+  }
+}
+
 TEST(DominoesPlatforms, TheLastOfEachRowStartsTheNext) {
   SceneRun run("dominoes-platforms");
   run.until(0.9);

@@ -192,17 +192,29 @@ TEST(TowerLift, LandsWhereItLandsInTheReference) {
   EXPECT_EQ(run.eventsAfter(500), 0);
 }
 
+/// How many bricks lie beside the tower at the end.
+int bricksBesideTheTower(Mode mode, const Overrides& overrides = {}) {
+  SceneRun run("tower-impulse-heavy", mode, overrides);
+  run.until(8.0);
+  return static_cast<int>(std::ranges::count_if(run.now().bodies, [](const BodyState& b) {
+    return b.x.y() < 2.0 && std::abs(b.x.x()) > 2.5;
+  }));
+}
+
 TEST(TowerImpulseHeavy, EndsMuchAsInTheReference) {
-  SceneRun run("tower-impulse-heavy");
-  SceneRun reference("tower-impulse-heavy", Mode::Reference);
-  run.until(8.0), reference.until(8.0);
-  const auto off = [](const SceneRun& r) {  // bricks that lie beside the tower
-    return static_cast<int>(std::ranges::count_if(r.now().bodies, [](const BodyState& b) {
-      return b.x.y() < 2.0 && std::abs(b.x.x()) > 2.5;
-    }));
-  };
-  EXPECT_NEAR(off(run), off(reference), 3);
-  EXPECT_GT(off(run), 0);
+  const int reference = bricksBesideTheTower(Mode::Reference);
+  const int merged = bricksBesideTheTower(Mode::MergeSleep);
+  EXPECT_NEAR(merged, reference, 3);
+  EXPECT_GT(merged, 0);
+  EXPECT_GT(bricksBesideTheTower(Mode::Merge), 0);
+}
+
+TEST(TowerImpulseHeavy, UnderThePapersRulesNoBrickFalls) {
+  const Overrides paper = {{"merging.rule", "paper"}, {"unmerging.rule", "paper"}};
+  EXPECT_EQ(bricksBesideTheTower(Mode::Reference, paper), 5);
+  for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+    EXPECT_EQ(bricksBesideTheTower(mode, paper), 0) << name(mode);
+  }
 }
 
 }  // namespace
