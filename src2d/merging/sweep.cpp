@@ -225,8 +225,6 @@ void refineDisturbed(State& state, Scratch& scratch, double blow) {
 
 /// One sweep over what shares no body in a row, and more where something is new.
 void sweepByColours(State& state, Scratch& scratch) {
-  scratch.restless_bodies.assign(scratch.sweep_u.size(), 0);
-  scratch.shaken.assign(scratch.sweep_u.size(), 0);
   for (JointBlock& k : scratch.sweep_joints) {
     solveJoint(k, {}, scratch.sweep_u[k.a], scratch.sweep_u[k.b]);
   }
@@ -268,6 +266,8 @@ bool isSwept(const State& state, const Collection& c) {
 void sweepCollections(State& state, Scratch& scratch) {
   if (!scratch.sweeping) return;
   scratch.push_stale.assign(state.collections.size(), 0);
+  scratch.restless_bodies.assign(scratch.sweep_u.size(), 0);
+  scratch.shaken.assign(scratch.sweep_u.size(), 0);
   const bool literal = state.settings.unmerging.rule == Rule::Paper;
   if (literal && !scratch.seeds.empty()) {
     sweepBreadthFirst(state, scratch);

@@ -124,5 +124,20 @@ TEST(JointBreak, EachJointOfABridgeTellsOnceThatItBroke) {
   }
 }
 
+TEST(JointBreak, AResumedRunBreaksItAsTheOneThatItContinues) {
+  for (const Overrides& rules : {Overrides{}, kPaper}) {
+    Simulation whole(ballOnPlate(0.0, 0.0), Mode::Merge, rules);
+    whole.until(0.5);
+    Simulation resumed(ballOnPlate(0.0, 0.0), Mode::Merge, rules);
+    resumed.world().restore(whole.world().save(), "whole");
+    for (Simulation* run : {&whole, &resumed}) {
+      run->kick("ball", {0.0, -0.3});
+      run->steps(50);
+      EXPECT_EQ(run->count(EventType::Break), 1);
+    }
+    EXPECT_EQ(whole.world().save(), resumed.world().save());
+  }
+}
+
 }  // namespace
 }  // namespace merge2d
