@@ -40,14 +40,13 @@ Freed freedIn(Simulation& run, int steps, double speed) {
 }
 
 /// A blow makes all bodies of a heap slip a little in the sweep, in which each moves on its own.
-/// Without the trial it frees a fifth more of them, and 71.5% of those move as fast as 1 cm/s; with
-/// it 76%.
+/// Of those that are freed without the trial 76.7% move as fast as 1 cm/s; with it 80.2%.
 TEST(Trial, WhatWouldNotMoveStays) {
   Simulation run(loadScene("funnel"), Mode::MergeSleep);
   run.until(30.0);
   const Freed freed = freedIn(run, 9000, 0.01);
   EXPECT_GT(freed.all, 1000);
-  EXPECT_GT(freed.share(), 0.74) << freed.moved << " of " << freed.all;
+  EXPECT_GT(freed.share(), 0.785) << freed.moved << " of " << freed.all;
 }
 
 /// A box on the edge of a wall that is struck hard moves as in the reference.
