@@ -1,0 +1,83 @@
+/// What a collection keeps of its layout when members and contacts come and go.
+
+#include "src2d/merging/collection.h"
+#include "src2d/state_file.h"
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+/// Boxes that fall on a heap.
+const std::string kRain = kGround + R"(
+[[emitter]]
+name = "rain"
+at = [0, 6]
+spread = [1.5, 0.5]
+every = 0.1
+count = 60
+angle = 20
+spin = 30
+box = [0.5, 0.4]
+)";
+
+bool same(const ContactBlock& x, const ContactBlock& y) {
+  const auto numbers = [](const ContactBlock& k) {
+    return std::tuple(k.a, k.b, k.count, k.bilateral, k.nx, k.ny, k.k11, k.k12, k.k22, k.inv_det,
+                      k.softness, k.mu);
+  };
+  return numbers(x) == numbers(y) && x.lambda == y.lambda && std::ranges::equal(x.bias, y.bias) &&
+         std::ranges::equal(x.arm_an, y.arm_an) && std::ranges::equal(x.arm_bn, y.arm_bn) &&
+         std::ranges::equal(x.arm_at, y.arm_at) && std::ranges::equal(x.arm_bt, y.arm_bt) &&
+         std::ranges::equal(x.inv_kt, y.inv_kt);
+}
+
+/// As if nothing were known of how the collection was laid out.
+void layOutFromNothing(State& state) {
+  for (Collection& c : state.collections) {
+    for (InternalContact& inner : c.contacts) dropBlock(c, inner);
+    c.welds.clear();
+    c.stale = true;
+  }
+  layOutCollections(state);
+}
+
+void expectTheSameLayout(const Collection& kept, const Collection& fresh, int step) {
+  ASSERT_EQ(kept.block_contact, fresh.block_contact) << step;
+  EXPECT_EQ(kept.active_blocks, fresh.active_blocks) << step;
+  for (std::size_t i = 0; i < kept.blocks.size(); ++i) {
+    EXPECT_TRUE(same(kept.blocks[i], fresh.blocks[i])) << "block " << i << ", step " << step;
+  }
+  ASSERT_EQ(kept.welds.size(), fresh.welds.size()) << step;
+  for (std::size_t i = 0; i < kept.welds.size(); ++i) {
+    EXPECT_EQ(kept.welds[i].grip, fresh.welds[i].grip) << "weld " << i << ", step " << step;
+    EXPECT_EQ(kept.welds[i].bridge, fresh.welds[i].bridge) << "weld " << i << ", step " << step;
+  }
+}
+
+TEST(Layout, WhatIsKeptIsWhatWouldBeMadeAnew) {
+  const Scene scene = parseScene(kRain, "rain.toml");
+  World world(scene, {.mode = Mode::Merge, .timings = false});
+  int compared = 0;
+  for (int step = 0; step < 1500; ++step) {
+    world.step();
+    const bool changed = std::ranges::any_of(world.events(), [](const Event& e) {
+      return e.type == EventType::Merge || e.type == EventType::Unmerge;
+    });
+    if (!changed) continue;
+    merge2d::Setup kept, fresh;
+    for (merge2d::Setup* setup : {&kept, &fresh}) {
+      setUp(scene, Mode::Merge, *setup);
+      restoreState(world.save(), "world", scene, *setup);
+    }
+    layOutFromNothing(fresh.state);
+    for (std::size_t slot = 0; slot < kept.state.collections.size(); ++slot) {
+      if (kept.state.collections[slot].id == kNoCollection) continue;
+      expectTheSameLayout(kept.state.collections[slot], fresh.state.collections[slot], step);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 300);
+}
+
+}  // namespace
+}  // namespace merge2d
