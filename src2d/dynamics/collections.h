@@ -100,7 +100,7 @@ struct Weld {
                 node_b = 0;  ///< each body's place among the members; the frame's is last
   Drift turning{};           ///< of a pivot, over consecutive steps
   std::int16_t vain = 0;     ///< welds of the pair before it that were cut in vain
-  std::int8_t joints = 0;    ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
+  std::uint8_t joints = 0;   ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
   Grip grip = Grip::Unknown;
   bool bridge = false;    ///< its cut would leave two parts
   bool expected = false;  ///< only contacts that may close in this step: no weld yet

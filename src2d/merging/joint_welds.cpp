@@ -67,7 +67,7 @@ bool updateWelds(const State& state, Collection& c) {
     const int contacts = holdOf(state, c, weld).contacts();
     if (contacts == weld.joints) continue;
     less |= contacts < weld.joints;
-    weld.joints = static_cast<std::int8_t>(contacts);
+    weld.joints = static_cast<std::uint8_t>(contacts);
     if (!c.stale) updateGrip(state, c, i);  // else all are found when it is laid out
   }
   return less;
@@ -157,7 +157,7 @@ std::vector<std::uint32_t> takeOverloadedJoints(const State& state, Collection& 
   for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
     Weld& weld = c.welds[i];
     const bool held = weld.joints > 0;
-    weld.joints = static_cast<std::int8_t>(holdOf(state, c, weld).contacts());
+    weld.joints = static_cast<std::uint8_t>(holdOf(state, c, weld).contacts());
     updateGrip(state, c, i);
     if (!held || weld.joints > 0 || weld.count > 0) continue;
     weld.cut = true;
