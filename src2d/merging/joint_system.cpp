@@ -16,13 +16,13 @@ struct RowOf {
 };
 
 /// Away from its bounds a row holds in both directions.
-bool isInside(const JointBlock& k, std::size_t i) {
+bool isWithinBounds(const JointBlock& k, std::size_t i) {
   return k.lambda[i] > k.rows[i].lower && k.lambda[i] < k.rows[i].upper;
 }
 
 /// A motor that presses against a limit wants what the limit forbids: the limit holds.
 bool isOverruled(const JointBlock& k, std::size_t i) {
-  return i == kMotorRow && k.motor && k.limit && isInside(k, kLimitRow);
+  return i == kMotorRow && k.motor && k.limit && isWithinBounds(k, kLimitRow);
 }
 
 std::vector<RowOf> rowsOf(Collection& c) {
@@ -30,7 +30,7 @@ std::vector<RowOf> rowsOf(Collection& c) {
   for (JointBlock& k : c.joints) {
     k.forEachRow([&](std::size_t i) {
       const bool coupled = static_cast<int>(i) < k.coupled;
-      if (coupled || (isInside(k, i) && !isOverruled(k, i))) rows.push_back({&k, i});
+      if (coupled || (isWithinBounds(k, i) && !isOverruled(k, i))) rows.push_back({&k, i});
     });
   }
   return rows;
