@@ -41,6 +41,11 @@ void fields(Ar& ar, Some<Twist> auto& t) {
   ar(vx, vy, omega);
 }
 template <class Ar>
+void fields(Ar& ar, Some<LoadRange> auto& r) {
+  auto& [from, to, times] = r;
+  ar(from, to, times);
+}
+template <class Ar>
 void fields(Ar& ar, Some<Drift> auto& d) {
   auto& [sum, steps] = d;
   ar(sum, steps);
@@ -152,13 +157,13 @@ template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watched, pivots, leaning,
          cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
-         weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up, struck,
+         weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up, struck,
          refusals, patience, hastened_in, hastened_every, lingering, residual, settled, refuted] =
       c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, watched, pivots, leaning,
      cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
-     weld_of, joints, push, stale, frame_v, frame_gain, frame_known, follow_up, struck, refusals,
-     patience, hastened_in, hastened_every, lingering, residual, settled, refuted);
+     weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up, struck,
+     refusals, patience, hastened_in, hastened_every, lingering, residual, settled, refuted);
 }
 
 template <class Ar>

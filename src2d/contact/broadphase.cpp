@@ -12,8 +12,9 @@ namespace {
 /// things have moved by as much against each other [m].
 constexpr double kNear = 0.05;
 
-/// What became of a rigid thing: its box left its leaf's, or it has other members than before.
-constexpr std::uint8_t kMoved = 1, kResized = 2;
+/// What became of a rigid thing: its shapes were paired anew with another's, its box left its
+/// leaf's, or it has other members than before.
+constexpr std::uint8_t kPaired = 1, kMoved = 2, kResized = 3;
 
 Aabb worldBounds(const State& state, const Rigid& r) {
   return placed(r.frame(), state.extent(r).bounds);
@@ -175,6 +176,10 @@ void refineNearPairs(State& state, Scratch& scratch) {
     p.corners = corners;
     p.fresh = false;
     scratch.near_refined[i] = 1;
+    for (const RigidId id : {p.a, p.b}) {
+      std::uint8_t& flag = scratch.moved_flag[index(id)];
+      flag = std::max(flag, kPaired);
+    }
     pairShapes(state, scratch, host, guest, ahead);
   }
 }
@@ -182,14 +187,17 @@ void refineNearPairs(State& state, Scratch& scratch) {
 /// Contacts and idle pairs whose rigid things parted, or that a new pairing of their shapes no
 /// longer names.
 void dropParted(State& state, Scratch& scratch) {
+  if (std::ranges::count(scratch.moved_flag, 0) == std::ssize(scratch.moved_flag)) return;
   const auto& near = state.broadphase.near;
   const auto& candidates = scratch.candidates;
   const auto parted = [&](const ContactKey& key) {
     const RigidId ra = state[key.a].rigid, rb = state[key.b].rigid;
+    const std::uint8_t flag =
+        std::max(scratch.moved_flag[index(ra)], scratch.moved_flag[index(rb)]);
+    if (flag == 0) return false;
     const Rigid &a = state[ra], &b = state[rb];
     if (!a.present() || !b.present()) return true;
-    const bool one_moved = scratch.moved_flag[index(ra)] || scratch.moved_flag[index(rb)];
-    if (one_moved && !state.broadphase.tree.overlap(a.leaf, b.leaf)) return true;
+    if (flag >= kMoved && !state.broadphase.tree.overlap(a.leaf, b.leaf)) return true;
     if (!hasShapeTree(state, ra) && !hasShapeTree(state, rb)) return false;
     const NearPair wanted{.a = std::min(ra, rb), .b = std::max(ra, rb)};
     const auto pair = std::lower_bound(near.begin(), near.end(), wanted);

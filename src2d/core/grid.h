@@ -12,12 +12,19 @@
 
 namespace merge2d {
 
+/// What onGrid does far from the origin. On its own, so that onGrid is small enough to be inlined.
+[[gnu::cold, gnu::noinline]] inline double onGridFarOut(double a) {
+  constexpr double kSteps = 0x1p42;
+  return std::nearbyint(a * kSteps) / kSteps;
+}
+
 /// The nearest multiple of 2⁻⁴² m.
 inline double onGrid(double a) {
   constexpr double kShift = 0x1.8p10;  // its last place is the grid's spacing
   constexpr double kReach = 0x1p9;     // up to which adding it does not change its last place
-  constexpr double kSteps = 0x1p42;
-  return std::abs(a) < kReach ? (a + kShift) - kShift : std::nearbyint(a * kSteps) / kSteps;
+  if (std::abs(a) < kReach) [[likely]]
+    return (a + kShift) - kShift;
+  return onGridFarOut(a);
 }
 inline Vec2 onGrid(const Vec2& a) { return {onGrid(a.x()), onGrid(a.y())}; }
 

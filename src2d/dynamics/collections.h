@@ -40,6 +40,14 @@ struct PointWatch {
   bool holds() const { return active && !lost; }
 };
 
+/// Directions of a load.
+struct LoadRange {
+  float from = 1.0F, to = 0.0F;  ///< angles in the frame of what bears it [rad]; empty at first
+  int times = 0;                 ///< that it was found to be borne
+
+  bool empty() const { return from > to; }
+};
+
 /// Instead of the step of a merge: a contact that may close in this step, and holds nothing.
 inline constexpr std::int64_t kExpected = -1;
 
@@ -136,6 +144,7 @@ struct Collection {
   std::vector<JointBlock> joints;  ///< those that act inside; λ is live here
   std::vector<Twist> push;         ///< per member: Δu by the inner forces, in the frame
   bool stale = false;              ///< contacts changed: welds and blocks must be laid out anew
+  LoadRange borne;                 ///< that its parts were found to stand in (footing.h)
   Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
   std::int16_t frame_known = 0;                            ///< steps since it was formed, up to 2
   std::int16_t follow_up = 0;  ///< steps for which a disturbance is still followed

@@ -1,6 +1,8 @@
 #include "src2d/merging/footing.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "src2d/merging/limits.h"
 #include "src2d/merging/momentum.h"
@@ -82,23 +84,56 @@ bool gives(const State& state, Scratch& scratch, const Collection& c, const Join
   return true;
 }
 
+/// The direction in which the load pulls on members, in the collection's frame [rad].
+double loadDirection(const State& state, const Collection& c) {
+  const Vec2 gain = state.h * state.gravity - c.frame_gain;
+  const Vec2 load = state[c.rigid].rotation.inverse() * gain;
+  return std::atan2(load.y(), load.x());
+}
+
+/// The same direction, as near to those of the range as whole turns bring it.
+double unwound(const LoadRange& range, double direction) {
+  const double middle = range.empty() ? direction : 0.5 * (range.from + range.to);
+  return middle + std::remainder(direction - middle, 2.0 * std::numbers::pi);
+}
+
+/// Whether it was found often enough that it stands under such a load, since something was new.
+bool hasBorne(const LoadRange& range, double direction) {
+  constexpr int kSure = 4;  // times: inner forces may still be on their way
+  const double d = unwound(range, direction);
+  return range.times >= kSure && range.from <= d && d <= range.to;
+}
+
+void extend(LoadRange& range, double direction) {
+  constexpr double kWidest = 1.0;  // rad: wider ones are of something that turns
+  const auto d = static_cast<float>(unwound(range, direction));
+  const float from = std::min(range.from, d), to = std::max(range.to, d);
+  const bool anew = range.empty() || to - from > kWidest;
+  range = {anew ? d : from, anew ? d : to, range.times + 1};
+}
+
 }  // namespace
 
-Footing footingOf(const State& state, Scratch& scratch, const Collection& c) {
+Footing footingOf(const State& state, Scratch& scratch, Collection& c) {
   constexpr std::int64_t kOften = 8, kSeldom = 32;  // steps
+  constexpr std::int64_t kBorne = 4;                // times as seldom
   constexpr double kStands = 5e-3;                  // of what the load adds in a step
-  const double load = loadStep(state, c);
-  Footing footing{.giving = {}, .enough = std::max(kStands * load, residualVelocity(state))};
+  if (scratch.disturbed[index(c.rigid) - state.bodies.size()]) c.borne = {};
   const bool floating = state[c.rigid].floating(), seldom = state.step % kSeldom == 0;
-  if (state.step % (floating ? kSeldom : kOften) != 0) return footing;
-  if (!isAsked(state, scratch, c, load)) return footing;
+  const std::int64_t interval = floating ? kSeldom : kOften;
+  if (state.step % interval != 0) return {};
+  const double load = loadStep(state, c), direction = loadDirection(state, c);
+  if (state.step % (kBorne * interval) != 0 && hasBorne(c.borne, direction)) return {};
+  if (!isAsked(state, scratch, c, load)) return {};
+  Footing footing{.giving = {}, .enough = std::max(kStands * load, residualVelocity(state))};
   const std::uint32_t host = floating ? heaviestOf(state, c) : ~0u;
   const auto besideHost = [&](const Weld& weld) {
     return weld.node_a != host && weld.node_b != host;
   };
   const auto firmly = [&](const Weld& weld) { return holdsFirmly(c, weld); };
-  if (gives(state, scratch, c, besideHost, footing) || !seldom) return footing;
-  gives(state, scratch, c, firmly, footing);  // more of them take longer
+  if (gives(state, scratch, c, besideHost, footing)) return footing;
+  if (seldom && gives(state, scratch, c, firmly, footing)) return footing;  // more take longer
+  extend(c.borne, direction);
   return footing;
 }
 

@@ -17,12 +17,13 @@ struct Footing {
 /// Takes parts of the collection as rigid bodies on the contacts between them and with its frame:
 /// at first all of it, or what stands on its heaviest member; then what two points join that are
 /// not at their limits. Where no forces hold the parts, none hold the members. Asked every few
-/// steps, of what the last sweep has left swaying.
+/// steps, of what the last sweep has left swaying; more seldom under a load between those that were
+/// found to be borne, as rigid contacts with friction bear a convex cone of loads.
 ///
 /// Deviation: sweeps take the moment of a high tower down to its foot over thousands of steps, a
 /// little between any two bricks, and would hold it long after it had to fall. Whether it stands is
 /// a question of a few contacts, and of few bodies. Guarded by
 /// Footing.ATowerFallsWhenItsGroundTiltsTooFar.
-Footing footingOf(const State& state, Scratch& scratch, const Collection& collection);
+Footing footingOf(const State& state, Scratch& scratch, Collection& collection);
 
 }  // namespace merge2d

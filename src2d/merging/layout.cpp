@@ -223,6 +223,7 @@ void forgetJudgement(Collection& c) {
   c.spare.clear();
   c.loosened.clear();
   c.judged = false;
+  c.borne = {};
 }
 
 }  // namespace

@@ -35,6 +35,13 @@ bool heldAround(const State& state, const Collection& c, const std::vector<std::
   return others.size() <= few && heldByDetours(state, c, others);
 }
 
+/// A detour holds for this step only. In a calm one it is worth more to find all that is spare, as
+/// the same contacts are at their limits for long.
+bool asksForGood(const State& state, const Scratch& scratch, const Collection& c) {
+  constexpr std::int64_t kEvery = 16;  // steps
+  return state.step % kEvery == 0 && !scratch.disturbed[index(c.rigid) - state.bodies.size()];
+}
+
 /// Whether it would hold together without the others and what was spare before, all at once: then
 /// none of them is asked about for a while.
 bool othersAreSpare(const State& state, Scratch& scratch, Collection& c,
@@ -77,7 +84,7 @@ std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collectio
   if (others.empty() && !anew) return {};
   // A layout only assumes that all holds together.
   const bool known = c.judged && !anew && !losesAMember(c);
-  if (known && heldAround(state, c, others)) return {};
+  if (known && !asksForGood(state, scratch, c) && heldAround(state, c, others)) return {};
   if (known && othersAreSpare(state, scratch, c, others)) return {};
   Parts parts = judge(state, scratch, c);
   if (fallsApart(state, c, parts)) return parts;

@@ -109,6 +109,23 @@ TEST(Footing, ATowerFallsWhenItsGroundTiltsTooFar) {
   EXPECT_LT(time, 14.3);
 }
 
+/// It has borne the load of six degrees to either side often, and is asked about it more seldom;
+/// not about more.
+TEST(Footing, WhatHasBorneSmallerTiltsFallsFromALargerOne) {
+  const std::string swinging =
+      "box = [60, 1]\nscript = { keyframes = [[0, 0, 0, 0], [2, 0, 0, 6], "
+      "[4, 0, 0, -6], [6, 0, 0, 6], [8, 0, 0, -6], [10, 0, 0, 6], [12, 0, 0, -6], [40, 0, 0, -34]] "
+      "}";
+  const Wall column{1, 8};
+  Simulation run(on(swinging, column), Mode::Merge);
+  Simulation reference(on(swinging, column), Mode::Reference, {{"solver.iterations", "100"}});
+  run.until(12.0), reference.until(12.0);
+  EXPECT_EQ(run.count(EventType::Unmerge), 0);
+  const double time = timeOfFall(reference, highestOf(column), 40.0);
+  EXPECT_LT(time, 30.0);
+  EXPECT_NEAR(timeOfFall(run, highestOf(column), 40.0), time, 1.0);
+}
+
 TEST(Footing, AColumnFallsFromWhatDrivesOffTooFast) {
   for (const double acceleration : {2.8, 3.2, 3.6}) {  // it bears 2.45 m/s²
     Simulation run(drivingOff(acceleration, {1, 8}), Mode::Merge);
