@@ -155,80 +155,120 @@ void forgetPartedWelds(const State& state, Collection& c, FrameId frame) {
   });
 }
 
+/// One collection that comes apart. `part` gives each member's part, `anchored` which parts stay
+/// fixed to its frame. The largest part keeps the collection's place.
+class Split {
+ public:
+  Split(State& state, RigidId id, const std::vector<std::uint32_t>& part,
+        const std::vector<std::uint8_t>& anchored)
+      : state_(state),
+        id_(id),
+        part_(part),
+        anchored_(anchored),
+        whole_(state[id]),
+        anchor_(state.collection(id).anchor),
+        members_(membersOfParts(state.collection(id), part, anchored.size())),
+        kept_(members_.size()) {
+    for (std::size_t p = 1; p < members_.size(); ++p) {
+      if (members_[p].size() > members_[largest_].size()) largest_ = p;
+    }
+  }
+
+  std::vector<RigidId> run() {
+    sortContacts();
+    std::vector<RigidId> result{id_};
+    for (std::size_t p = 0; p < members_.size(); ++p) {
+      if (p != largest_) result.push_back(leave(p));
+    }
+    if (isFreeBody(largest_)) {
+      removeRigid(state_, id_);
+      result.front() = freeBody(state_, members_[largest_].front(), whole_);
+      freeCollection(state_, id_);
+    } else {
+      stay();
+    }
+    releaseContacts(state_, released_);
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t kNowhere = ~std::size_t{0};
+
+  /// A single body that nothing holds.
+  bool isFreeBody(std::size_t p) const { return members_[p].size() == 1 && !anchored_[p]; }
+
+  /// The part inside which a contact stays, or kNowhere.
+  std::size_t partOf(const ContactKey& key) const {
+    const bool a_in = state_[key.a].rigid == id_, b_in = state_[key.b].rigid == id_;
+    const auto of = [&](BodyId b) { return part_[state_[rigidOf(b)].member]; };
+    const std::uint32_t p = of(a_in ? key.a : key.b), q = of(b_in ? key.b : key.a);
+    const bool on_frame = frameOf(state_, a_in ? key.b : key.a) == whole_.anchor;
+    const bool stays = p == q && ((a_in && b_in) || (anchored_[p] && on_frame));
+    return stays ? p : kNowhere;
+  }
+
+  /// Which contacts stay, go with a part, or come free: while membership can still be asked.
+  void sortContacts() {
+    Collection& c = state_.collection(id_);
+    std::size_t staying = 0;
+    for (InternalContact& inner : c.contacts) {
+      const std::size_t p = partOf(inner.key);
+      if (p == largest_) {
+        c.contacts[staying++] = inner;
+        continue;
+      }
+      dropBlock(c, inner);
+      if (p != kNowhere) {
+        kept_[p].push_back(inner);
+        continue;
+      }
+      const Weld* cut = cutByTest(c, inner);
+      released_.push_back({inner, patienceAfter(state_, inner, cut)});
+      if (cut) ++released_.back().inner.vain;
+    }
+    c.contacts.resize(staying);
+  }
+
+  RigidId leave(std::size_t p) {
+    removeShapes(state_, id_, members_[p]);
+    if (isFreeBody(p)) return freeBody(state_, members_[p].front(), whole_);
+    return newPart(state_, members_[p], std::move(kept_[p]), whole_, anchor_, anchored_[p] != 0);
+  }
+
+  /// The largest part goes on as the collection.
+  void stay() {
+    const bool anchored = anchored_[largest_] != 0;
+    Collection& c = state_.collection(id_);
+    c.members = members_[largest_];
+    c.block_contact.clear();
+    forgetPartedWelds(state_, c, anchored ? whole_.anchor : kFloating);
+    c.stale = true;
+    const bool new_frame = whole_.anchor == kWorldFrame && !anchored;
+    if (new_frame) removeShapes(state_, id_, c.members);
+    inheritMotion(state_, id_, whole_, anchored);
+    if (new_frame) addShapes(state_, id_, c.members);
+    state_[id_].resized = true;
+    state_[id_].quiet_steps = 0;
+  }
+
+  State& state_;
+  RigidId id_;
+  const std::vector<std::uint32_t>& part_;
+  const std::vector<std::uint8_t>& anchored_;
+  Rigid whole_;                               ///< as it was
+  BodyId anchor_;                             ///< its own
+  std::vector<std::vector<BodyId>> members_;  ///< of each part
+  std::size_t largest_ = 0;
+  std::vector<std::vector<InternalContact>> kept_;  ///< what goes with each part
+  std::vector<Released> released_;
+};
+
 }  // namespace
 
 std::vector<RigidId> splitCollection(State& state, RigidId id,
                                      const std::vector<std::uint32_t>& part,
                                      const std::vector<std::uint8_t>& anchored) {
-  const Rigid whole = state[id];
-  const BodyId anchor = state.collection(id).anchor;
-  const auto members = membersOfParts(state.collection(id), part, anchored.size());
-  std::size_t largest = 0;
-  for (std::size_t p = 1; p < members.size(); ++p) {
-    if (members[p].size() > members[largest].size()) largest = p;
-  }
-
-  // Contacts first, while membership can still be asked.
-  std::vector<std::vector<InternalContact>> kept(members.size());
-  std::vector<Released> released;
-  {
-    Collection& c = state.collection(id);
-    std::size_t staying = 0;
-    const auto partOf = [&](BodyId b) { return part[state[rigidOf(b)].member]; };
-    for (InternalContact& inner : c.contacts) {
-      const BodyId a = inner.key.a, b = inner.key.b;
-      const bool a_in = state[a].rigid == id, b_in = state[b].rigid == id;
-      const std::uint32_t p = partOf(a_in ? a : b), q = partOf(b_in ? b : a);
-      const bool on_frame = frameOf(state, a_in ? b : a) == whole.anchor;
-      const bool stays = p == q && ((a_in && b_in) || (anchored[p] && on_frame));
-      if (stays && p == largest) {
-        c.contacts[staying++] = inner;
-      } else if (stays) {
-        dropBlock(c, inner);
-        kept[p].push_back(inner);
-      } else {
-        dropBlock(c, inner);
-        const Weld* cut = cutByTest(c, inner);
-        released.push_back({inner, patienceAfter(state, inner, cut)});
-        if (cut) ++released.back().inner.vain;
-      }
-    }
-    c.contacts.resize(staying);
-  }
-
-  // The other parts leave …
-  std::vector<RigidId> result{id};
-  for (std::size_t p = 0; p < members.size(); ++p) {
-    if (p == largest) continue;
-    removeShapes(state, id, members[p]);
-    if (members[p].size() == 1 && !anchored[p]) {
-      result.push_back(freeBody(state, members[p].front(), whole));
-    } else {
-      result.push_back(
-          newPart(state, members[p], std::move(kept[p]), whole, anchor, anchored[p] != 0));
-    }
-  }
-
-  // … and the largest stays, unless it is a single body that nothing holds.
-  if (members[largest].size() == 1 && !anchored[largest]) {
-    removeRigid(state, id);
-    result.front() = freeBody(state, members[largest].front(), whole);
-    freeCollection(state, id);
-  } else {
-    Collection& c = state.collection(id);
-    c.members = members[largest];
-    c.block_contact.clear();
-    forgetPartedWelds(state, c, anchored[largest] != 0 ? whole.anchor : kFloating);
-    c.stale = true;
-    const bool new_frame = whole.anchor == kWorldFrame && !anchored[largest];
-    if (new_frame) removeShapes(state, id, c.members);
-    inheritMotion(state, id, whole, anchored[largest] != 0);
-    if (new_frame) addShapes(state, id, c.members);
-    state[id].resized = true;
-    state[id].quiet_steps = 0;
-  }
-  releaseContacts(state, released);
-  return result;
+  return Split(state, id, part, anchored).run();
 }
 
 }  // namespace merge2d
