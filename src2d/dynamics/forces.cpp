@@ -21,7 +21,7 @@ Vec2 velocityAt(const State& state, BodyId body, const Vec2& p) {
 double inverseMassAt(const State& state, BodyId id, const Vec2& p,
                      const std::optional<Vec2>& direction) {
   const Body& body = state[id];
-  if (!state.rigid(id).floating() && !state.isCollection(body.rigid)) return 0.0;
+  if (!state.responds(id)) return 0.0;
   const Vec2 from_center = p - state.pose(id).position;
   const double arm = direction ? cross(from_center, *direction) : from_center.norm();
   return 1.0 / body.mass + arm * arm / body.inertia;

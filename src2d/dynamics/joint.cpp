@@ -23,8 +23,8 @@ class JointBuilder {
         rigid_(kind == JointRows::Rigid || (kind == JointRows::Soft && postStabilised(state))),
         a_(a),
         b_(b) {
-    const double other = joint.to_world ? 0.0 : responds(joint.b);
-    const double self = responds(joint.a);
+    const double other = !joint.to_world && state.responds(joint.b) ? 1.0 : 0.0;
+    const double self = state.responds(joint.a) ? 1.0 : 0.0;
     const double c = kind == JointRows::Soft ? state.settings.solver.compliance : 0.0;
     share_ = kind == JointRows::Correction ? kCorrectedShare : state.settings.solver.erp;
     softness_ = c * (self / mass(joint.a) + (other > 0.0 ? other / mass(joint.b) : 0.0));
@@ -59,10 +59,6 @@ class JointBuilder {
   }
 
  private:
-  /// 1 for a body that forces move, also inside a collection.
-  double responds(BodyId b) const {
-    return state_[rigidOf(b)].floating() || state_.isCollection(state_[b].rigid) ? 1.0 : 0.0;
-  }
   double mass(BodyId b) const { return state_[b].mass; }
   double inertia(BodyId b) const { return state_[b].inertia; }
 

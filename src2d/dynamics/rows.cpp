@@ -55,8 +55,7 @@ void startVelocities(const State& state, Scratch& scratch) {
 /// Of the body itself, also inside a collection: what a contact yields must not change when one of
 /// its bodies merges, or each merge would set everything around it in motion.
 double ownInverseMass(const State& state, BodyId b) {
-  const bool responds = state[rigidOf(b)].floating() || state.isCollection(state[b].rigid);
-  return responds ? 1.0 / state[b].mass : 0.0;
+  return state.responds(b) ? 1.0 / state[b].mass : 0.0;
 }
 
 /// A gap below this counts as touching when a bounce is due [m].

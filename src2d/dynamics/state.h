@@ -82,6 +82,11 @@ struct State {
                             : BodyId{static_cast<std::uint32_t>(id)};
   }
 
+  /// True for a body that forces move, also inside a collection: neither pinned nor scripted.
+  bool responds(BodyId id) const {
+    return rigid(id).floating() || isCollection(bodies[index(id)].rigid);
+  }
+
   Pose pose(BodyId id) const {
     const Body& body = bodies[index(id)];
     const Rigid& r = rigids[index(body.rigid)];

@@ -115,6 +115,10 @@ Awake reasonToStay(const State& state, std::size_t i, bool restless) {
   return settled ? kNothing : kInnerForces;
 }
 
+std::uint8_t& reasonOfIsland(Scratch& scratch, std::size_t i) {
+  return scratch.island_awake[scratch.sets.find(static_cast<std::uint32_t>(i))];
+}
+
 /// True while a pair of which one is free counts the steps until it merges, or those before it may
 /// be looked at again: asleep it would never merge.
 bool isAboutToMerge(const State& state, const BodyPair& pair) {
@@ -134,9 +138,37 @@ void awaitMerges(const State& state, Scratch& scratch) {
     for (const BodyId b : {pair.a, pair.b}) {
       const std::size_t i = index(state[b].rigid);
       if (!canSleep(state.rigids[i], state, i)) continue;
-      scratch.island_awake[scratch.sets.find(static_cast<std::uint32_t>(i))] = kMotion;
+      reasonOfIsland(scratch, i) = kMotion;
     }
   }
+}
+
+/// Islands over everything that can sleep, sleeping or not: what touches, or a joint holds.
+void uniteIslands(const State& state, Scratch& scratch) {
+  auto& sets = scratch.sets;
+  sets.reset(state.rigids.size());
+  const auto unite = [&](BodyId body_a, BodyId body_b) {
+    const auto a = index(state[body_a].rigid), b = index(state[body_b].rigid);
+    if (!canSleep(state.rigids[a], state, a) || !canSleep(state.rigids[b], state, b)) return;
+    sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+  };
+  for (const BodyPair& pair : scratch.pairs) unite(pair.a, pair.b);
+  for (const Joint& joint : state.joints) {
+    if (!joint.to_world && holds(state, joint)) unite(joint.a, joint.b);
+  }
+}
+
+/// Per island the strongest reason to stay awake of what is in it.
+void findWhatStaysAwake(const State& state, Scratch& scratch) {
+  scratch.island_awake.assign(state.rigids.size(), kNothing);
+  for (const RigidId id : state.present) {
+    const std::size_t i = index(id);
+    if (!canSleep(state.rigids[i], state, i)) continue;
+    std::uint8_t& island = reasonOfIsland(scratch, i);
+    const std::uint8_t own = reasonToStay(state, i, scratch.restless[i] != 0);
+    island = std::max(island, own);
+  }
+  awaitMerges(state, scratch);
 }
 
 }  // namespace
@@ -153,7 +185,7 @@ void wakeUp(State& state, Scratch& scratch, RigidId id) {
 
 bool awaitsInnerForces(const State& state, Scratch& scratch, RigidId id) {
   if (!sleeps(state.mode)) return false;
-  return scratch.island_awake[scratch.sets.find(static_cast<std::uint32_t>(id))] == kInnerForces;
+  return reasonOfIsland(scratch, index(id)) == kInnerForces;
 }
 
 void sleepAndWake(State& state, Scratch& scratch) {
@@ -161,42 +193,17 @@ void sleepAndWake(State& state, Scratch& scratch) {
   sumLoads(state, scratch);
   auto& restless = scratch.restless;
   markRestless(state, scratch, restless);
-
-  // Islands over everything that can sleep, sleeping or not.
-  auto& sets = scratch.sets;
-  sets.reset(state.rigids.size());
-  for (const BodyPair& pair : scratch.pairs) {
-    const auto a = index(state[pair.a].rigid), b = index(state[pair.b].rigid);
-    if (canSleep(state.rigids[a], state, a) && canSleep(state.rigids[b], state, b)) {
-      sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
-    }
-  }
-  for (const Joint& joint : state.joints) {
-    if (joint.to_world || !holds(state, joint)) continue;
-    const auto a = index(state[joint.a].rigid), b = index(state[joint.b].rigid);
-    if (canSleep(state.rigids[a], state, a) && canSleep(state.rigids[b], state, b)) {
-      sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
-    }
-  }
-  auto& awake = scratch.island_awake;
-  awake.assign(state.rigids.size(), 0);
-  for (const RigidId id : state.present) {
-    const std::size_t i = index(id);
-    if (!canSleep(state.rigids[i], state, i)) continue;
-    std::uint8_t& island = awake[sets.find(static_cast<std::uint32_t>(i))];
-    island = std::max<std::uint8_t>(island, reasonToStay(state, i, restless[i] != 0));
-  }
-  awaitMerges(state, scratch);
+  uniteIslands(state, scratch);
+  findWhatStaysAwake(state, scratch);
   bool any = false;
   for (const RigidId id : state.present) {
     const std::size_t i = index(id);
     if (!canSleep(state.rigids[i], state, i)) continue;
-    const bool stays_awake = awake[sets.find(static_cast<std::uint32_t>(i))] != 0;
+    const bool stays_awake = reasonOfIsland(scratch, i) != kNothing;
     noteSleep(state, scratch.notes, i, restless[i] != 0, stays_awake);
-    if (state.rigids[i].asleep && stays_awake) {
-      wakeUp(state, scratch, id);
-    }
-    if (state.rigids[i].asleep || stays_awake) continue;
+    const bool asleep = state.rigids[i].asleep;
+    if (asleep && stays_awake) wakeUp(state, scratch, id);
+    if (asleep || stays_awake) continue;
     fallAsleep(state, scratch, i);
     any = true;
   }
