@@ -74,6 +74,7 @@ bool losesAMember(const Collection& c) {
                         });
   };
   return std::ranges::any_of(c.cut_welds, [&](std::uint32_t weld) {
+    if (std::ranges::binary_search(c.spare, weld)) return false;
     return holdsNothing(c.welds[weld].node_a) || holdsNothing(c.welds[weld].node_b);
   });
 }

@@ -356,10 +356,9 @@ void WeldTest::writeDown(const Weld& weld, Decision test) const {
   scratch_.notes->decisions.push_back(test);
 }
 
-double WeldTest::caution(const Weld& weld) const {
+double WeldTest::cautionAfterVain(const Weld& weld) const {
   constexpr double kSteps = 20.0;
   constexpr int kMost = 5;
-  if (rule() == Rule::Paper || weld.vain == 0) return 1.0;
   const double factor = std::exp2(std::min<int>(weld.vain, kMost));
   const auto lived = static_cast<double>(state_.step - c_.contacts[weld.first].since);
   return lived < kSteps * factor ? factor : 1.0;

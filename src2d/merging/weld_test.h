@@ -140,7 +140,10 @@ class WeldTest {
   /// nothing moved when it was free, is cut later, or it would merge and part for ever. Rigid
   /// contacts may find motion where soft ones hold. Guarded by
   /// Pile.NoPairMergesAndPartsOverAndOver.
-  double caution(const Weld& weld) const;
+  double caution(const Weld& weld) const {
+    return rule() == Rule::Paper || weld.vain == 0 ? 1.0 : cautionAfterVain(weld);
+  }
+  double cautionAfterVain(const Weld& weld) const;
 
   /// What the last sweep may have left of a velocity [m/s].
   double noise() const;
