@@ -22,12 +22,11 @@ Vec2 endOf(const State& state, const Joint& joint) {
 /// The relative freedoms that the joints of one pair take away.
 struct Hold {
   int freedoms = 0;
-  bool pivot = false;      ///< some point is shared
-  Vec2 at = Vec2::Zero();  ///< in the world, a shared one if there is any [m]
-  void add(const State& state, const Joint& joint, int taken) {
-    if (freedoms == 0 || (joint.kind == JointKind::Revolute && !pivot)) at = endOf(state, joint);
+  bool pivot = false;  ///< some point is shared
+
+  void add(JointKind kind, int taken) {
     freedoms += taken;
-    pivot |= joint.kind == JointKind::Revolute;
+    pivot |= kind == JointKind::Revolute;
   }
   /// In contacts: a pivot takes two freedoms, three are all.
   int contacts() const {
@@ -49,27 +48,38 @@ int freedomsInside(const State& state, const JointBlock& k) {
   return brake || limit ? 3 : 2;
 }
 
-Hold holdOf(const State& state, const Collection& c, const Weld& weld) {
-  Hold hold;
+/// The first weld that is not before the pair.
+auto weldAt(std::vector<Weld>& welds, const Pair& pair) {
+  return std::lower_bound(welds.begin(), welds.end(), pair,
+                          [](const Weld& w, const Pair& p) { return pairOf(w) < p; });
+}
+
+/// Says anew what the joints of each weld hold: `found(weld, contacts)`, in contacts.
+template <class F>
+void countHolds(const State& state, Collection& c, F&& found) {
+  thread_local std::vector<Hold> holds;  // per weld; its memory is kept
+  holds.assign(c.welds.size(), {});
   for (const JointBlock& k : c.joints) {
     const Joint& joint = state.joints[k.joint];
-    if (joint.to_world || pairOf(joint) != pairOf(weld)) continue;
-    hold.add(state, joint, freedomsInside(state, k));
+    if (joint.to_world) continue;
+    const auto weld = weldAt(c.welds, pairOf(joint));
+    if (weld == c.welds.end() || pairOf(*weld) != pairOf(joint)) continue;
+    holds[static_cast<std::size_t>(weld - c.welds.begin())].add(joint.kind,
+                                                                freedomsInside(state, k));
   }
-  return hold;
+  for (std::uint32_t i = 0; i < c.welds.size(); ++i) found(i, holds[i].contacts());
 }
 
 /// True when some weld holds less than before.
 bool updateWelds(const State& state, Collection& c) {
   bool less = false;
-  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
+  countHolds(state, c, [&](std::uint32_t i, int contacts) {
     Weld& weld = c.welds[i];
-    const int contacts = holdOf(state, c, weld).contacts();
-    if (contacts == weld.joints) continue;
+    if (contacts == weld.joints) return;
     less |= contacts < weld.joints;
     weld.joints = static_cast<std::uint8_t>(contacts);
     if (!c.stale) updateGrip(state, c, i);  // else all are found when it is laid out
-  }
+  });
   return less;
 }
 
@@ -109,7 +119,13 @@ void record(const Scratch& scratch, const Joint& joint, std::string_view criteri
 }  // namespace
 
 Vec2 jointPoint(const State& state, const Collection& c, const Weld& weld) {
-  return state[c.rigid].frame().inverse() * holdOf(state, c, weld).at;
+  const Joint* at = nullptr;  // a point that is shared, if there is any
+  for (const JointBlock& k : c.joints) {
+    const Joint& joint = state.joints[k.joint];
+    if (joint.to_world || pairOf(joint) != pairOf(weld) || freedomsInside(state, k) == 0) continue;
+    if (!at || (joint.kind == JointKind::Revolute && at->kind != JointKind::Revolute)) at = &joint;
+  }
+  return state[c.rigid].frame().inverse() * (at ? endOf(state, *at) : Vec2(Vec2::Zero()));
 }
 
 void addJointWelds(const State& state, Collection& c) {
@@ -117,8 +133,7 @@ void addJointWelds(const State& state, Collection& c) {
     const Joint& joint = state.joints[k.joint];
     if (joint.to_world) continue;  // whoever is fixed to the world, is so by other means
     const Pair pair = pairOf(joint);
-    const auto at = std::lower_bound(c.welds.begin(), c.welds.end(), pair,
-                                     [](const Weld& w, const Pair& p) { return pairOf(w) < p; });
+    const auto at = weldAt(c.welds, pair);
     if (at != c.welds.end() && pairOf(*at) == pair) continue;
     c.welds.insert(at, Weld{.a = pair.first, .b = pair.second});
   }
@@ -154,15 +169,15 @@ std::vector<std::uint32_t> takeOverloadedJoints(const State& state, Collection& 
     if (overloaded) taken.push_back(k.joint);
     return overloaded;
   });
-  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
+  countHolds(state, c, [&](std::uint32_t i, int contacts) {
     Weld& weld = c.welds[i];
     const bool held = weld.joints > 0;
-    weld.joints = static_cast<std::uint8_t>(holdOf(state, c, weld).contacts());
+    weld.joints = static_cast<std::uint8_t>(contacts);
     updateGrip(state, c, i);
-    if (!held || weld.joints > 0 || weld.count > 0) continue;
+    if (!held || weld.joints > 0 || weld.count > 0) return;
     weld.cut = true;
     weld.reason = EventReason::Broken;
-  }
+  });
   return taken;
 }
 
@@ -194,26 +209,22 @@ void countQuietJoints(State& state, Scratch& scratch) {
 }
 
 std::vector<JointEdge> readyJoints(const State& state) {
-  std::vector<std::pair<Pair, Hold>> ready;
+  std::vector<const Joint*> ready;
   for (const Joint& joint : state.joints) {
     const bool quiet = joint.quiet_steps >= state.settings.merging.steps && !joint.to_world;
-    if (!quiet || !holds(state, joint) || isInside(state, joint)) continue;
-    ready.push_back({pairOf(joint), {}});
-    ready.back().second.add(state, joint, freedomsTaken(state, joint));
+    if (quiet && holds(state, joint) && !isInside(state, joint)) ready.push_back(&joint);
   }
-  std::stable_sort(ready.begin(), ready.end(),
-                   [](const auto& x, const auto& y) { return x.first < y.first; });
+  std::ranges::stable_sort(ready, {}, [](const Joint* joint) { return pairOf(*joint); });
   std::vector<JointEdge> edges;
   for (std::size_t i = 0; i < ready.size();) {
-    const auto& [pair, first] = ready[i];
-    Hold hold = first;
-    for (++i; i < ready.size() && ready[i].first == pair; ++i) {
-      hold.freedoms += ready[i].second.freedoms;
-      hold.pivot |= ready[i].second.pivot;
+    const Joint& first = *ready[i];
+    Hold hold;
+    for (; i < ready.size() && pairOf(*ready[i]) == pairOf(first); ++i) {
+      hold.add(ready[i]->kind, freedomsTaken(state, *ready[i]));
     }
-    if (hold.contacts() > 0) {
-      edges.push_back({pair.first, pair.second, hold.contacts(), hold.at});
-    }
+    if (hold.contacts() == 0) continue;
+    const auto [a, b] = pairOf(first);
+    edges.push_back({a, b, hold.contacts(), endOf(state, first)});
   }
   return edges;
 }
