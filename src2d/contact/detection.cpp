@@ -21,11 +21,6 @@ double reach(const State& state, double ahead) {
   return std::max(state.settings.solver.margin, ahead);
 }
 
-/// True for two things fixed to the same frame.
-bool sameFrame(const Rigid& a, const Rigid& b) {
-  return !a.floating() && !b.floating() && a.anchor == b.anchor;
-}
-
 /// Most of those that do not touch stay apart however fast they are, and many need no look at all:
 /// they were farther apart than what has moved since.
 bool staysApart(const State& state, const ContactKey& key, float& apart, double farthest) {

@@ -63,6 +63,11 @@ struct Rigid {
   Vec2 velocityAt(const Rigid& o) const { return v + cross(omega, (o.x - x) + (o.rest - rest)); }
 };
 
+/// True for two that are fixed to the same frame: they never move against each other.
+inline bool sameFrame(const Rigid& a, const Rigid& b) {
+  return !a.floating() && a.anchor == b.anchor;
+}
+
 /// A body's own constants, and where it is found now.
 struct Body {
   std::uint32_t first_shape = 0, shape_count = 0;  ///< into State::shape_collider

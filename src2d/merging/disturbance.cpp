@@ -20,8 +20,9 @@ double impactSpeed(const State& state) {
 /// How fast a contact closes that was open in the last step and meets in this one; or that was near
 /// enough to slow its bodies down then, and is hit with the rest now [m/s]. 0 for any other.
 double closingSpeed(const State& state, const Contact& contact) {
-  const Pose pose_a = state.pose(contact.key.a);
   const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
+  if (sameFrame(a, b)) return 0.0;
+  const Pose pose_a = state.pose(contact.key.a);
   double fastest = 0.0;
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
