@@ -19,6 +19,7 @@ void aimAtGaps(const State& state, Scratch& scratch) {
       const ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(p)]);
       const double gap = point.gap + state.h * w;
       k.bias[p] = (gap > 0.0 ? gap : kCorrectedShare * gap) / state.h;
+      if (k.bilateral) k.bias[p] = std::min(k.bias[p], state.settings.solver.max_correction);
     }
     k.lambda = {};
     k.mu = 0.0;

@@ -124,10 +124,11 @@ SolverVelocity memberMasses(const State& state, const Collection& c, BodyId b) {
 
 /// Zero, unless a point may not have met yet; with the paper's rule that of the full solve.
 double innerBias(const State& state, const InternalContact& contact, std::size_t i) {
-  if (state.settings.unmerging.rule == Rule::Paper) {
-    return contactBias(state.settings.solver, state.h, contact.gap[i]);
-  }
-  return contact.watch[i].active ? 0.0 : std::max(0.0, contact.gap[i]) / state.h;
+  const double gap = contact.gap[i];
+  const bool magnet = isBilateral(state, contact.key.a, contact.key.b);
+  const double bias = (magnet ? magnetBias : contactBias)(state.settings.solver, state.h, gap);
+  if (state.settings.unmerging.rule == Rule::Paper) return bias;
+  return contact.watch[i].active || gap <= 0.0 ? 0.0 : bias;
 }
 
 /// Deviation: contacts inside a collection are rigid rows, without bias and softness: their overlap

@@ -79,6 +79,7 @@ void addOuterContact(const State& state, const Contact& contact, std::uint32_t s
   g.softness = contactSoftness(settings, ua.inv_mass, ub.inv_mass);
   SweepContact outer{.slot = slot, .block = {}};
   ContactBlock& k = outer.block;
+  k.bilateral = isBilateral(state, a, b);
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
     const Vec2 p = pose_a * point.position;
@@ -86,12 +87,11 @@ void addOuterContact(const State& state, const Contact& contact, std::uint32_t s
     g.arm_b[i] = p - x_b;
     k.lambda_n(i) = point.lambda_n;
     k.lambda_t(i) = point.lambda_t;
-    k.bias[i] = contactBias(settings, state.h, point.gap);
+    k.bias[i] = (k.bilateral ? magnetBias : contactBias)(settings, state.h, point.gap);
   }
   k.a = static_cast<std::uint32_t>(a);
   k.b = static_cast<std::uint32_t>(b);
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
-  k.bilateral = isBilateral(state, a, b);
   prepareBlock(k, g, ua, ub);
   reserveTightly(scratch.sweep_contacts, scratch.sweep_contacts.size() + 1);
   scratch.sweep_contacts.push_back(outer);
