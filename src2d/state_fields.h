@@ -101,8 +101,8 @@ void fields(Ar& ar, Some<ContactTable> auto& t) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<NearPair> auto& p) {
-  auto& [a, b, corners, fresh] = p;
-  ar(a, b, corners, fresh);
+  auto& [a, b, corners, way, fresh] = p;
+  ar(a, b, corners, way, fresh);
 }
 
 template <class Ar>

@@ -1,6 +1,7 @@
 #include "src2d/contact/broadphase.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src2d/contact/approach.h"
 #include "src2d/contact/table.h"
@@ -156,24 +157,36 @@ void pairShapes(State& state, Scratch& scratch, RigidId host, RigidId guest, dou
   });
 }
 
-/// Pairs shapes anew where two rigid things have moved against each other.
-void refineNearPairs(State& state, Scratch& scratch) {
+/// How far the corners of a near pair have gone since they were last written down [m].
+double wayOf(const NearPair& p, const std::array<Vec2, 4>& corners) {
+  double longest = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    longest = std::max(longest, (corners[k] - p.corners[k]).squaredNorm());
+  }
+  return std::sqrt(longest);
+}
+
+/// Pairs shapes anew where two rigid things have moved against each other, or will in this step.
+/// Most have not: nothing has gone as far since the last look.
+void refineNearPairs(State& state, Scratch& scratch, double farthest) {
+  constexpr double kRounding = 1e-6;  // of a sum in float
   auto& near = state.broadphase.near;
   scratch.near_refined.assign(near.size(), 0);
   for (std::size_t i = 0; i < near.size(); ++i) {
     NearPair& p = near[i];
+    p.way += static_cast<float>(2.0 * state.moved);
+    if (!p.fresh && farthest <= kNear && p.way < (1.0 - kRounding) * kNear) continue;
     if (!p.fresh && !canTouch(state, p.a, p.b)) continue;
     const bool a_hosts = hasShapeTree(state, p.a);
     const RigidId host = a_hosts ? p.a : p.b, guest = a_hosts ? p.b : p.a;
     const auto corners = cornersSeenFrom(state[host].frame().toLocal(state[guest].frame()),
                                          state.extent(guest).bounds);
     const double ahead = approach(state, scratch, p.a, p.b);
-    bool moved = p.fresh || ahead > kNear;
-    for (std::size_t k = 0; k < 4 && !moved; ++k) {
-      moved = (corners[k] - p.corners[k]).squaredNorm() > kNear * kNear;
-    }
-    if (!moved) continue;
+    const double way = wayOf(p, corners);
+    p.way = static_cast<float>(way);
+    if (!p.fresh && ahead <= kNear && way <= kNear) continue;
     p.corners = corners;
+    p.way = 0.0F;
     p.fresh = false;
     scratch.near_refined[i] = 1;
     for (const RigidId id : {p.a, p.b}) {
@@ -260,11 +273,11 @@ void compactTree(State& state) {
 
 void dropShapeTree(State& state, RigidId id) { state.broadphase.shape_trees[index(id)].reset(); }
 
-void updateBroadphase(State& state, Scratch& scratch) {
+void updateBroadphase(State& state, Scratch& scratch, double farthest) {
   moveLeaves(state, scratch);
   findNeighbours(state, scratch);
   updateNearPairs(state, scratch);
-  refineNearPairs(state, scratch);
+  refineNearPairs(state, scratch, farthest);
   auto& candidates = scratch.candidates;
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());

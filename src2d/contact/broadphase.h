@@ -21,7 +21,8 @@ void dropShapeTree(State& state, RigidId id);
 void compactTree(State& state);
 
 /// Follows the motion of all rigid things and brings the contact table up to date with the pairs of
-/// shapes whose boxes meet: pairs that parted are dropped, new ones start idle.
-void updateBroadphase(State& state, Scratch& scratch);
+/// shapes whose boxes meet: pairs that parted are dropped, new ones start idle. No two things come
+/// nearer by more than `farthest` in this step [m].
+void updateBroadphase(State& state, Scratch& scratch, double farthest);
 
 }  // namespace merge2d

@@ -163,8 +163,8 @@ void collectPairs(const State& state, Scratch& scratch) {
 }
 
 void detectContacts(State& state, Scratch& scratch) {
-  updateBroadphase(state, scratch);
   const double farthest = farthestApproach(state, scratch);
+  updateBroadphase(state, scratch, farthest);
   followContacts(state, scratch, farthest);
   findTouching(state, scratch, farthest);
   retireContacts(state.contacts);
