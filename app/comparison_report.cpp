@@ -8,6 +8,7 @@
 
 #include "app/comparison_marks.h"
 #include "app/json.h"
+#include "src2d/core/utf8.h"
 
 namespace merge2d {
 namespace {
@@ -232,8 +233,8 @@ std::string lengthText(double metres) {
 
 std::string comparisonTable(const Comparison& comparison, const std::optional<Window>& window) {
   const Scene& scene = comparison.scene();
-  std::string out = fmt::format("{}: {}\n{} steps of {} s, {:.6g} s\n\n{:<28}", scene.name,
-                                scene.title, comparison.stepsDone(), scene.step,
+  std::string out = fmt::format("{}: {}\n{} steps of {} s, {:.6g} s\n\n{:<28}", escaped(scene.name),
+                                escaped(scene.title), comparison.stepsDone(), scene.step,
                                 static_cast<double>(comparison.stepsDone()) * scene.step, "");
   const auto add = [&](const std::string& what, const Cell& cell) {
     out += row(comparison, what, cell);

@@ -12,6 +12,7 @@
 #include "lessons/explain.h"
 #include "lessons/story.h"
 #include "src2d/core/error.h"
+#include "src2d/core/utf8.h"
 
 namespace merge2d {
 namespace {
@@ -128,8 +129,8 @@ class StepReport {
   }
 
   std::string head() const {
-    return fmt::format("{}, step {} (t = {:.6g} s), {}\n", world_.scene().name, world_.steps(),
-                       world_.time(), name(world_.mode()));
+    return fmt::format("{}, step {} (t = {:.6g} s), {}\n", escaped(world_.scene().name),
+                       world_.steps(), world_.time(), name(world_.mode()));
   }
 
   /// Every test of one pair.

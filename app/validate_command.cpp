@@ -13,6 +13,7 @@
 #include "app/usage_error.h"
 #include "lessons/words.h"
 #include "src2d/core/error.h"
+#include "src2d/core/utf8.h"
 #include "src2d/geometry/box.h"
 
 namespace merge2d {
@@ -55,7 +56,7 @@ Inventory inventoryOf(const Scene& scene) {
 
 /// The rows of the report: what, and how much of it.
 std::string table(const Scene& scene, const Inventory& found) {
-  std::string out = fmt::format("{}: {}\n", scene.name, scene.title);
+  std::string out = fmt::format("{}: {}\n", escaped(scene.name), escaped(scene.title));
   const auto row = [&](const char* what, const std::string& value) {
     out += fmt::format("  {:<10}{}\n", what, value);
   };

@@ -1,6 +1,7 @@
 #pragma once
 /// Text as characters.
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -28,6 +29,17 @@ inline bool isControl(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
   if (character.size() == 1) return byte(0) < 0x20u || byte(0) == 0x7Fu;
   return character.size() == 2 && byte(0) == 0xC2u && byte(1) < 0xA0u;
+}
+
+/// Whether any of its characters is one.
+inline bool hasControl(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::string_view character =
+        text.substr(i, std::max<std::size_t>(1, characterBytes(text, i)));
+    if (isControl(character)) return true;
+    i += character.size();
+  }
+  return false;
 }
 
 /// A control character as TOML would write it: \n, \u001b.

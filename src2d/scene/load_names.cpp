@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "src2d/core/utf8.h"
 #include "src2d/scene/interpret.h"
 
 namespace merge2d {
@@ -85,12 +86,9 @@ std::string suggestion(const std::string& name, const Scene& scene) {
 
 void checkName(const Value& value, const std::string& name) {
   constexpr std::size_t kLongest = 100;
-  const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20u || c == 0x7F; };
   if (name.empty()) value.fail("a name must not be empty");
   if (name.size() > kLongest) value.fail("a name has at most 100 characters");
-  if (std::any_of(name.begin(), name.end(), control)) {
-    value.fail("a name is one line without control characters");
-  }
+  if (hasControl(name)) value.fail("a name is one line without control characters");
 }
 
 BodyIndex bodyNamed(const Value& value, const Scene& scene, const BodyNames& names) {

@@ -26,6 +26,11 @@ TEST_F(Validate, TellsWhatIsInAScene) {
   EXPECT_THAT(outcome.err, IsEmpty());
 }
 
+TEST_F(Validate, ShowsNoTitleThatATerminalWouldObey) {
+  write("red.toml", "format = 1\ntitle = \"a\\u001b[31mb\"\n[[body]]\nbox = [1, 1]\n");
+  EXPECT_THAT(run({"validate", "red.toml"}).out, StartsWith("red: a\\u001b[31mb\n"));
+}
+
 TEST_F(Validate, TellsTheSameAsJson) {
   const Json found = run({"validate", "--json", "stack.toml", "--set", "step=0.005"}).json();
   EXPECT_EQ(found["bodies"], 4);

@@ -244,6 +244,7 @@ TEST(Errors, NamesAreUniqueAndPlain) {
        "4:1: a body without a name is called 'body2' here, but so is the one in line 2: name it"},
       {body("name = \"\""), "3:8: a name must not be empty"},
       {body("name = \"a\\nb\""), "3:8: a name is one line without control characters"},
+      {body("name = \"a\\u009Bb\""), "3:8: a name is one line without control characters"},
       {body("name = \"" + std::string(101, 'x') + "\""), "3:8: a name has at most 100 characters"},
   });
 }
