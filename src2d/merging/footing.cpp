@@ -84,7 +84,8 @@ bool gives(const State& state, Scratch& scratch, const Collection& c, const Join
   return true;
 }
 
-/// The direction in which the load pulls on members, in the collection's frame [rad].
+/// The direction in which the load pulls on members, in the collection's frame [rad]. Where that
+/// turns, the load is another elsewhere, so that what has borne it is still asked at times.
 double loadDirection(const State& state, const Collection& c) {
   const Vec2 gain = state.h * state.gravity - c.frame_gain;
   const Vec2 load = state[c.rigid].rotation.inverse() * gain;
