@@ -80,7 +80,7 @@ struct BodyPair {
 struct NearPair {
   RigidId a{}, b{};
   std::array<Vec2, 4> corners{};  ///< of b's bounds in a's frame
-  float way = 0.0F;                ///< that these can have gone since, at most [m]
+  float way = 0.0F;               ///< that these can have gone since, at most [m]
   bool fresh = true;
   auto operator<=>(const NearPair& o) const {
     if (auto c = a <=> o.a; c != 0) return c;
