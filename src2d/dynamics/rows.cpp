@@ -164,7 +164,7 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
   for (int i = 0; i < source.count(); ++i) {
     ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(i)]);
     const Vec2 before = b.v + cross(b.omega, g.arm_b[i]) - a.v - cross(a.omega, g.arm_a[i]);
-    const double rest = (k.bilateral ? magnetBias : contactBias)(settings, state.h, point.gap);
+    const double rest = contactBias(settings, state.h, point.gap, k.bilateral);
     k.bias[i] = restitutionBias(state, contact, point, g.normal.dot(before), rest);
     k.lambda_n(i) = point.lambda_n;
     k.lambda_t(i) = point.lambda_t;
@@ -225,14 +225,10 @@ void listIslandBodies(const State& state, Scratch& scratch) {
 
 }  // namespace
 
-double contactBias(const SolverSettings& settings, double h, double gap) {
-  if (gap > 0.0) return gap / h;
+double contactBias(const SolverSettings& settings, double h, double gap, bool bilateral) {
+  if (gap > 0.0) return bilateral ? std::min(gap / h, settings.max_correction) : gap / h;
   if (settings.stabilisation == Stabilisation::Post) return 0.0;
   return std::max(settings.erp * gap / h, -settings.max_correction);
-}
-
-double magnetBias(const SolverSettings& settings, double h, double gap) {
-  return std::min(contactBias(settings, h, gap), settings.max_correction);
 }
 
 double contactSoftness(const SolverSettings& settings, double inv_mass_a, double inv_mass_b) {

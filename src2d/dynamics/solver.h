@@ -14,10 +14,9 @@ namespace merge2d {
 
 /// The softness C [1/kg] and the velocity [m/s] with which a gap is to be closed or an overlap
 /// removed, at a contact with `gap` [m].
-double contactBias(const SolverSettings& settings, double h, double gap);
-/// The same where a magnet pulls: what is still open it closes no faster than an overlap is
-/// removed, or a gap that opens would be answered with a blow.
-double magnetBias(const SolverSettings& settings, double h, double gap);
+/// A `bilateral` one closes its gap no faster than an overlap is removed, or a magnet would answer
+/// a gap that opens with a blow. Guarded by Magnet.AddsNoEnergyToWhatSpinsPast.
+double contactBias(const SolverSettings& settings, double h, double gap, bool bilateral);
 double contactSoftness(const SolverSettings& settings, double inv_mass_a, double inv_mass_b);
 
 /// Sets up the velocities u₋ + h M⁻¹ f and the rows of all contacts in B, with the impulses of the

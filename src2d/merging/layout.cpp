@@ -125,8 +125,8 @@ SolverVelocity memberMasses(const State& state, const Collection& c, BodyId b) {
 /// Zero, unless a point may not have met yet; with the paper's rule that of the full solve.
 double innerBias(const State& state, const InternalContact& contact, std::size_t i) {
   const double gap = contact.gap[i];
-  const bool magnet = isBilateral(state, contact.key.a, contact.key.b);
-  const double bias = (magnet ? magnetBias : contactBias)(state.settings.solver, state.h, gap);
+  const bool bilateral = isBilateral(state, contact.key.a, contact.key.b);
+  const double bias = contactBias(state.settings.solver, state.h, gap, bilateral);
   if (state.settings.unmerging.rule == Rule::Paper) return bias;
   return contact.watch[i].active || gap <= 0.0 ? 0.0 : bias;
 }

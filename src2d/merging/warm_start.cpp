@@ -87,7 +87,7 @@ void addOuterContact(const State& state, const Contact& contact, std::uint32_t s
     g.arm_b[i] = p - x_b;
     k.lambda_n(i) = point.lambda_n;
     k.lambda_t(i) = point.lambda_t;
-    k.bias[i] = (k.bilateral ? magnetBias : contactBias)(settings, state.h, point.gap);
+    k.bias[i] = contactBias(settings, state.h, point.gap, k.bilateral);
   }
   k.a = static_cast<std::uint32_t>(a);
   k.b = static_cast<std::uint32_t>(b);

@@ -56,10 +56,11 @@ INSTANTIATE_TEST_SUITE_P(Long, LongPile, testing::Values(2, 3, 4, 5));
 
 /// Nothing left the tray, and nothing sank into it.
 void expectInTheTray(const SceneRun& run) {
+  constexpr double kWall = 28.0;  // the inner faces of the tray [m]
   for (const BodyState& body : run.now().bodies) {
     EXPECT_TRUE(body.x.allFinite()) << run.nameOf(body.id);
     EXPECT_GT(body.x.y(), 0.0 - (run.dynamic(body.id) ? 0.0 : 1.0)) << run.nameOf(body.id);
-    EXPECT_LT(std::abs(body.x.x()), 28.0) << run.nameOf(body.id);
+    EXPECT_LT(std::abs(body.x.x()), kWall) << run.nameOf(body.id);
   }
 }
 
