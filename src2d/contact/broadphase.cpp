@@ -205,13 +205,13 @@ void dropParted(State& state, Scratch& scratch) {
   const auto& candidates = scratch.candidates;
   const auto parted = [&](const ContactKey& key) {
     const RigidId ra = state[key.a].rigid, rb = state[key.b].rigid;
-    const std::uint8_t flag =
-        std::max(scratch.moved_flag[index(ra)], scratch.moved_flag[index(rb)]);
-    if (flag == 0) return false;
+    const auto [less, more] =
+        std::minmax({scratch.moved_flag[index(ra)], scratch.moved_flag[index(rb)]});
+    if (more == 0) return false;
     const Rigid &a = state[ra], &b = state[rb];
     if (!a.present() || !b.present()) return true;
-    if (flag >= kMoved && !state.broadphase.tree.overlap(a.leaf, b.leaf)) return true;
-    if (!hasShapeTree(state, ra) && !hasShapeTree(state, rb)) return false;
+    if (more >= kMoved && !state.broadphase.tree.overlap(a.leaf, b.leaf)) return true;
+    if (less == 0 || (!hasShapeTree(state, ra) && !hasShapeTree(state, rb))) return false;
     const NearPair wanted{.a = std::min(ra, rb), .b = std::max(ra, rb)};
     const auto pair = std::lower_bound(near.begin(), near.end(), wanted);
     if (pair == near.end() || !(*pair == wanted)) return canTouch(state, ra, rb);

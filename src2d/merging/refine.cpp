@@ -55,6 +55,12 @@ class Refinement {
     bool loose;     ///< by a contact outside collections
   };
 
+  /// An item of the round at hand.
+  struct Active {
+    SweepItem item;
+    Vec2 normal;  ///< of its block, in the frame of the velocities
+  };
+
   void listLooseItemsOfBodies() {
     at_.assign(scratch_.sweep_u.size() + 1, 0);
     for (const SweepItem& item : scope_.loose) ++at_[item.a() + 1], ++at_[item.b() + 1];
@@ -145,16 +151,24 @@ class Refinement {
   void sweepOnce(std::uint32_t number, const SweepItem& item) {
     if (swept_[number]) return;
     swept_[number] = 1;
-    active_.push_back(item);
+    active_.push_back(
+        {item, item.block ? item.turn * Vec2(item.block->nx, item.block->ny) : Vec2()});
     const std::uint32_t ends[] = {item.a(), item.b()};
     const auto responds = [&](std::uint32_t b) { return scratch_.sweep_u[b].inv_mass != 0.0; };
     for (const std::uint32_t b : ends) {
       if (responds(b)) reach(b).loose |= number < scope_.loose.size();
     }
-    sweepItem(item, scratch_.sweep_u, state_.settings.solver.method);
+    sweep(active_.back());
     for (const std::uint32_t b : ends) {
       if (responds(b) && changeSinceStart(reach(b)) > threshold_ * threshold_) enqueue(b);
     }
+  }
+
+  void sweep(const Active& active) {
+    auto& u = scratch_.sweep_u;
+    const SolverMethod method = state_.settings.solver.method;
+    if (!active.item.block) return sweepItem(active.item, u, method);
+    sweepBlock(*active.item.block, active.normal, u, method);
   }
 
   /// Squared [m²/s²].
@@ -180,10 +194,10 @@ class Refinement {
     int most = 2 * sweeps;
     for (int done = 0; done < sweeps && most > 0;) {
       Nncg iteration(
-          active_.size(), [&](std::size_t i) -> Impulses& { return active_[i].impulses(); },
+          active_.size(), [&](std::size_t i) -> Impulses& { return active_[i].item.impulses(); },
           reached_.size(), [&](std::size_t i) -> SolverVelocity& { return u[reached_[i].body]; },
           [&] {
-            for (const SweepItem& item : active_) sweepItem(item, u, method);
+            for (const Active& active : active_) sweep(active);
           },
           scratch_.nncg);
       known_ = reached_.size();
@@ -223,7 +237,7 @@ class Refinement {
   std::vector<std::uint32_t> walk_;         ///< bodies whose items are swept in this round
   std::vector<Reached> reached_;            ///< by this round; only those that respond to forces
   std::size_t known_ = 0;                   ///< so many of them when the last sweeps began
-  std::vector<SweepItem> active_;           ///< of this round, in the order of the walk
+  std::vector<Active> active_;              ///< of this round, in the order of the walk
 
   // Largest changes of a body's velocity, squared [m²/s²].
   double restless_ = 0.0;  ///< in the last sweep
@@ -231,16 +245,6 @@ class Refinement {
 };
 
 }  // namespace
-
-void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocity>& u,
-                SolverMethod method) {
-  const double nx = turn.c * k.nx - turn.s * k.ny, ny = turn.s * k.nx + turn.c * k.ny;
-  if (method == SolverMethod::Pgs) {
-    solveRows(k, nx, ny, u[k.a], u[k.b]);
-  } else {
-    solveBlock(k, nx, ny, u[k.a], u[k.b]);
-  }
-}
 
 void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method) {
   if (item.block) return sweepBlock(*item.block, item.turn, u, method);

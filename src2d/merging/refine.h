@@ -29,9 +29,21 @@ struct SweepScope {
   int most = 0;                          ///< sweeps to spend
 };
 
-/// Solves one block of rows, whose frame is turned by `turn`.
-void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocity>& u,
-                SolverMethod method);
+/// Solves one block of rows, whose `normal` is given in the frame of the velocities.
+inline void sweepBlock(ContactBlock& k, const Vec2& normal, std::vector<SolverVelocity>& u,
+                       SolverMethod method) {
+  if (method == SolverMethod::Pgs) {
+    solveRows(k, normal.x(), normal.y(), u[k.a], u[k.b]);
+  } else {
+    solveBlock(k, normal.x(), normal.y(), u[k.a], u[k.b]);
+  }
+}
+
+/// The same, where the block's frame is turned by `turn`.
+inline void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<SolverVelocity>& u,
+                       SolverMethod method) {
+  sweepBlock(k, turn * Vec2(k.nx, k.ny), u, method);
+}
 
 void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method);
 

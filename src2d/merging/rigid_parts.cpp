@@ -197,7 +197,7 @@ double settleParts(const State& state, Scratch& scratch, const Collection& c, do
         p.rows.size(), [&](std::size_t i) -> Impulses& { return p.rows[i].lambda; }, p.of.back(),
         [&](std::size_t i) -> SolverVelocity& { return p.u[i]; },
         [&] {
-          for (ContactBlock& k : p.rows) sweepBlock(k, {}, p.u, method);
+          for (ContactBlock& k : p.rows) sweepBlock(k, Rotation{}, p.u, method);
         },
         p.nncg);
     iteration.run(sweeps, method == SolverMethod::Nncg);

@@ -41,7 +41,8 @@ void WeldTest::testContacts(std::uint32_t b) {
   ContactBlock& k = c_.blocks[b];
   InternalContact& inner = c_.contacts[c_.block_contact[b]];
   const std::uint32_t weld = inner.weld;
-  c_.watched[b] = 0;
+  const Vec2 n = turn_ * Vec2(k.nx, k.ny);
+  bool watched = false;
   for (int i = 0; i < k.count; ++i) {
     PointWatch& point = inner.watch[static_cast<std::size_t>(i)];
     const bool pressed = !broken(k, i), edge = pressed && onEdge(k, i);
@@ -59,18 +60,20 @@ void WeldTest::testContacts(std::uint32_t b) {
     }
     if (!pressed && point.active) leans(weld);
     if (edge || !pressed) {
-      const ContactVelocity w = velocityAt(k, i);
+      const auto& u = scratch_.sweep_u;
+      const ContactVelocity w = contactVelocity(k, i, n.x(), n.y(), u[k.a], u[k.b]);
       if (!pressed && point.active) point.lost = testBroken(weld, point.opening, w.n);
       if (edge || idle) testSliding(weld, point.slip, w.t);
     }
     if (pressed) noteCone(weld, k, i, edge);
-    c_.watched[b] |= edge || !pressed;
+    watched |= edge || !pressed;
     if (point.lost && !was_lost) {
       noteLoosened(weld);
       doubt(c_.welds[weld]);
     }
     if (was_lost != point.lost || was_active != point.active) updateGrip(state_, c_, weld);
   }
+  c_.watched[b] = watched ? 1 : 0;
 }
 
 bool WeldTest::carriesNothing(std::uint32_t w) const {
@@ -89,11 +92,6 @@ void WeldTest::noteLoosened(std::uint32_t weld) {
   const bool known = std::ranges::binary_search(c_.spare, weld) ||
                      std::ranges::find(c_.loosened, weld) != c_.loosened.end();
   if (!known) c_.loosened.push_back(weld);
-}
-
-ContactVelocity WeldTest::velocityAt(const ContactBlock& k, int i) const {
-  const double nx = turn_.c * k.nx - turn_.s * k.ny, ny = turn_.s * k.nx + turn_.c * k.ny;
-  return contactVelocity(k, i, nx, ny, scratch_.sweep_u[k.a], scratch_.sweep_u[k.b]);
 }
 
 WeldTest::Evidence WeldTest::weigh(Drift& drift, double w, double threshold) {

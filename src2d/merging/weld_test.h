@@ -53,9 +53,6 @@ class WeldTest {
   /// One of its contacts has opened: see Collection::loosened.
   void noteLoosened(std::uint32_t weld);
 
-  /// Velocity at a point after the sweep.
-  ContactVelocity velocityAt(const ContactBlock& k, int i) const;
-
   /// Adds to what was summed. Evidence that more sweeps do not confirm is forgotten.
   Evidence weigh(Drift& drift, double w, double threshold);
   Evidence weigh(Drift& drift, double w, double threshold, double noise);
