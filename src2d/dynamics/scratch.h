@@ -27,6 +27,13 @@ struct Kick {
   Vec2 impulse = Vec2::Zero();  ///< [N s]
 };
 
+/// A contact that closes in this step and was open in the last one, or is hit.
+struct Meeting {
+  std::uint32_t pair = 0;     ///< of Scratch::pairs
+  std::uint32_t contact = 0;  ///< its place in ContactTable::order
+  double speed = 0.0;         ///< [m/s]
+};
+
 /// A contact outside collections in the single sweep.
 struct SweepContact {
   std::uint32_t slot = 0;  ///< of the contact table
@@ -117,6 +124,7 @@ struct Scratch {
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
 
   // ContactOrdering: where something new enters
+  std::vector<Meeting> meetings;     ///< ascending
   std::vector<std::uint32_t> seeds;  ///< bodies
 
   /// Bodies for which something is new in this step that is no contact and no impulse: a force

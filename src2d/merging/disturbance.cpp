@@ -23,11 +23,12 @@ double closingSpeed(const State& state, const Contact& contact) {
   const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
   if (sameFrame(a, b)) return 0.0;
   const Pose pose_a = state.pose(contact.key.a);
+  const Vec2 n = pose_a.rotation * contact.normal;
   double fastest = 0.0;
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
     const Vec2 p = pose_a * point.position;
-    const double w_n = (pose_a.rotation * contact.normal).dot(b.velocityAt(p) - a.velocityAt(p));
+    const double w_n = n.dot(b.velocityAt(p) - a.velocityAt(p));
     const double closing = -w_n - std::max(0.0, point.gap) / state.h;
     if (closing <= (point.fresh ? kGentle : impactSpeed(state))) continue;
     fastest = std::max(fastest, -w_n);
@@ -51,41 +52,64 @@ bool frameJumps(const State& state, Collection& c) {
   return known && jump > kPart * state.h * std::max(state.gravity.norm(), 1.0);
 }
 
+void findMeetings(const State& state, Scratch& scratch) {
+  scratch.meetings.clear();
+  for (std::uint32_t p = 0; p < scratch.pairs.size(); ++p) {
+    const BodyPair& pair = scratch.pairs[p];
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      const double speed = closingSpeed(state, state.contacts[state.contacts.order[i]]);
+      if (speed > 0.0) scratch.meetings.push_back({p, i, speed});
+    }
+  }
+}
+
+/// Each pair that meets, with the speed of its fastest contact.
+template <class Visit>
+void forEachPairThatMeets(const Scratch& scratch, Visit&& visit) {
+  const auto& meetings = scratch.meetings;
+  for (auto m = meetings.begin(); m != meetings.end();) {
+    const std::uint32_t pair = m->pair;
+    double fastest = 0.0;
+    for (; m != meetings.end() && m->pair == pair; ++m) fastest = std::max(fastest, m->speed);
+    visit(scratch.pairs[pair], fastest);
+  }
+}
+
+/// Whether a pair was in contact in the last step already.
+bool touched(const State& state, const BodyPair& pair) {
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& contact = state.contacts[state.contacts.order[i]];
+    for (int k = 0; k < contact.count; ++k) {
+      if (!contact.points[static_cast<std::size_t>(k)].fresh) return true;
+    }
+  }
+  return false;
+}
+
 /// An event for each pair that touched nowhere in the last step and hits in this one.
 void reportImpacts(const State& state, Scratch& scratch) {
   const double threshold = impactSpeed(state);
-  for (const BodyPair& pair : scratch.pairs) {
-    double fastest = 0.0;
-    bool touched = false;
-    for (std::uint32_t i = pair.first; i < pair.first + pair.count && !touched; ++i) {
-      const Contact& contact = state.contacts[state.contacts.order[i]];
-      const auto held = [](const ContactPoint& p) { return !p.fresh; };
-      touched = std::any_of(contact.points.begin(), contact.points.begin() + contact.count, held);
-      if (!touched) fastest = std::max(fastest, closingSpeed(state, contact));
-    }
-    if (touched || fastest == 0.0) continue;
-    const bool hits = fastest > threshold;
+  forEachPairThatMeets(scratch, [&](const BodyPair& pair, double speed) {
+    if (touched(state, pair)) return;
+    const bool hits = speed > threshold;
     if (hits) scratch.events.push_back({EventType::Impact, pair.a, pair.b});
-    if (!scratch.notes) continue;
+    if (!scratch.notes) return;
     scratch.notes->decisions.push_back({.a = pair.a,
                                         .b = pair.b,
                                         .stage = "ContactOrdering",
                                         .criterion = "impact",
                                         .equation = "Section 6.2",
-                                        .value = fastest,
+                                        .value = speed,
                                         .threshold = threshold,
                                         .verdict = hits ? "impact" : "touch"});
-  }
+  });
 }
 
 }  // namespace
 
-bool closesAnew(const State& state, const Contact& contact) {
-  return closingSpeed(state, contact) > 0.0;
-}
-
 void orderContacts(State& state, Scratch& scratch) {
   expectContactsOfKicked(state, scratch);
+  findMeetings(state, scratch);
   reportImpacts(state, scratch);
   scratch.seeds.clear();
   scratch.disturbed.assign(state.collections.size(), 0);
@@ -108,15 +132,10 @@ void orderContacts(State& state, Scratch& scratch) {
   }
   for (const Kick& kick : scratch.kicks) seed(kick.body, Blow::Hard);
   for (const BodyId b : scratch.stirred) seed(b, Blow::None);
-  for (const BodyPair& pair : scratch.pairs) {
-    double fastest = 0.0;
-    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-      fastest = std::max(fastest, closingSpeed(state, state.contacts[state.contacts.order[i]]));
-    }
-    if (fastest == 0.0) continue;
-    const Blow blow = fastest > impactSpeed(state) ? Blow::Hard : Blow::Soft;
+  forEachPairThatMeets(scratch, [&](const BodyPair& pair, double speed) {
+    const Blow blow = speed > impactSpeed(state) ? Blow::Hard : Blow::Soft;
     for (const BodyId b : {pair.a, pair.b}) seed(b, blow);
-  }
+  });
   if (scratch.notes) {
     for (const std::uint32_t s : scratch.seeds) scratch.notes->seeds.push_back(BodyId{s});
   }

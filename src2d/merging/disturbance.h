@@ -10,10 +10,6 @@ namespace merge2d {
 /// A disturbance is followed for so many steps after the last sign of it.
 inline constexpr std::int16_t kFollowed = 10;
 
-/// A contact that was open in the last step and closes in this one; or that slowed its bodies down
-/// then, being near, and is hit with the rest now.
-bool closesAnew(const State& state, const Contact& contact);
-
 /// ContactOrdering: the bodies at which something is new: a fresh contact that closes in this step,
 /// or an impulse; and the collections that they belong to. A collection whose frame's acceleration
 /// jumps is disturbed as a whole.

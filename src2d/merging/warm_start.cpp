@@ -65,8 +65,8 @@ void addLoads(const State& state, Scratch& scratch) {
 }
 
 /// The rows of a contact outside collections, with the bodies' own masses.
-void addOuterContact(const State& state, const Contact& contact, std::uint32_t slot,
-                     Scratch& scratch) {
+void addOuterContact(const State& state, ContactTable::Slot slot, Scratch& scratch) {
+  const Contact& contact = state.contacts[slot];
   const BodyId a = contact.key.a, b = contact.key.b;
   const SolverVelocity &ua = scratch.sweep_u[index(a)], &ub = scratch.sweep_u[index(b)];
   if (ua.inv_mass == 0.0 && ub.inv_mass == 0.0) return;
@@ -134,33 +134,30 @@ void warmStartOuter(const State& state, Scratch& scratch) {
   const bool literal = state.settings.unmerging.rule == Rule::Paper;
   const auto asleep = [&](BodyId b) { return state.rigid(b).asleep; };
   const auto swept = [&](BodyId b) { return isMember(state, b) && !asleep(b); };
-  const auto hasRows = [&](const Contact& contact) {
-    const BodyId a = contact.key.a, b = contact.key.b;
-    if (literal) return !asleep(a) && !asleep(b);
-    return swept(a) || swept(b) || closesAnew(state, contact);
+  const auto meets = [&](std::uint32_t i) {
+    return std::ranges::binary_search(scratch.meetings, i, {}, &Meeting::contact);
+  };
+  const auto hasRows = [&](const BodyPair& pair, std::uint32_t i) {
+    if (literal) return !asleep(pair.a) && !asleep(pair.b);
+    return swept(pair.a) || swept(pair.b) || meets(i);
   };
   const auto forEach = [&](auto&& visit) {
     for (const BodyPair& pair : scratch.pairs) {
       for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-        const ContactTable::Slot slot = state.contacts.order[i];
-        if (state.contacts[slot].count > 0) visit(slot, state.contacts[slot]);
+        if (state.contacts[state.contacts.order[i]].count > 0) visit(pair, i);
       }
     }
   };
-  forEach([&](ContactTable::Slot slot, const Contact& contact) {
-    if (!hasRows(contact)) return;
-    near[index(contact.key.a)] = near[index(contact.key.b)] = 1;
-    addOuterContact(state, contact, slot, scratch);
+  forEach([&](const BodyPair& pair, std::uint32_t i) {
+    if (!hasRows(pair, i)) return;
+    near[index(pair.a)] = near[index(pair.b)] = 1;
+    addOuterContact(state, state.contacts.order[i], scratch);
   });
   trim(scratch.sweep_contacts);
   if (!state.joints.empty()) listSweepJoints(state, scratch);
-  std::size_t row = 0;
-  forEach([&](ContactTable::Slot slot, const Contact& contact) {
-    const auto& rows = scratch.sweep_contacts;
-    if (row < rows.size() && rows[row].slot == slot) return void(++row);
-    if (near[index(contact.key.a)] || near[index(contact.key.b)]) {
-      applyAsLoad(state, contact, scratch.sweep_u);
-    }
+  forEach([&](const BodyPair& pair, std::uint32_t i) {
+    if ((!near[index(pair.a)] && !near[index(pair.b)]) || hasRows(pair, i)) return;
+    applyAsLoad(state, state.contacts[state.contacts.order[i]], scratch.sweep_u);
   });
   for (const SweepContact& outer : scratch.sweep_contacts) {
     applyWarmStart(outer.block, scratch.sweep_u);
