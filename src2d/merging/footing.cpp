@@ -20,22 +20,6 @@ double loadStep(const State& state, const Collection& c) {
   return state.h * std::max(state.gravity.norm(), r.omega * r.omega * radius);
 }
 
-/// The fastest of the members against the collection [m/s].
-double sway(const State& state, const Scratch& scratch, const Collection& c) {
-  const auto velocityOf = [&](BodyId b) -> const SolverVelocity& {
-    return scratch.sweep_u[index(b)];
-  };
-  const VelocityField field = fieldOf(state, c, velocityOf);
-  const Pose frame = state[c.rigid].frame();
-  double fastest = 0.0;
-  for (const BodyId b : c.members) {
-    const SolverVelocity& u = velocityOf(b);
-    const Vec2 v = field.at(frame * state[b].local);
-    fastest = std::max(fastest, (Vec2(u.vx, u.vy) - v).squaredNorm());
-  }
-  return std::sqrt(fastest);
-}
-
 bool hasJoints(const State& state, const Scratch& scratch, const Collection& c) {
   const auto isMember = [&](std::uint32_t b) {
     return b < state.bodies.size() && state.bodies[b].rigid == c.rigid;
@@ -117,7 +101,7 @@ void extend(LoadRange& range, double direction) {
 
 Footing footingOf(const State& state, Scratch& scratch, Collection& c) {
   constexpr std::int64_t kOften = 8, kSeldom = 32;  // steps
-  constexpr std::int64_t kBorne = 4;                // times as seldom
+  constexpr std::int64_t kBorne = 8;                // times as seldom
   constexpr double kStands = 5e-3;                  // of what the load adds in a step
   if (scratch.disturbed[index(c.rigid) - state.bodies.size()]) c.borne = {};
   const bool floating = state[c.rigid].floating(), seldom = state.step % kSeldom == 0;

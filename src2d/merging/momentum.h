@@ -25,4 +25,7 @@ VelocityField fieldOf(const State& state, const Collection& c, VelocityOf&& velo
   return {r.x, p * r.inv_mass, l * r.inv_inertia};
 }
 
+/// The fastest of the members against that motion, after the sweeps of this step so far [m/s].
+double sway(const State& state, const Scratch& scratch, const Collection& c);
+
 }  // namespace merge2d

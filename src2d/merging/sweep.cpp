@@ -8,6 +8,7 @@
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/joint_system.h"
 #include "src2d/merging/limits.h"
+#include "src2d/merging/momentum.h"
 #include "src2d/merging/ordering.h"
 #include "src2d/merging/refine.h"
 #include "src2d/merging/sleep.h"
@@ -141,11 +142,26 @@ void follow(const State& state, Collection& c, Scratch& scratch, double change) 
   disturbed = anew || followed ? 1 : 0;
 }
 
+/// Deviation: where sweeps have come to change nothing, and the impulses of the last step hold the
+/// members together under the loads of this one too, most sweeps are left out; the paper wishes for
+/// less than one a step as well (Section 8.2). Guarded by Sweep.RestsWhereTheLastImpulsesStillHold.
+bool mayRest(const State& state, const Scratch& scratch, const Collection& c) {
+  constexpr std::int8_t kMost = 3;   // steps in a row
+  constexpr double kNothing = 1e-6;  // of what a sweep may leave
+  constexpr double kInVain = 0.01;   // of what is left: a sweep hardly makes it less
+  if (!c.settled || c.follow_up > 0 || c.rested >= kMost) return false;
+  if (scratch.disturbed[index(c.rigid) - state.bodies.size()]) return false;
+  const double left = sway(state, scratch, c), most = residualVelocity(state);
+  return left <= kNothing * most || (left <= most && c.residual <= kInVain * left);
+}
+
 /// Sweeps one collection once; one that could sleep but for its inner forces a few times more, so
 /// that it soon can. Returns the largest change [m/s].
 double sweepOnce(const State& state, Collection& c, Scratch& scratch) {
   constexpr double kSettled = 0.02;  // of what a sweep may leave
   const UnmergingSettings& settings = state.settings.unmerging;
+  c.rested = refines(settings) && mayRest(state, scratch, c) ? c.rested + 1 : 0;
+  if (c.rested > 0) return follow(state, c, scratch, 0.0), 0.0;
   if (awaitsInnerForces(state, scratch, c.rigid)) {
     sweepInside(state, c, scratch, settings.disturbed_sweeps);
   }
@@ -229,7 +245,7 @@ void sweepByColours(State& state, Scratch& scratch) {
     solveJoint(k, {}, scratch.sweep_u[k.a], scratch.sweep_u[k.b]);
   }
   for (SweepContact& outer : scratch.sweep_contacts) {
-    sweepBlock(outer.block, {}, scratch.sweep_u, state.settings.solver.method);
+    sweepBlock(outer.block, Rotation{}, scratch.sweep_u, state.settings.solver.method);
   }
   double blow = 0.0;
   for (Collection& c : state.collections) {

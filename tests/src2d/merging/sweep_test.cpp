@@ -313,5 +313,64 @@ TEST(Sweep, OfASettledColumnChangesNothing) {
   }
 }
 
+/// Twenty layers of bricks, in whose forces sweeps change ever less, but for long.
+const std::string kWall = kGround + R"(
+[[body]]
+name = "even"
+at = [0, 0.25]
+box = [1, 0.5]
+repeat = { count = [10, 10], spacing = [1, 1] }
+[[body]]
+name = "odd"
+at = [0.5, 0.75]
+box = [1, 0.5]
+repeat = { count = [10, 10], spacing = [1, 1] }
+)";
+
+std::vector<double> normalImpulses(const Snapshot& now) {
+  std::vector<double> all;
+  for (const ContactView& c : now.contacts) all.push_back(c.lambda_n);
+  return all;
+}
+
+/// Of so many, the steps in which a sweep changes some impulse.
+int stepsThatSweep(Simulation& run, int steps) {
+  int count = 0;
+  std::vector<double> before = normalImpulses(run.now());
+  run.steps(steps, [&] {
+    std::vector<double> after = normalImpulses(run.now());
+    count += after != before ? 1 : 0;
+    before = std::move(after);
+  });
+  return count;
+}
+
+TEST(Sweep, RestsWhereTheLastImpulsesStillHold) {
+  Simulation run(kWall, Mode::Merge);
+  run.until(30.0);
+  ASSERT_TRUE(run.merged("odd[4,9]"));
+  EXPECT_EQ(stepsThatSweep(run, 80), 20);
+}
+
+TEST(Sweep, UnderThePapersRuleNeverRests) {
+  Simulation run(kWall, Mode::Merge, {{"unmerging.rule", "paper"}});
+  run.until(30.0);
+  ASSERT_TRUE(run.merged("odd[4,9]"));
+  EXPECT_EQ(stepsThatSweep(run, 80), 80);
+}
+
+TEST(Sweep, DoesNotRestInAStepWithAnotherLoad) {
+  const std::string load = R"(
+[[force]]
+body = "odd[4,9]"
+force = [0, -0.05]
+from = 30.0
+)";
+  Simulation loaded(kWall + load, Mode::Merge), run(kWall, Mode::Merge);
+  loaded.until(30.0), run.until(30.0);
+  EXPECT_EQ(stepsThatSweep(run, 1), 0);
+  EXPECT_EQ(stepsThatSweep(loaded, 1), 1);
+}
+
 }  // namespace
 }  // namespace merge2d
