@@ -40,6 +40,25 @@ struct SweepContact {
   ContactBlock block;      ///< with the bodies' own masses
 };
 
+/// Normal and tangential impulses of a block's two points.
+using Impulses = std::array<double, 4>;
+
+/// A contact or a joint, inside a collection or outside; `frame` is its collection's.
+struct SweepItem {
+  ContactBlock* block = nullptr;
+  JointBlock* joint = nullptr;  ///< when there is no contact
+  Rotation turn;                ///< of a joint's frame, or of the x axis into the contact's normal
+
+  explicit SweepItem(ContactBlock& k, const Rotation& frame = {})
+      : block(&k), turn(frame * Rotation{k.nx, k.ny}) {}
+  explicit SweepItem(JointBlock& k, const Rotation& frame = {}) : joint(&k), turn(frame) {}
+
+  Vec2 normal() const { return {turn.c, turn.s}; }
+  std::uint32_t a() const { return block ? block->a : joint->a; }
+  std::uint32_t b() const { return block ? block->b : joint->b; }
+  Impulses& impulses() const { return block ? block->lambda : joint->lambda; }
+};
+
 /// What a block of the full solve is made from, and where its impulses go.
 struct RowSource {
   static constexpr PointIndex kNone = ~PointIndex{0};
@@ -78,9 +97,6 @@ struct JointOrder {
   std::uint32_t island = 0, joint = 0;
   auto operator<=>(const JointOrder&) const = default;
 };
-
-/// Normal and tangential impulses of a block's two points.
-using Impulses = std::array<double, 4>;
 
 /// Memory of the conjugate gradient (dynamics/nncg.h), kept between calls.
 struct NncgBuffers {

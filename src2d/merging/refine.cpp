@@ -12,12 +12,10 @@ namespace {
 class Refinement {
  public:
   Refinement(State& state, Scratch& scratch, const SweepScope& scope, double threshold)
-      : state_(state),
-        scratch_(scratch),
-        scope_(scope),
-        threshold_(threshold),
-        place_(scratch.sweep_u.size(), kNowhere) {
+      : state_(state), scratch_(scratch), scope_(scope), threshold_(threshold) {
     listLooseItemsOfBodies();
+    place_.assign(scratch.sweep_u.size(), kNowhere);
+    first_block_.reserve(state.collections.size());
     auto items = static_cast<std::uint32_t>(scope.loose.size());
     for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
       first_block_.push_back(items);
@@ -25,6 +23,9 @@ class Refinement {
         items += static_cast<std::uint32_t>(state.collections[slot].blocks.size());
     }
     swept_.resize(items);
+    active_.reserve(items);
+    reached_.reserve(scratch.sweep_u.size());
+    walk_.reserve(scratch.sweep_u.size());
   }
 
   double run(std::span<const std::uint32_t> seeds) {
@@ -55,18 +56,13 @@ class Refinement {
     bool loose;     ///< by a contact outside collections
   };
 
-  /// An item of the round at hand.
-  struct Active {
-    SweepItem item;
-    Vec2 normal;  ///< of its block, in the frame of the velocities
-  };
-
   void listLooseItemsOfBodies() {
     at_.assign(scratch_.sweep_u.size() + 1, 0);
     for (const SweepItem& item : scope_.loose) ++at_[item.a() + 1], ++at_[item.b() + 1];
     for (std::size_t b = 1; b < at_.size(); ++b) at_[b] += at_[b - 1];
     loose_of_.resize(at_.back());
-    std::vector<std::uint32_t> next(at_.begin(), at_.end() - 1);
+    auto& next = place_;  // idle until the walk
+    next.assign(at_.begin(), at_.end() - 1);
     for (std::uint32_t i = 0; i < scope_.loose.size(); ++i) {
       loose_of_[next[scope_.loose[i].a()]++] = i;
       loose_of_[next[scope_.loose[i].b()]++] = i;
@@ -143,7 +139,7 @@ class Refinement {
       const Weld& weld = c.welds[c.weld_of[k]];
       for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
         const std::uint32_t block = c.contacts[i].block;
-        sweepOnce(first_block_[slot] + block, {&c.blocks[block], nullptr, state_[id].rotation});
+        sweepOnce(first_block_[slot] + block, SweepItem(c.blocks[block], state_[id].rotation));
       }
     }
   }
@@ -151,24 +147,16 @@ class Refinement {
   void sweepOnce(std::uint32_t number, const SweepItem& item) {
     if (swept_[number]) return;
     swept_[number] = 1;
-    active_.push_back(
-        {item, item.block ? item.turn * Vec2(item.block->nx, item.block->ny) : Vec2()});
+    active_.push_back(item);
     const std::uint32_t ends[] = {item.a(), item.b()};
     const auto responds = [&](std::uint32_t b) { return scratch_.sweep_u[b].inv_mass != 0.0; };
     for (const std::uint32_t b : ends) {
       if (responds(b)) reach(b).loose |= number < scope_.loose.size();
     }
-    sweep(active_.back());
+    sweepItem(item, scratch_.sweep_u, state_.settings.solver.method);
     for (const std::uint32_t b : ends) {
       if (responds(b) && changeSinceStart(reach(b)) > threshold_ * threshold_) enqueue(b);
     }
-  }
-
-  void sweep(const Active& active) {
-    auto& u = scratch_.sweep_u;
-    const SolverMethod method = state_.settings.solver.method;
-    if (!active.item.block) return sweepItem(active.item, u, method);
-    sweepBlock(*active.item.block, active.normal, u, method);
   }
 
   /// Squared [m²/s²].
@@ -194,10 +182,10 @@ class Refinement {
     int most = 2 * sweeps;
     for (int done = 0; done < sweeps && most > 0;) {
       Nncg iteration(
-          active_.size(), [&](std::size_t i) -> Impulses& { return active_[i].item.impulses(); },
+          active_.size(), [&](std::size_t i) -> Impulses& { return active_[i].impulses(); },
           reached_.size(), [&](std::size_t i) -> SolverVelocity& { return u[reached_[i].body]; },
           [&] {
-            for (const Active& active : active_) sweep(active);
+            for (const SweepItem& item : active_) sweepItem(item, u, method);
           },
           scratch_.nncg);
       known_ = reached_.size();
@@ -237,7 +225,7 @@ class Refinement {
   std::vector<std::uint32_t> walk_;         ///< bodies whose items are swept in this round
   std::vector<Reached> reached_;            ///< by this round; only those that respond to forces
   std::size_t known_ = 0;                   ///< so many of them when the last sweeps began
-  std::vector<Active> active_;              ///< of this round, in the order of the walk
+  std::vector<SweepItem> active_;           ///< of this round, in the order of the walk
 
   // Largest changes of a body's velocity, squared [m²/s²].
   double restless_ = 0.0;  ///< in the last sweep
@@ -245,11 +233,6 @@ class Refinement {
 };
 
 }  // namespace
-
-void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method) {
-  if (item.block) return sweepBlock(*item.block, item.turn, u, method);
-  solveJoint(*item.joint, item.turn, u[item.joint->a], u[item.joint->b]);
-}
 
 std::vector<SweepItem> orderedFromSeeds(const State& state, const Scratch& scratch,
                                         const std::vector<SweepItem>& items,

@@ -11,17 +11,6 @@
 
 namespace merge2d {
 
-/// A contact or a joint, inside a collection or outside.
-struct SweepItem {
-  ContactBlock* block;
-  JointBlock* joint;  ///< when there is no contact
-  Rotation turn;      ///< of the collection's frame
-
-  std::uint32_t a() const { return block ? block->a : joint->a; }
-  std::uint32_t b() const { return block ? block->b : joint->b; }
-  Impulses& impulses() const { return block ? block->lambda : joint->lambda; }
-};
-
 /// What a refinement may sweep.
 struct SweepScope {
   std::vector<SweepItem> loose;          ///< contacts outside collections, and all joints
@@ -45,7 +34,10 @@ inline void sweepBlock(ContactBlock& k, const Rotation& turn, std::vector<Solver
   sweepBlock(k, turn * Vec2(k.nx, k.ny), u, method);
 }
 
-void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method);
+inline void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method) {
+  if (item.block) return sweepBlock(*item.block, item.normal(), u, method);
+  solveJoint(*item.joint, item.turn, u[item.joint->a], u[item.joint->b]);
+}
 
 /// The items in breadth-first order from `scratch.seeds` (Section 6.2). `depth`, when given, gets
 /// per item, in that order, what breadthFirst says of it.

@@ -21,6 +21,7 @@ namespace {
 /// and the fresh ones between free bodies.
 std::vector<SweepItem> looseItems(State& state, Scratch& scratch) {
   std::vector<SweepItem> items;
+  items.reserve(scratch.sweep_contacts.size() + scratch.sweep_joints.size());
   const auto concerned = [&](std::uint32_t b) {
     if (b >= state.bodies.size()) return true;  // the world
     const RigidId id = state.bodies[b].rigid;
@@ -28,15 +29,15 @@ std::vector<SweepItem> looseItems(State& state, Scratch& scratch) {
   };
   for (SweepContact& outer : scratch.sweep_contacts) {
     const ContactBlock& k = outer.block;
-    if (concerned(k.a) && concerned(k.b)) items.push_back({&outer.block, nullptr, {}});
+    if (concerned(k.a) && concerned(k.b)) items.emplace_back(outer.block);
   }
   for (JointBlock& k : scratch.sweep_joints) {
-    if (concerned(k.a) && concerned(k.b)) items.push_back({nullptr, &k, {}});
+    if (concerned(k.a) && concerned(k.b)) items.emplace_back(k);
   }
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
-    for (JointBlock& k : c.joints) items.push_back({nullptr, &k, state[c.rigid].rotation});
+    for (JointBlock& k : c.joints) items.emplace_back(k, state[c.rigid].rotation);
   }
   return items;
 }
@@ -53,7 +54,7 @@ std::vector<SweepItem> disturbedItems(State& state, Scratch& scratch) {
       const bool dormant =
           i >= c.active_blocks && c.contacts[c.block_contact[i]].since != kExpected;
       if (literal && dormant) continue;
-      items.push_back({&c.blocks[i], nullptr, state[c.rigid].rotation});
+      items.emplace_back(c.blocks[i], state[c.rigid].rotation);
     }
   }
   return items;
@@ -299,10 +300,10 @@ void sweepAgain(State& state, Scratch& scratch, Collection& c) {
   for (SweepContact& outer : scratch.sweep_contacts) {
     const ContactBlock& k = outer.block;
     const bool at = state.bodies[k.a].rigid == c.rigid || state.bodies[k.b].rigid == c.rigid;
-    if (at) scope.loose.push_back({&outer.block, nullptr, {}});
+    if (at) scope.loose.emplace_back(outer.block);
   }
-  for (JointBlock& k : scratch.sweep_joints) scope.loose.push_back({nullptr, &k, {}});
-  for (JointBlock& k : c.joints) scope.loose.push_back({nullptr, &k, state[c.rigid].rotation});
+  for (JointBlock& k : scratch.sweep_joints) scope.loose.emplace_back(k);
+  for (JointBlock& k : c.joints) scope.loose.emplace_back(k, state[c.rigid].rotation);
   std::vector<std::uint8_t> only(state.collections.size(), 0);
   only[index(c.rigid) - state.bodies.size()] = 1;
   scope.inside = only;

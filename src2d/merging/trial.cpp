@@ -102,11 +102,11 @@ class Trial {
     for (Tried& t : tried_) listInside(t);
     for (SweepContact& outer : scratch_.sweep_contacts) {
       if (isMover(outer.block.a) || isMover(outer.block.b)) {
-        items_.push_back({&outer.block, nullptr, {}});
+        items_.emplace_back(outer.block);
       }
     }
     for (JointBlock& k : scratch_.sweep_joints) {
-      if (isMover(k.a) || isMover(k.b)) items_.push_back({nullptr, &k, {}});
+      if (isMover(k.a) || isMover(k.b)) items_.emplace_back(k);
     }
   }
 
@@ -123,7 +123,7 @@ class Trial {
       const std::uint32_t p = partOf(weld.node_a), q = partOf(weld.node_b);
       if (!moves(p) && !moves(q)) continue;
       for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-        items_.push_back({&c.blocks[c.contacts[i].block], nullptr, turn});
+        items_.emplace_back(c.blocks[c.contacts[i].block], turn);
       }
       if (!weld.cut) continue;
       for (const std::uint32_t part : {p, q}) {
@@ -131,7 +131,7 @@ class Trial {
       }
     }
     for (JointBlock& k : c.joints) {
-      if (isMover(k.a) || isMover(k.b)) items_.push_back({nullptr, &k, turn});
+      if (isMover(k.a) || isMover(k.b)) items_.emplace_back(k, turn);
     }
   }
 

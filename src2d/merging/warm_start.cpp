@@ -93,7 +93,6 @@ void addOuterContact(const State& state, ContactTable::Slot slot, Scratch& scrat
   k.b = static_cast<std::uint32_t>(b);
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
   prepareBlock(k, g, ua, ub);
-  reserveTightly(scratch.sweep_contacts, scratch.sweep_contacts.size() + 1);
   scratch.sweep_contacts.push_back(outer);
 }
 
@@ -148,6 +147,9 @@ void warmStartOuter(const State& state, Scratch& scratch) {
       }
     }
   };
+  std::size_t rows = 0;
+  forEach([&](const BodyPair& pair, std::uint32_t i) { rows += hasRows(pair, i) ? 1 : 0; });
+  reserveTightly(scratch.sweep_contacts, rows);
   forEach([&](const BodyPair& pair, std::uint32_t i) {
     if (!hasRows(pair, i)) return;
     near[index(pair.a)] = near[index(pair.b)] = 1;
