@@ -197,13 +197,26 @@ void refineNearPairs(State& state, Scratch& scratch, double farthest) {
   }
 }
 
+/// Whether an ascending list names a key; to be asked in ascending order.
+class NamedIn {
+ public:
+  explicit NamedIn(const std::vector<ContactKey>& keys) : keys_(keys) {}
+  bool operator()(const ContactKey& key) {
+    while (next_ < keys_.size() && keys_[next_] < key) ++next_;
+    return next_ < keys_.size() && keys_[next_] == key;
+  }
+
+ private:
+  const std::vector<ContactKey>& keys_;
+  std::size_t next_ = 0;
+};
+
 /// Contacts and idle pairs whose rigid things parted, or that a new pairing of their shapes no
 /// longer names.
 void dropParted(State& state, Scratch& scratch) {
   if (std::ranges::count(scratch.moved_flag, 0) == std::ssize(scratch.moved_flag)) return;
   const auto& near = state.broadphase.near;
-  const auto& candidates = scratch.candidates;
-  const auto parted = [&](const ContactKey& key) {
+  const auto parted = [&](const ContactKey& key, NamedIn& named) {
     const RigidId ra = state[key.a].rigid, rb = state[key.b].rigid;
     const auto [less, more] =
         std::minmax({scratch.moved_flag[index(ra)], scratch.moved_flag[index(rb)]});
@@ -216,10 +229,13 @@ void dropParted(State& state, Scratch& scratch) {
     const auto pair = std::lower_bound(near.begin(), near.end(), wanted);
     if (pair == near.end() || !(*pair == wanted)) return canTouch(state, ra, rb);
     if (!scratch.near_refined[static_cast<std::size_t>(pair - near.begin())]) return false;
-    return !std::binary_search(candidates.begin(), candidates.end(), key);
+    return !named(key);
   };
-  dropContacts(state.contacts, [&](const Contact& contact) { return parted(contact.key); });
-  std::erase_if(state.contacts.idle, [&](const IdlePair& pair) { return parted(pair.key); });
+  NamedIn of_contacts(scratch.candidates), of_idle(scratch.candidates);
+  dropContacts(state.contacts,
+               [&](const Contact& contact) { return parted(contact.key, of_contacts); });
+  std::erase_if(state.contacts.idle,
+                [&](const IdlePair& pair) { return parted(pair.key, of_idle); });
 }
 
 }  // namespace

@@ -22,6 +22,15 @@ bool many(std::size_t some, std::size_t all) { return some > 0 && 4 * some >= al
 
 bool retires(const Contact& contact) { return contact.count == 0 && contact.vain == 0; }
 
+/// The first of an ascending list whose key is not less, when all before `at` are less: quick where
+/// it is near.
+template <class It, class KeyOf>
+It seek(It at, It end, const ContactKey& key, KeyOf&& keyOf) {
+  std::ptrdiff_t stride = 1;
+  for (; end - at > stride && keyOf(at[stride]) < key; stride *= 2) at += stride;
+  return std::ranges::lower_bound(at, at + std::min(stride + 1, end - at), key, {}, keyOf);
+}
+
 /// Puts what stands behind `middle` in its place, by key.
 template <class T, class KeyOf>
 void mergeTail(std::vector<T>& list, std::size_t middle, KeyOf&& key) {
@@ -59,14 +68,19 @@ void addContacts(ContactTable& table, const std::vector<Contact>& contacts) {
 }
 
 void addIdlePairs(ContactTable& table, const std::vector<ContactKey>& keys) {
+  const auto keyOfPair = [](const IdlePair& pair) -> const ContactKey& { return pair.key; };
+  const auto keyAt = [&](ContactTable::Slot slot) -> const ContactKey& { return table[slot].key; };
   const std::size_t known = table.idle.size();
-  const auto isNew = [&](const ContactKey& key) {
-    const auto end = table.idle.begin() + static_cast<std::ptrdiff_t>(known);
-    const auto at = std::ranges::lower_bound(table.idle.begin(), end, key, {}, &IdlePair::key);
-    return (at == end || at->key != key) && !findContact(table, key);
-  };
+  std::size_t idle = 0;
+  auto contact = table.order.begin();
   for (const ContactKey& key : keys) {
-    if (isNew(key)) table.idle.push_back({key});
+    const auto first = table.idle.begin(), end = first + static_cast<std::ptrdiff_t>(known);
+    const auto at = seek(first + static_cast<std::ptrdiff_t>(idle), end, key, keyOfPair);
+    idle = static_cast<std::size_t>(at - first);
+    if (at != end && at->key == key) continue;
+    contact = seek(contact, table.order.end(), key, keyAt);
+    if (contact != table.order.end() && keyAt(*contact) == key) continue;
+    table.idle.push_back({key});
   }
   if (table.idle.size() > known) mergeTail(table.idle, known, &IdlePair::key);
 }

@@ -12,11 +12,19 @@
 
 namespace merge2d {
 
+/// Two numbers as one: which pair comes first is hard to foretell, and asked often.
+constexpr std::uint64_t packed(std::uint64_t high, std::uint64_t low) { return high << 32 | low; }
+
 /// Identifies a pair of shapes; contacts are kept in this order.
 struct ContactKey {
   BodyId a{}, b{};  ///< a < b
   std::uint32_t shape_a = 0, shape_b = 0;
-  auto operator<=>(const ContactKey&) const = default;
+
+  bool operator==(const ContactKey&) const = default;
+  auto operator<=>(const ContactKey& o) const {
+    const auto bodies = packed(index(a), index(b)) <=> packed(index(o.a), index(o.b));
+    return bodies != 0 ? bodies : packed(shape_a, shape_b) <=> packed(o.shape_a, o.shape_b);
+  }
 };
 
 /// What is remembered of a contact point while it lasts.
@@ -83,8 +91,7 @@ struct NearPair {
   float way = 0.0F;               ///< that these can have gone since, at most [m]
   bool fresh = true;
   auto operator<=>(const NearPair& o) const {
-    if (auto c = a <=> o.a; c != 0) return c;
-    return b <=> o.b;
+    return packed(index(a), index(b)) <=> packed(index(o.a), index(o.b));
   }
   bool operator==(const NearPair& o) const { return a == o.a && b == o.b; }
 };
