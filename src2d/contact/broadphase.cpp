@@ -13,9 +13,8 @@ namespace {
 /// things have moved by as much against each other [m].
 constexpr double kNear = 0.05;
 
-/// What became of a rigid thing: its shapes were paired anew with another's, its box left its
-/// leaf's, or it has other members than before.
-constexpr std::uint8_t kPaired = 1, kMoved = 2, kResized = 3;
+/// What became of a rigid thing: its box left its leaf's, or it has other members than before.
+constexpr std::uint8_t kMoved = 1, kResized = 2;
 
 Aabb worldBounds(const State& state, const Rigid& r) {
   return placed(r.frame(), state.extent(r).bounds);
@@ -157,6 +156,9 @@ void pairShapes(State& state, Scratch& scratch, RigidId host, RigidId guest, dou
   });
 }
 
+/// Of a set of rigid things in which one may stand for another.
+std::uint16_t bitOf(RigidId id) { return static_cast<std::uint16_t>(1u << (index(id) % 16)); }
+
 /// How far the corners of a near pair have gone since they were last written down [m].
 double wayOf(const NearPair& p, const std::array<Vec2, 4>& corners) {
   double longest = 0.0;
@@ -172,6 +174,7 @@ void refineNearPairs(State& state, Scratch& scratch, double farthest) {
   constexpr double kRounding = 1e-6;  // of a sum in float
   auto& near = state.broadphase.near;
   scratch.near_refined.assign(near.size(), 0);
+  scratch.paired_with.assign(near.empty() ? 0 : state.rigids.size(), 0);
   for (std::size_t i = 0; i < near.size(); ++i) {
     NearPair& p = near[i];
     p.way += static_cast<float>(2.0 * state.moved);
@@ -189,10 +192,7 @@ void refineNearPairs(State& state, Scratch& scratch, double farthest) {
     p.way = 0.0F;
     p.fresh = false;
     scratch.near_refined[i] = 1;
-    for (const RigidId id : {p.a, p.b}) {
-      std::uint8_t& flag = scratch.moved_flag[index(id)];
-      flag = std::max(flag, kPaired);
-    }
+    scratch.paired_with[index(p.b)] |= bitOf(p.a);
     pairShapes(state, scratch, host, guest, ahead);
   }
 }
@@ -214,20 +214,21 @@ class NamedIn {
 /// Contacts and idle pairs whose rigid things parted, or that a new pairing of their shapes no
 /// longer names.
 void dropParted(State& state, Scratch& scratch) {
-  if (std::ranges::count(scratch.moved_flag, 0) == std::ssize(scratch.moved_flag)) return;
+  if (scratch.moved.empty() && !std::ranges::count(scratch.near_refined, 1)) return;
   const auto& near = state.broadphase.near;
   const auto parted = [&](const ContactKey& key, NamedIn& named) {
     const RigidId ra = state[key.a].rigid, rb = state[key.b].rigid;
-    const auto [less, more] =
-        std::minmax({scratch.moved_flag[index(ra)], scratch.moved_flag[index(rb)]});
-    if (more == 0) return false;
+    const NearPair wanted{.a = std::min(ra, rb), .b = std::max(ra, rb)};
+    const bool moved = scratch.moved_flag[index(ra)] != 0 || scratch.moved_flag[index(rb)] != 0;
+    const bool paired =
+        !near.empty() && (scratch.paired_with[index(wanted.b)] & bitOf(wanted.a)) != 0;
+    if (!moved && !paired) return false;
     const Rigid &a = state[ra], &b = state[rb];
     if (!a.present() || !b.present()) return true;
-    if (more >= kMoved && !state.broadphase.tree.overlap(a.leaf, b.leaf)) return true;
-    if (less == 0 || (!hasShapeTree(state, ra) && !hasShapeTree(state, rb))) return false;
-    const NearPair wanted{.a = std::min(ra, rb), .b = std::max(ra, rb)};
+    if (moved && !state.broadphase.tree.overlap(a.leaf, b.leaf)) return true;
+    if (!paired) return false;  // or another pair was, whose bit is the same
     const auto pair = std::lower_bound(near.begin(), near.end(), wanted);
-    if (pair == near.end() || !(*pair == wanted)) return canTouch(state, ra, rb);
+    if (pair == near.end() || !(*pair == wanted)) return false;
     if (!scratch.near_refined[static_cast<std::size_t>(pair - near.begin())]) return false;
     return !named(key);
   };

@@ -138,6 +138,8 @@ struct Scratch {
   std::vector<Contact> touching;  ///< idle pairs that have become contacts
   std::vector<NearPair> near_candidates;
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
+  /// Per rigid: with which other ones, by their index modulo 16.
+  std::vector<std::uint16_t> paired_with;
 
   // ContactOrdering: where something new enters
   std::vector<Meeting> meetings;     ///< ascending

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src2d/core/memory.h"
 #include "src2d/merging/kicked.h"
 #include "src2d/merging/sweep.h"
 
@@ -61,6 +62,7 @@ void findMeetings(const State& state, Scratch& scratch) {
       if (speed > 0.0) scratch.meetings.push_back({p, i, speed});
     }
   }
+  trim(scratch.meetings);  // in a first step they are many
 }
 
 /// Each pair that meets, with the speed of its fastest contact.
@@ -136,6 +138,7 @@ void orderContacts(State& state, Scratch& scratch) {
     const Blow blow = speed > impactSpeed(state) ? Blow::Hard : Blow::Soft;
     for (const BodyId b : {pair.a, pair.b}) seed(b, blow);
   });
+  trim(scratch.seeds);  // as above
   if (scratch.notes) {
     for (const std::uint32_t s : scratch.seeds) scratch.notes->seeds.push_back(BodyId{s});
   }
