@@ -220,13 +220,13 @@ void dropParted(State& state, Scratch& scratch) {
     const RigidId ra = state[key.a].rigid, rb = state[key.b].rigid;
     const NearPair wanted{.a = std::min(ra, rb), .b = std::max(ra, rb)};
     const bool moved = scratch.moved_flag[index(ra)] != 0 || scratch.moved_flag[index(rb)] != 0;
-    const bool paired =
+    const bool paired =  // or a pair with the same bit
         !near.empty() && (scratch.paired_with[index(wanted.b)] & bitOf(wanted.a)) != 0;
     if (!moved && !paired) return false;
     const Rigid &a = state[ra], &b = state[rb];
     if (!a.present() || !b.present()) return true;
     if (moved && !state.broadphase.tree.overlap(a.leaf, b.leaf)) return true;
-    if (!paired) return false;  // or another pair was, whose bit is the same
+    if (!paired) return false;
     const auto pair = std::lower_bound(near.begin(), near.end(), wanted);
     if (pair == near.end() || !(*pair == wanted)) return false;
     if (!scratch.near_refined[static_cast<std::size_t>(pair - near.begin())]) return false;

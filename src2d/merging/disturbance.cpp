@@ -53,6 +53,7 @@ bool frameJumps(const State& state, Collection& c) {
   return known && jump > kPart * state.h * std::max(state.gravity.norm(), 1.0);
 }
 
+/// Lists the contacts that close anew.
 void findMeetings(const State& state, Scratch& scratch) {
   scratch.meetings.clear();
   for (std::uint32_t p = 0; p < scratch.pairs.size(); ++p) {
