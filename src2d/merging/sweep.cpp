@@ -143,15 +143,18 @@ void follow(const State& state, Collection& c, Scratch& scratch, double change) 
   disturbed = anew || followed ? 1 : 0;
 }
 
-/// Deviation: where sweeps have come to change nothing, and the impulses of the last step hold the
-/// members together under the loads of this one too, most sweeps are left out; the paper wishes for
-/// less than one a step as well (Section 8.2). Guarded by Sweep.RestsWhereTheLastImpulsesStillHold.
-bool mayRest(const State& state, const Scratch& scratch, const Collection& c) {
-  constexpr std::int8_t kMost = 3;   // steps in a row
-  constexpr double kNothing = 1e-6;  // of what a sweep may leave
-  constexpr double kInVain = 0.01;   // of what is left: a sweep hardly makes it less
-  if (!c.settled || c.follow_up > 0 || c.rested >= kMost) return false;
-  if (scratch.disturbed[index(c.rigid) - state.bodies.size()]) return false;
+/// Deviation: where sweeps have come to change nothing for long, and the impulses of the last step
+/// hold the members together under the loads of this one too, three sweeps in four are left out;
+/// the paper wishes for less than one a step as well (Section 8.2). What is struck again soon needs
+/// its forces right. Guarded by Sweep.RestsWhereTheLastImpulsesStillHold.
+bool rests(const State& state, const Scratch& scratch, Collection& c) {
+  constexpr std::int8_t kCalm = 60, kMost = 3;  // steps before the first rest, and then in a row
+  constexpr double kNothing = 1e-6;             // of what a sweep may leave
+  constexpr double kInVain = 0.01;              // of what is left: a sweep hardly makes it less
+  const bool disturbed = scratch.disturbed[index(c.rigid) - state.bodies.size()] != 0;
+  const bool calm = c.settled && !disturbed && c.follow_up == 0;
+  c.calm = !calm ? 0 : c.calm < kCalm + kMost ? c.calm + 1 : kCalm;
+  if (c.calm <= kCalm) return false;
   const double left = sway(state, scratch, c), most = residualVelocity(state);
   return left <= kNothing * most || (left <= most && c.residual <= kInVain * left);
 }
@@ -161,8 +164,10 @@ bool mayRest(const State& state, const Scratch& scratch, const Collection& c) {
 double sweepOnce(const State& state, Collection& c, Scratch& scratch) {
   constexpr double kSettled = 0.02;  // of what a sweep may leave
   const UnmergingSettings& settings = state.settings.unmerging;
-  c.rested = refines(settings) && mayRest(state, scratch, c) ? c.rested + 1 : 0;
-  if (c.rested > 0) return follow(state, c, scratch, 0.0), 0.0;
+  if (refines(settings) && rests(state, scratch, c)) {
+    follow(state, c, scratch, 0.0);
+    return 0.0;
+  }
   if (awaitsInnerForces(state, scratch, c.rigid)) {
     sweepInside(state, c, scratch, settings.disturbed_sweeps);
   }

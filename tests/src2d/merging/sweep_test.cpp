@@ -364,10 +364,10 @@ TEST(Sweep, DoesNotRestInAStepWithAnotherLoad) {
 [[force]]
 body = "odd[4,9]"
 force = [0, -0.05]
-from = 30.0
+from = 30.01
 )";
   Simulation loaded(kWall + load, Mode::Merge), run(kWall, Mode::Merge);
-  loaded.until(30.0), run.until(30.0);
+  loaded.until(30.01), run.until(30.01);
   EXPECT_EQ(stepsThatSweep(run, 1), 0);
   EXPECT_EQ(stepsThatSweep(loaded, 1), 1);
 }
