@@ -1,6 +1,7 @@
 #include "src2d/contact/table.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "src2d/core/memory.h"
 
@@ -22,12 +23,17 @@ bool many(std::size_t some, std::size_t all) { return some > 0 && 4 * some >= al
 
 bool retires(const Contact& contact) { return contact.count == 0 && contact.vain == 0; }
 
+/// The key of the contact in a slot.
+auto keyIn(const ContactTable& table) {
+  return [&table](ContactTable::Slot slot) -> const ContactKey& { return table[slot].key; };
+}
+
 /// The first of an ascending list whose key is not less, when all before `at` are less: quick where
 /// it is near.
 template <class It, class KeyOf>
 It seek(It at, It end, const ContactKey& key, KeyOf&& keyOf) {
   std::ptrdiff_t stride = 1;
-  for (; end - at > stride && keyOf(at[stride]) < key; stride *= 2) at += stride;
+  for (; end - at > stride && std::invoke(keyOf, at[stride]) < key; stride *= 2) at += stride;
   return std::ranges::lower_bound(at, at + std::min(stride + 1, end - at), key, {}, keyOf);
 }
 
@@ -40,8 +46,7 @@ void mergeTail(std::vector<T>& list, std::size_t middle, KeyOf&& key) {
 }  // namespace
 
 const ContactTable::Slot* findContact(const ContactTable& table, const ContactKey& key) {
-  const auto keyAt = [&](ContactTable::Slot slot) -> const ContactKey& { return table[slot].key; };
-  const auto at = std::ranges::lower_bound(table.order, key, {}, keyAt);
+  const auto at = std::ranges::lower_bound(table.order, key, {}, keyIn(table));
   return at != table.order.end() && table[*at].key == key ? &*at : nullptr;
 }
 
@@ -64,22 +69,20 @@ void addContacts(ContactTable& table, const std::vector<Contact>& contacts) {
     table[slot] = contact;
     table.order.push_back(slot);
   }
-  mergeTail(table.order, known, [&](ContactTable::Slot slot) { return table[slot].key; });
+  mergeTail(table.order, known, keyIn(table));
 }
 
 void addIdlePairs(ContactTable& table, const std::vector<ContactKey>& keys) {
-  const auto keyOfPair = [](const IdlePair& pair) -> const ContactKey& { return pair.key; };
-  const auto keyAt = [&](ContactTable::Slot slot) -> const ContactKey& { return table[slot].key; };
   const std::size_t known = table.idle.size();
   std::size_t idle = 0;
   auto contact = table.order.begin();
   for (const ContactKey& key : keys) {
     const auto first = table.idle.begin(), end = first + static_cast<std::ptrdiff_t>(known);
-    const auto at = seek(first + static_cast<std::ptrdiff_t>(idle), end, key, keyOfPair);
+    const auto at = seek(first + static_cast<std::ptrdiff_t>(idle), end, key, &IdlePair::key);
     idle = static_cast<std::size_t>(at - first);
     if (at != end && at->key == key) continue;
-    contact = seek(contact, table.order.end(), key, keyAt);
-    if (contact != table.order.end() && keyAt(*contact) == key) continue;
+    contact = seek(contact, table.order.end(), key, keyIn(table));
+    if (contact != table.order.end() && table[*contact].key == key) continue;
     table.idle.push_back({key});
   }
   if (table.idle.size() > known) mergeTail(table.idle, known, &IdlePair::key);
