@@ -86,8 +86,8 @@ void fields(Ar& ar, Some<ContactPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Contact> auto& c) {
-  auto& [key, normal, count, vain, quiet_steps, apart, points] = c;
-  ar(key, normal, count, vain, quiet_steps, apart, points);
+  auto& [key, normal, count, vain, quiet_steps, apart, strayed, points] = c;
+  ar(key, normal, count, vain, quiet_steps, apart, strayed, points);
 }
 template <class Ar>
 void fields(Ar& ar, Some<IdlePair> auto& p) {
@@ -143,8 +143,8 @@ void fields(Ar& ar, Some<PointWatch> auto& w) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<InternalContact> auto& c) {
-  auto& [since, weld, count, vain, watch, block, feature, key, normal, points, gap] = c;
-  ar(since, weld, count, vain, watch, block, feature, key, normal, points, gap);
+  auto& [since, weld, count, vain, watch, block, feature, key, strayed, normal, points, gap] = c;
+  ar(since, weld, count, vain, watch, block, feature, key, strayed, normal, points, gap);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {

@@ -64,6 +64,7 @@ struct InternalContact {
   std::uint32_t block = kNoBlock;  ///< its place among Collection::blocks; kNoBlock: to be made
   std::array<std::uint32_t, 2> feature{};  ///< of each point
   ContactKey key;
+  float strayed = 0.0F;         ///< as in Contact
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in the collection's frame
   std::array<InternalPoint, 2> points;
   std::array<double, 2> gap{};  ///< of each point, when the two merged [m]
@@ -78,6 +79,7 @@ struct InternalContact {
     contact.normal = normal;
     contact.count = count;
     contact.vain = vain;
+    contact.strayed = strayed;
     for (std::size_t i = 0; i < 2; ++i) {
       ContactPoint& point = contact.points[i];
       point.position = points[i].position;

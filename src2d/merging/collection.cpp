@@ -246,6 +246,7 @@ void absorbContacts(State& state) {
     inner.key = contact.key;
     inner.count = contact.count;
     inner.vain = contact.vain;
+    inner.strayed = contact.strayed;
     inner.since = state.step;
     const Pose from_a = state[*id].frame().toLocal(state.pose(contact.key.a));
     inner.normal = from_a.rotation * contact.normal;

@@ -58,6 +58,25 @@ void notePatience(Notes* notes, const BodyPair& pair, int count) {
                               .verdict = "wait"});
 }
 
+/// Sums up how far a pair that was cut in vain slips while it is free: it is known as such until it
+/// has got somewhere, or touches nothing any more. What a heap jostles comes and goes, and stays
+/// where it is. Guarded by Caution.LastsWhileAPairIsOnlyJostled and
+/// Caution.EndsWhereAPairGetsSomewhere.
+void followWhatWasCutInVain(const State& state, Contact& contact) {
+  constexpr double kSeconds = 0.4;  // at the velocity at which it could merge
+  if (contact.vain == 0) return;
+  double slip = 0.0;
+  for (int k = 0; k < contact.count; ++k) {
+    const double w_t = contact.points[static_cast<std::size_t>(k)].w_t;
+    if (std::abs(w_t) > std::abs(slip)) slip = w_t;
+  }
+  contact.strayed += static_cast<float>(slip * state.h);
+  const double somewhere = kSeconds * state.settings.merging.velocity;
+  if (contact.count > 0 && std::abs(contact.strayed) < somewhere) return;
+  contact.vain = 0;
+  contact.strayed = 0.0F;
+}
+
 void countQuietPairs(State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
@@ -72,7 +91,7 @@ void countQuietPairs(State& state, Scratch& scratch) {
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
       Contact& contact = state.contacts[state.contacts.order[i]];
       contact.quiet_steps = now;
-      if (!ready) contact.vain = 0;
+      followWhatWasCutInVain(state, contact);
     }
   }
 }

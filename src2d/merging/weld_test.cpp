@@ -285,7 +285,7 @@ double WeldTest::noiseAt(const Weld& weld) const {
 
 double WeldTest::slowFor(const Weld& weld) const {
   if (rule() == Rule::Paper) return state_.settings.unmerging.velocity;
-  return weld.bridge ? 0.0 : 0.1 * state_.settings.unmerging.velocity;
+  return weld.bridge ? 0.0 : 0.1 * state_.settings.unmerging.velocity * caution(weld);
 }
 
 bool WeldTest::slowerThan(double limit, const Weld& weld, const VelocityField& a,
@@ -355,7 +355,7 @@ void WeldTest::writeDown(const Weld& weld, Decision test) const {
 }
 
 double WeldTest::cautionAfterVain(const Weld& weld) const {
-  constexpr double kSteps = 20.0;
+  constexpr double kSteps = 400.0;
   constexpr int kMost = 5;
   const double factor = std::exp2(std::min<int>(weld.vain, kMost));
   const auto lived = static_cast<double>(state_.step - c_.contacts[weld.first].since);

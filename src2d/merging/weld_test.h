@@ -108,7 +108,8 @@ class WeldTest {
   double noiseAt(const Weld& weld) const;
 
   /// What turns slower than this does not turn: rigid rows may find a slow motion where soft
-  /// contacts hold. Not where nothing else holds: there both know the same forces.
+  /// contacts hold, the faster the more often the weld was cut in vain. Not where nothing else
+  /// holds: there both know the same forces.
   double slowFor(const Weld& weld) const;
 
   /// All zero when no corner can be fast enough to matter.
@@ -133,10 +134,11 @@ class WeldTest {
 
   void cutWeld(Weld& weld, EventReason reason);
 
-  /// Factor on all thresholds of a weld. Deviation: a pair whose last welds were cut in vain, as
-  /// nothing moved when it was free, is cut later, or it would merge and part for ever. Rigid
-  /// contacts may find motion where soft ones hold. Guarded by
-  /// Pile.NoPairMergesAndPartsOverAndOver.
+  /// Factor on all thresholds of a weld. Deviation: a pair whose last welds were cut in vain, as it
+  /// got nowhere when it was free, is cut later, or it would merge and part for ever. Rigid
+  /// contacts may find motion where soft ones hold; and what lands on a heap jostles it again and
+  /// again. Guarded by Pile.NoPairMergesAndPartsOverAndOver and
+  /// Caution.LastsWhileAPairIsOnlyJostled.
   double caution(const Weld& weld) const {
     return rule() == Rule::Paper || weld.vain == 0 ? 1.0 : cautionAfterVain(weld);
   }
