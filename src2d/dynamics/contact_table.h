@@ -39,17 +39,19 @@ struct ContactPoint {
   float w_n = 0.0F, w_t = 0.0F;           ///< velocity after it [m/s]
 };
 
+/// More cuts in vain than these make no difference.
+inline constexpr std::int16_t kMostVain = 5;
+
 /// The contact of two convex shapes: persistent over steps, at most two points.
 struct Contact {
   ContactKey key;
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in a's frame; inside a collection in its frame
   std::int16_t count = 0;
-  std::int16_t vain = 0;  ///< welds of the pair in a row that were cut, and then it went nowhere
+  std::int16_t vain = 0;  ///< welds in a row that were cut, and then the pair got nowhere
   /// Consecutive steps in which the pair could have merged; below 0 it may not yet.
   int quiet_steps = 0;
-  float apart = 0.0F;  ///< without points: the shapes are at least this far from each other [m]
-  float strayed =
-      0.0F;  ///< slip between the two while they were free, since the first of those [m]
+  float apart = 0.0F;    ///< without points: the shapes are at least this far from each other [m]
+  float strayed = 0.0F;  ///< slip while it was free, since the first of those [m]
   std::array<ContactPoint, 2> points;
 };
 

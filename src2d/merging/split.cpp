@@ -124,6 +124,11 @@ int patienceAfter(const State& state, const InternalContact& inner, const Weld* 
   return turned ? std::max(rest, stepsUntilSeen(state, cut->turning)) : rest;
 }
 
+/// Until its pair gets somewhere, this cut is one in vain.
+void countVain(InternalContact& inner) {
+  inner.vain = std::min<std::int16_t>(kMostVain, static_cast<std::int16_t>(inner.vain + 1));
+}
+
 /// How far ahead to look for its points again: contacts of what was struck may still be open [m].
 double farthestPoint(const InternalContact& inner) {
   double farthest = 0.0;
@@ -224,7 +229,7 @@ class Split {
       }
       const Weld* cut = cutByTest(c, inner);
       released_.push_back({inner, patienceAfter(state_, inner, cut)});
-      if (cut) ++released_.back().inner.vain;
+      if (cut) countVain(released_.back().inner);
     }
     c.contacts.resize(staying);
   }

@@ -355,9 +355,8 @@ void WeldTest::writeDown(const Weld& weld, Decision test) const {
 }
 
 double WeldTest::cautionAfterVain(const Weld& weld) const {
-  constexpr double kSteps = 400.0;
-  constexpr int kMost = 5;
-  const double factor = std::exp2(std::min<int>(weld.vain, kMost));
+  constexpr double kSteps = 200.0;
+  const double factor = std::exp2(weld.vain);
   const auto lived = static_cast<double>(state_.step - c_.contacts[weld.first].since);
   return lived < kSteps * factor ? factor : 1.0;
 }
