@@ -12,6 +12,7 @@
 /// name when the reference face changes sides or a corner slides over an end.
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "src2d/geometry/collide_pairs.h"
@@ -27,6 +28,13 @@ constexpr double kCornerWidth = 1e-5;
 constexpr double kCornerDistance = 5e-4;
 // Corners in one place overlap truly when the faces do by more than this. [m]
 constexpr double kCornerOverlap = 1e-4;
+
+/// Both, with B's pose seen from A.
+struct Polygons {
+  const Collider& a;
+  const Collider& b;
+  const Pose& b_in_a;
+};
 
 struct Edge {
   Vec2 begin, end;
@@ -62,8 +70,8 @@ int faceAgainst(const Collider& collider, const Vec2& direction) {
 }
 
 /// Box2D's manifold, for points up to `margin` apart. Only the sum of the two radii matters to it.
-void findFaces(b2Manifold& found, const Collider& a, const Collider& b, const Pose& b_in_a,
-               double margin) {
+void findFaces(b2Manifold& found, const Polygons& polygons, double margin) {
+  const auto& [a, b, b_in_a] = polygons;
   b2Transform xf;
   xf.p = toFloat(b_in_a.exactly(b.origin()) - a.origin());
   xf.q.s = static_cast<float>(b_in_a.rotation.s);
@@ -77,8 +85,8 @@ void findFaces(b2Manifold& found, const Collider& a, const Collider& b, const Po
   b2CollidePolygons(&found, &padded, identity(), &b.polygon(), xf);
 }
 
-FacePair facePair(const b2Manifold& found, const Collider& a, const Collider& b,
-                  const Pose& b_in_a) {
+FacePair facePair(const b2Manifold& found, const Polygons& polygons) {
+  const auto& [a, b, b_in_a] = polygons;
   FacePair pair;
   pair.swapped = found.type == b2Manifold::e_faceB;
   int face_a = 0;
@@ -99,26 +107,69 @@ FacePair facePair(const b2Manifold& found, const Collider& a, const Collider& b,
   return pair;
 }
 
-/// The contact of a corner at one end of the reference face with the incident edge, which is beside
-/// the face but for `width` of it.
-Manifold cornerContact(const FacePair& pair, int end, double width, double margin) {
+/// A face of one polygon, and how far the other one is in front of it.
+struct Separation {
+  double gap = -std::numeric_limits<double>::infinity();
+  Vec2 normal = Vec2::Zero();   // of the face, outward
+  Vec2 deepest = Vec2::Zero();  // the other polygon's vertex
+};
+
+Separation separationFrom(const Collider& a, int face, const Collider& b, const Pose& b_in_a) {
+  const auto height = [&](const Vec2& p) { return a.normal(face).dot(p - a.vertex(face)); };
+  Vec2 deepest = b_in_a.exactly(b.vertex(0));
+  for (int i = 1; i < b.count(); ++i) {
+    const Vec2 p = b_in_a.exactly(b.vertex(i));
+    if (height(p) < height(deepest)) deepest = p;
+  }
+  return {height(deepest), a.normal(face), deepest};
+}
+
+/// From the face of `a` that parts it from `b` best; all in the frame of `a`.
+Separation largestSeparation(const Collider& a, const Collider& b, const Pose& b_in_a) {
+  Separation best;
+  for (int i = 0; i < a.count(); ++i) {
+    const Separation here = separationFrom(a, i, b, b_in_a);
+    if (here.gap > best.gap) best = here;
+  }
+  return best;
+}
+
+/// Corners in one place have no direction between them, but neither do they bear on each other
+/// unless the polygons overlap. Box2D's tolerance of 0.5 mm may have preferred a face that does not
+/// part them best, so all faces are asked again, in double.
+Manifold cornersInOnePlace(const Polygons& polygons, std::uint32_t feature) {
+  const auto& [a, b, b_in_a] = polygons;
+  Separation best = largestSeparation(a, b, b_in_a);
+  const Separation other = largestSeparation(b, a, b_in_a.inverse());
+  Vec2 from_a = best.normal;
+  if (other.gap > best.gap) {
+    best = {other.gap, b_in_a.rotation * other.normal, b_in_a.exactly(other.deepest)};
+    from_a = -best.normal;
+  }
   Manifold m;
+  if (best.gap >= -kCornerOverlap) return m;
+  m.normal = from_a;
+  addPoint(m, best.deepest - 0.5 * best.gap * best.normal, best.gap, feature);
+  return m;
+}
+
+/// The contact of a corner at one end of the reference face with the incident edge, which is beside
+/// the face.
+Manifold cornerContact(const Polygons& polygons, const FacePair& pair, int end, double margin) {
   const Vec2& corner = end == 1 ? pair.reference.end : pair.reference.begin;
   const Vec2 along = pair.incident.end - pair.incident.begin;
   const double t = along.dot(corner - pair.incident.begin) / along.squaredNorm();
   const Vec2 nearest = pair.incident.begin + std::clamp(t, 0.0, 1.0) * along;
   const Vec2 d = nearest - corner;
   const double distance = d.norm();
-  // Box2D may prefer A's face by its tolerance of 0.5 mm although it is B's that parts them; two
-  // corners in one place have no direction between them, but neither do they bear on each other.
-  const bool one_place = distance <= kCornerDistance;
+  if (distance <= kCornerDistance) return cornersInOnePlace(polygons, pair.feature(end));
+  Manifold m;
   const double height = pair.height(nearest);
-  const bool beside = one_place && width <= 0.0;
-  if (!beside && height < (one_place ? -kCornerOverlap : -kCornerDistance)) {
+  if (height < -kCornerDistance) {
     // a true overlap: only the face's own direction ends it
     m.normal = pair.normalFromA();
     addPoint(m, nearest - 0.5 * height * pair.normal, height, pair.feature(end));
-  } else if (!one_place && distance <= margin) {
+  } else if (distance <= margin) {
     m.normal = (pair.swapped ? -1.0 : 1.0) / distance * d;
     addPoint(m, corner + 0.5 * d, distance, pair.feature(end));
   }
@@ -126,7 +177,7 @@ Manifold cornerContact(const FacePair& pair, int end, double width, double margi
 }
 
 /// Cuts the incident edge to the width of the reference face.
-Manifold clippedContact(const FacePair& pair, double margin) {
+Manifold clippedContact(const Polygons& polygons, const FacePair& pair, double margin) {
   // Positions along the face, from its beginning; the incident edge runs the other way.
   const Vec2 tangent = perpendicular(pair.normal);
   const double length = tangent.dot(pair.reference.end - pair.reference.begin);
@@ -135,7 +186,7 @@ Manifold clippedContact(const FacePair& pair, double margin) {
   const double high = tangent.dot(vertices[1] - pair.reference.begin);
   const double width = std::min(high, length) - std::max(low, 0.0);
   if (width < kCornerWidth) {
-    return cornerContact(pair, low + high > length ? 1 : 0, width, margin);
+    return cornerContact(polygons, pair, low + high > length ? 1 : 0, margin);
   }
   std::array<Vec2, 2> ends = vertices;
   const Vec2 along = (vertices[1] - vertices[0]) / (high - low);
@@ -148,7 +199,7 @@ Manifold clippedContact(const FacePair& pair, double margin) {
   const Vec2& corner = lower == 0 ? pair.reference.begin : pair.reference.end;
   if (pair.height(vertices[lower]) > 0.0 &&
       gaps[lower] > (vertices[lower] - corner).norm() + kCornerDistance) {
-    return cornerContact(pair, static_cast<int>(lower), width, margin);
+    return cornerContact(polygons, pair, static_cast<int>(lower), margin);
   }
 
   Manifold m;
@@ -163,10 +214,11 @@ Manifold clippedContact(const FacePair& pair, double margin) {
 }  // namespace
 
 Manifold collidePolygons(const Collider& a, const Collider& b, const Pose& b_in_a, double margin) {
+  const Polygons polygons{a, b, b_in_a};
   b2Manifold found;
-  findFaces(found, a, b, b_in_a, margin);
+  findFaces(found, polygons, margin);
   if (found.pointCount == 0) return {};
-  return clippedContact(facePair(found, a, b, b_in_a), margin);
+  return clippedContact(polygons, facePair(found, polygons), margin);
 }
 
 }  // namespace merge2d

@@ -118,6 +118,26 @@ RC_GTEST_PROP(CollideProperty, DeepestPointOfAnOverlapIsItsLeastSeparation, ()) 
   RC_ASSERT(leastGap(m) < 0.0);
 }
 
+/// A pose at which a corner of `b` is within 0.3 mm of a corner of `a`, either way.
+Pose anyPoseAtACorner(const Collider& a, const Collider& b) {
+  Pose pose = Pose::at({0.0, 0.0}, uniform(-3.1, 3.1));
+  const Vec2& corner = a.vertex(*rc::gen::inRange(0, a.count()));
+  const Vec2 offset(uniform(-3e-4, 3e-4), uniform(-3e-4, 3e-4));
+  pose.position = corner + offset - pose * b.vertex(*rc::gen::inRange(0, b.count()));
+  return pose;
+}
+
+RC_GTEST_PROP(CollideProperty, CornersInOnePlaceTouchWhenTheyOverlap, ()) {
+  const Collider a(anyPolygon());
+  const Collider b(anyPolygon());
+  const Pose pose = anyPoseAtACorner(a, b);
+  const double truth = std::max(separation(a, b, pose), separation(b, a, pose.inverse()));
+  const Manifold m = collide(a, b, pose, 0.005);
+  if (truth < -1.001e-4) RC_ASSERT(m.count > 0);
+  if (truth < -1.001e-4) RC_ASSERT(leastGap(m) < 0.0);
+  if (m.count > 0) RC_ASSERT(leastGap(m) > truth - kPreference);
+}
+
 RC_GTEST_PROP(CollideProperty, PointsLieMidwayBetweenTheOutlines, ()) {
   const Collider a(anyPolygon());
   const Collider b(anyPolygon());
