@@ -41,6 +41,16 @@ void layOutFromNothing(State& state) {
   layOutCollections(state);
 }
 
+/// A contact that carried nothing when its collection was laid out, and carries a force since:
+/// single sweeps take it in when the collection is laid out the next time.
+bool hasWoken(const Collection& c) {
+  for (std::uint32_t i = c.active_blocks; i < c.blocks.size(); ++i) {
+    const InternalContact& inner = c.contacts[c.block_contact[i]];
+    if (inner.watch[0].active || inner.watch[1].active) return true;
+  }
+  return false;
+}
+
 void expectTheSameLayout(const Collection& kept, const Collection& fresh, int step) {
   ASSERT_EQ(kept.block_contact, fresh.block_contact) << step;
   EXPECT_EQ(kept.active_blocks, fresh.active_blocks) << step;
@@ -57,13 +67,9 @@ void expectTheSameLayout(const Collection& kept, const Collection& fresh, int st
 TEST(Layout, WhatIsKeptIsWhatWouldBeMadeAnew) {
   const Scene scene = parseScene(kRain, "rain.toml");
   World world(scene, {.mode = Mode::Merge, .timings = false});
-  int compared = 0;
+  int compared = 0, woken = 0;
   for (int step = 0; step < 1500; ++step) {
     world.step();
-    const bool changed = std::ranges::any_of(world.events(), [](const Event& e) {
-      return e.type == EventType::Merge || e.type == EventType::Unmerge;
-    });
-    if (!changed) continue;
     merge2d::Setup kept, fresh;
     for (merge2d::Setup* setup : {&kept, &fresh}) {
       setUp(scene, Mode::Merge, *setup);
@@ -71,12 +77,18 @@ TEST(Layout, WhatIsKeptIsWhatWouldBeMadeAnew) {
     }
     layOutFromNothing(fresh.state);
     for (std::size_t slot = 0; slot < kept.state.collections.size(); ++slot) {
-      if (kept.state.collections[slot].id == kNoCollection) continue;
-      expectTheSameLayout(kept.state.collections[slot], fresh.state.collections[slot], step);
+      const Collection& c = kept.state.collections[slot];
+      if (c.id == kNoCollection) continue;
+      if (hasWoken(c)) {
+        ++woken;
+        continue;
+      }
+      expectTheSameLayout(c, fresh.state.collections[slot], step);
       ++compared;
     }
   }
-  EXPECT_GT(compared, 300);
+  EXPECT_GT(compared, 3000);
+  EXPECT_LT(woken, 30);
 }
 
 }  // namespace
