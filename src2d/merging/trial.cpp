@@ -1,9 +1,11 @@
 #include "src2d/merging/trial.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "src2d/dynamics/nncg.h"
+#include "src2d/merging/caution.h"
 #include "src2d/merging/grip.h"
 #include "src2d/merging/momentum.h"
 #include "src2d/merging/refine.h"
@@ -18,18 +20,33 @@ std::uint32_t largestOf(const Parts& parts) {
   return static_cast<std::uint32_t>(std::ranges::max_element(size) - size.begin());
 }
 
-/// Over how many steps the evidence against a weld was summed.
-int stepsOf(const Collection& c, const Weld& weld) {
-  if (weld.reason == EventReason::RelativeMotion) return weld.turning.steps;
-  int steps = 1;
+/// What was summed against a weld; nothing where a single step was enough.
+Drift evidenceOf(const Collection& c, const Weld& weld) {
+  if (weld.reason == EventReason::RelativeMotion) {
+    return {weld.turning.sum, std::max(1, weld.turning.steps)};
+  }
+  Drift most{0.0F, 1};
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     for (const PointWatch& point : c.contacts[i].watch) {
-      const bool slid = weld.reason == EventReason::Sliding;
-      steps = std::max(steps, slid ? point.slip.steps : point.opening.steps);
+      const Drift& drift = weld.reason == EventReason::Sliding ? point.slip : point.opening;
+      if (drift.steps >= most.steps) most = drift;
     }
   }
-  return steps;
+  return most;
 }
+
+/// What was found against the welds of a part.
+struct Evidence {
+  int steps = 0;         ///< over which it was summed; 0: none was cut, it goes as others do
+  double sum = 0.0;      ///< the largest [m/s]
+  double caution = 1.0;  ///< the least factor
+
+  void add(const Drift& drift, double factor) {
+    caution = steps == 0 ? factor : std::min(caution, factor);
+    steps = std::max(steps, drift.steps);
+    sum = std::max(sum, std::abs<double>(drift.sum));
+  }
+};
 
 /// One proposal in the trial.
 struct Tried {
@@ -37,7 +54,7 @@ struct Tried {
   const Parts* parts;
   std::uint32_t host;                 ///< the largest part
   bool fits;                          ///< few enough would move, and the host stays what it is
-  std::vector<int> steps;             ///< per part: of the evidence against it
+  std::vector<Evidence> against;      ///< per part
   std::vector<std::uint8_t> moves{};  ///< per part: the result
 
   /// Where most of it would move, all of it does.
@@ -85,7 +102,7 @@ class Trial {
     const bool fits = !proposal.sure && anchored != state_[proposal.rigid].floating() &&
                       movers > 0 && 2 * movers < parts.part.size();
     return {&state_.collection(proposal.rigid), &parts, host, fits,
-            std::vector<int>(parts.anchored.size(), 1)};
+            std::vector<Evidence>(parts.anchored.size())};
   }
 
   bool isMover(std::uint32_t body) const {
@@ -110,11 +127,11 @@ class Trial {
     }
   }
 
-  /// The same in one collection, and over how many steps each part was found to part.
+  /// The same in one collection, and what was found against each part.
   void listInside(Tried& t) {
     Collection& c = *t.c;
     const Rotation turn = state_[c.rigid].rotation;
-    const auto frame = static_cast<std::uint32_t>(t.steps.size());
+    const auto frame = static_cast<std::uint32_t>(t.against.size());
     const auto partOf = [&](std::uint32_t node) {
       return node < t.parts->part.size() ? t.parts->part[node] : frame;
     };
@@ -127,7 +144,7 @@ class Trial {
       }
       if (!weld.cut) continue;
       for (const std::uint32_t part : {p, q}) {
-        if (part != frame) t.steps[part] = std::max(t.steps[part], stepsOf(c, weld));
+        if (part != frame) t.against[part].add(evidenceOf(c, weld), cautionWith(state_, c, weld));
       }
     }
     for (JointBlock& k : c.joints) {
@@ -199,20 +216,28 @@ class Trial {
   }
 
   void judgeParts(Tried& t) {
-    t.moves.assign(t.steps.size(), 0);
+    t.moves.assign(t.against.size(), 0);
     for (std::uint32_t m = 0; m < t.parts->part.size(); ++m) {
       const std::uint32_t p = t.parts->part[m];
       if (p != t.host && !t.moves[p]) t.moves[p] = movesAway(t, m);
     }
   }
 
-  /// Fast enough to be seen, or not much slower than the sweep found.
+  /// Fast enough to be seen, or not much slower than the sweep found. What was cut in vain before
+  /// must be as much faster, or not much slower than what was summed against it.
   bool movesAway(const Tried& t, std::uint32_t m) {
     constexpr double kMuch = 0.5;
+    constexpr double kBarely = 0.1;  // of what is seen: others part, but it stays
     const BodyId b = t.c->members[m];
     if (place_[index(b)] == kNone) return true;  // nothing holds it
+    const Evidence& against = t.against[t.parts->part[m]];
     const double speed = speedOf(*t.c, b, scratch_.sweep_u[index(b)]);
-    if (speed * t.steps[t.parts->part[m]] > state_.settings.unmerging.sliding) return true;
+    const double seen = state_.settings.unmerging.sliding;
+    if (against.caution > 1.0 && against.sum > 0.0) {
+      return speed * against.steps > std::min(seen * against.caution, kMuch * against.sum);
+    }
+    if (against.steps == 0 && speed <= kBarely * seen) return false;
+    if (speed * std::max(1, against.steps) > seen) return true;
     return speed > kMuch * speedOf(*t.c, b, velocityBefore(b));
   }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "src2d/contact/detection.h"
+#include "src2d/merging/caution.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/footing.h"
 #include "src2d/merging/group_notes.h"
@@ -162,7 +163,8 @@ bool losesFooting(State& state, Scratch& scratch, Tested& tested) {
   noteFooting(c, footing, scratch.notes);
   tested.noted.close();
   tested.parts = std::move(parts);
-  tested.sure = true;
+  tested.sure = std::ranges::none_of(
+      footing.giving, [&](std::uint32_t w) { return cautionWith(state, c, c.welds[w]) > 1.0; });
   return true;
 }
 

@@ -354,13 +354,6 @@ void WeldTest::writeDown(const Weld& weld, Decision test) const {
   scratch_.notes->decisions.push_back(test);
 }
 
-double WeldTest::cautionAfterVain(const Weld& weld) const {
-  constexpr double kSteps = 200.0;
-  const double factor = std::exp2(weld.vain);
-  const auto lived = static_cast<double>(state_.step - c_.contacts[weld.first].since);
-  return lived < kSteps * factor ? factor : 1.0;
-}
-
 double WeldTest::noise() const { return std::max<double>(residual_, c_.residual); }
 
 void WeldTest::doubt(const Weld& weld) {

@@ -2,6 +2,7 @@
 /// The tests of the welds of one collection (Sections 6.3 and 6.4): broken, sliding, moving.
 
 #include "src2d/dynamics/state.h"
+#include "src2d/merging/caution.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/refine.h"
 
@@ -134,15 +135,8 @@ class WeldTest {
 
   void cutWeld(Weld& weld, EventReason reason);
 
-  /// Factor on all thresholds of a weld. Deviation: a pair whose last welds were cut in vain, as it
-  /// got nowhere when it was free, is cut later, or it would merge and part for ever. Rigid
-  /// contacts may find motion where soft ones hold; and what lands on a heap jostles it again and
-  /// again. Guarded by Pile.NoPairMergesAndPartsOverAndOver and
-  /// Caution.LastsWhileAPairIsOnlyJostled.
-  double caution(const Weld& weld) const {
-    return rule() == Rule::Paper || weld.vain == 0 ? 1.0 : cautionAfterVain(weld);
-  }
-  double cautionAfterVain(const Weld& weld) const;
+  /// Factor on all thresholds of a weld.
+  double caution(const Weld& weld) const { return cautionWith(state_, c_, weld); }
 
   /// What the last sweep may have left of a velocity [m/s].
   double noise() const;

@@ -1,0 +1,23 @@
+#pragma once
+/// How much the motion of a pair is doubted whose last welds were cut in vain.
+
+#include <cmath>
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Factor on all that is asked of a weld before it is cut. Deviation: a pair whose last welds were
+/// cut in vain, as it got nowhere when it was free, is cut later, or it would merge and part for
+/// ever. Rigid contacts may find motion where soft ones hold; and what lands on a heap jostles it
+/// again and again. Guarded by Pile.NoPairMergesAndPartsOverAndOver and
+/// Caution.LastsWhileAPairIsOnlyJostled.
+inline double cautionWith(const State& state, const Collection& c, const Weld& weld) {
+  constexpr double kSteps = 200.0;  // of a weld, times the factor, before it is as any other
+  if (weld.vain == 0 || state.settings.unmerging.rule == Rule::Paper) return 1.0;
+  const double factor = std::exp2(weld.vain);
+  const auto lived = static_cast<double>(state.step - c.contacts[weld.first].since);
+  return lived < kSteps * factor ? factor : 1.0;
+}
+
+}  // namespace merge2d
