@@ -32,6 +32,13 @@ std::string distance(double value, double threshold) {
   return fmt::format("{:.{}f} %; ", 100.0 * ratio, ratio < 0.1 ? 1 : 0);
 }
 
+/// "; 4 times the usual limit, as the pair was cut in vain before".
+std::string raised(const Decision& d) {
+  if (d.caution <= 1.0) return "";
+  return fmt::format("; {:.0f} times the usual limit, as the pair was cut in vain before",
+                     d.caution);
+}
+
 /// "relative motion 0.023 m/s is above 0.010 m/s (2.3 times; Eq. 17)". Thresholds below a
 /// millimetre are told in millimetres; `unit` is what follows "m".
 std::string compared(std::string_view what, const Decision& d, std::string_view unit) {
@@ -42,8 +49,9 @@ std::string compared(std::string_view what, const Decision& d, std::string_view 
   const char* relation = d.value < d.threshold   ? "is below"
                          : d.value > d.threshold ? "is above"
                                                  : "reaches";
-  return fmt::format("{} {} {}{} {} {} {}{} ({}{})", what, value, metre, unit, relation, threshold,
-                     metre, unit, distance(d.value, d.threshold), equationName(d.equation));
+  return fmt::format("{} {} {}{} {} {} {}{} ({}{}{})", what, value, metre, unit, relation,
+                     threshold, metre, unit, distance(d.value, d.threshold),
+                     equationName(d.equation), raised(d));
 }
 
 /// "slip, summed over 4 steps,": for sums that have no number of steps to reach.

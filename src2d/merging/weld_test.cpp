@@ -127,7 +127,8 @@ bool WeldTest::testBroken(std::uint32_t weld, Drift& opening, double w_n) {
                     .verdict = !lost     ? "wait"
                                : literal ? "unmerge"
                                          : "lost",
-                    .at = at_};
+                    .at = at_,
+                    .caution = caution(c_.welds[weld])};
   });
   if (lost && literal) cutWeld(c_.welds[weld], EventReason::Broken);
   return lost;
@@ -162,7 +163,8 @@ void WeldTest::testSliding(std::uint32_t weld, Drift& slip, double w_t) {
                     .threshold = threshold,
                     .count = found.steps,
                     .verdict = found.exceeds ? "unmerge" : "wait",
-                    .at = at_};
+                    .at = at_,
+                    .caution = caution(c_.welds[weld])};
   });
   if (found.exceeds) cutWeld(c_.welds[weld], EventReason::Sliding);
 }
@@ -195,7 +197,8 @@ void WeldTest::testMotion(Weld& weld) {
                     .verdict = cut                      ? "unmerge"
                                : weld.turning.steps > 0 ? "wait"
                                                         : "keep",
-                    .before = before.steps};
+                    .before = before.steps,
+                    .caution = caution(weld)};
   });
   if (cut) cutWeld(weld, EventReason::RelativeMotion);
 }
@@ -239,7 +242,8 @@ void WeldTest::testShake(Weld& weld) {
                     .value = std::abs(now.fastest),
                     .threshold = threshold,
                     .count = 1,
-                    .verdict = "unmerge"};
+                    .verdict = "unmerge",
+                    .caution = caution(weld)};
   });
   cutWeld(weld, EventReason::RelativeMotion);
 }

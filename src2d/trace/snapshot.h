@@ -129,6 +129,8 @@ struct Decision {
   /// Of "cycle": the first body of the group that holds the pair, or that came apart; −1: none.
   std::int32_t group = -1;
   std::int32_t members = -1;  ///< all its bodies: an index of Snapshot::groups
+  /// The factor in the threshold: above 1 where the pair was cut in vain before.
+  double caution = 1.0;
 };
 
 /// The bodies of a rigid group: first those whose contacts make it one, ascending, then those that

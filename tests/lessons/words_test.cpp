@@ -59,6 +59,16 @@ TEST_F(WordsTest, TellsValueThresholdAndByHowMuch) {
       "relative motion 0.0040 m/s is below 0.010 m/s (40 %; Eq. 17)");
 }
 
+TEST_F(WordsTest, TellsWhyAThresholdIsRaised) {
+  EXPECT_EQ(said({.criterion = "relative-motion",
+                  .equation = "(17)",
+                  .value = 0.16,
+                  .threshold = 0.64,
+                  .caution = 32.0}),
+            "relative motion 0.16 m/s is below 0.64 m/s (25 %; Eq. 17; 32 times the usual limit, "
+            "as the pair was cut in vain before)");
+}
+
 TEST_F(WordsTest, TellsSmallThresholdsInMillimetres) {
   EXPECT_EQ(said({.criterion = "breathing",
                   .equation = "Section 5.3",
