@@ -115,6 +115,18 @@ TEST(Collide, ACornerBesideAFaceDoesNotOverlapIt) {
   EXPECT_NEAR(overlapping.points[0].gap, -2e-4, 1e-12);
 }
 
+TEST(Collide, ACornerBesideAFaceMayOverlapByAnother) {
+  // As above, but the wedge's left face lies flatter and cuts off the box's corner.
+  const Collider square(Polygon{{{-1.0, -1.0}, {0.0, -1.0}, {0.0, 0.0}, {-1.0, 0.0}}});
+  const Vec2 point(1e-5, -2e-4), left(-3.0, 3.0);
+  const Collider wedge(Polygon{{point, {3.0, 2.9}, left}});
+  const Vec2 outward = -perpendicular(point - left).normalized();
+  const Manifold m = collide(square, wedge, at(0.0, 0.0), kMargin);
+  ASSERT_EQ(m.count, 1);
+  EXPECT_NEAR(m.points[0].gap, outward.dot(Vec2::Zero() - point), 1e-12);
+  EXPECT_NEAR((m.normal + outward).norm(), 0.0, 1e-12);
+}
+
 TEST(Collide, SeesACornerThatPointsAtAFace) {
   const double half_diagonal = std::numbers::sqrt2 / 2.0;
   const Manifold m = collide(box(10.0, 1.0), box(1.0, 1.0),
