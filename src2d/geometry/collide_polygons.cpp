@@ -8,8 +8,9 @@
 ///
 /// Deviations from b2CollidePolygons: the edge is cut at the face's very ends rather than a margin
 /// beyond them, so that nothing rests on air; corner against corner gets the normal between the
-/// corners, as in Box2D v3; features name the two faces and the end, so that a point keeps its
-/// name when the reference face changes sides or a corner slides over an end.
+/// corners, as in Box2D v3, or that of the face that parts them best where they are in one place;
+/// features name the two faces and the end, so that a point keeps its name when the reference face
+/// changes sides or a corner slides over an end.
 
 #include <algorithm>
 #include <limits>
