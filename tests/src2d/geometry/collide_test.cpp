@@ -123,7 +123,7 @@ TEST(Collide, ACornerBesideAFaceMayOverlapByAnother) {
   const Vec2 outward = -perpendicular(point - left).normalized();
   const Manifold m = collide(square, wedge, at(0.0, 0.0), kMargin);
   ASSERT_EQ(m.count, 1);
-  EXPECT_NEAR(m.points[0].gap, outward.dot(Vec2::Zero() - point), 1e-12);
+  EXPECT_NEAR(m.points[0].gap, -outward.dot(point), 1e-12);
   EXPECT_NEAR((m.normal + outward).norm(), 0.0, 1e-12);
 }
 
