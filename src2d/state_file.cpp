@@ -186,10 +186,11 @@ std::string_view checkedPayload(std::string_view bytes, const std::string& sourc
   return payload.substr(kStateStart.size());
 }
 
-/// Everything leaves the broadphase of the fresh setup.
+/// Everything leaves the broadphase, of a fresh setup or of one that has gone on.
 void clearBroadphase(State& state) {
   for (std::uint32_t i = 0; i < state.rigids.size(); ++i) {
     if (state.rigids[i].present()) removeRigid(state, RigidId{i});
+    dropShapeTree(state, RigidId{i});
   }
 }
 
@@ -205,7 +206,7 @@ void buildTrees(State& state, const std::vector<Aabb>& boxes) {
   for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
     const Body& body = state.bodies[i];
     const bool compound = body.alive && body.shape_count > 1;
-    if (compound && !broadphase.shape_trees[i]) addShapes(state, RigidId{i}, {BodyId{i}});
+    if (compound) addShapes(state, RigidId{i}, {BodyId{i}});
   }
   for (const Collection& c : state.collections) {
     if (c.id != kNoCollection) addShapes(state, c.rigid, c.members);

@@ -125,6 +125,21 @@ TEST(StateFile, SoItIsWithTheBuiltinScenes) {
   }
 }
 
+TEST(StateFile, GoingBackLeavesNothingOfTheStepsAfter) {
+  const Scene scene = parseScene(kMixed, "mixed.toml");
+  World world = start(scene, Mode::MergeSleep);
+  follow(world, 100);
+  const std::string bytes = world.save();
+  const auto once = follow(world, 100);
+  std::vector<std::size_t> memory;
+  for (int time = 0; time < 20; ++time) {
+    world.restore(bytes, "test");
+    EXPECT_TRUE(follow(world, 100) == once) << "time " << time;
+    memory.push_back(world.memoryBytes());
+  }
+  EXPECT_EQ(memory.back(), memory[3]) << "as much as after some times";
+}
+
 /// The message of the error that restoring gives.
 std::string refusal(const std::string& bytes, const Scene& scene, Mode mode = Mode::MergeSleep) {
   World world = start(scene, mode);
