@@ -6,6 +6,7 @@
 /// growing change (ρ > 1) drops p. Beside p its effect on the velocities M⁻¹Jᵀp is kept, so that a
 /// step along it needs no pass over the Jacobians.
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <vector>
 
@@ -101,12 +102,10 @@ class Nncg {
     const double keep = rho > 1.0 ? 0.0 : 1.0;
     if (rho > 1.0) rho = 0.0;
     for (std::size_t i = 0; i < blocks_; ++i) {
-      Impulses &lambda = impulses_(i), &p = m_.direction[i], &before = m_.before[i];
-      for (std::size_t r = 0; r < 4; ++r) {
-        const double along = rho * p[r];
-        p[r] = along + keep * (lambda[r] - before[r]);
-        before[r] = lambda[r] += along;
-      }
+      auto lambda = rows(impulses_(i)), p = rows(m_.direction[i]), before = rows(m_.before[i]);
+      const Eigen::Array4d along = rho * p;
+      p = along + keep * (lambda - before);
+      before = lambda += along;
     }
     for (std::size_t i = 0; i < bodies_; ++i) {
       SolverVelocity& u = velocity_(i);
@@ -118,6 +117,11 @@ class Nncg {
       before.vy = u.vy += along.vy;
       before.omega = u.omega += along.omega;
     }
+  }
+
+  /// As one vector: a compiler alone takes them one by one where they may overlap.
+  static Eigen::Map<Eigen::Array4d> rows(Impulses& x) {
+    return Eigen::Map<Eigen::Array4d>(x.data());
   }
 
   std::size_t blocks_, bodies_;

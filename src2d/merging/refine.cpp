@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include "src2d/dynamics/nncg.h"
 #include "src2d/merging/ordering.h"
@@ -13,7 +15,7 @@ class Refinement {
  public:
   Refinement(State& state, Scratch& scratch, const SweepScope& scope, double threshold)
       : state_(state), scratch_(scratch), scope_(scope), threshold_(threshold) {
-    listLooseItemsOfBodies();
+    chainLooseItems();
     place_.assign(scratch.sweep_u.size(), kNowhere);
     first_block_.reserve(state.collections.size());
     auto items = static_cast<std::uint32_t>(scope.loose.size());
@@ -31,10 +33,7 @@ class Refinement {
   double run(std::span<const std::uint32_t> seeds) {
     constexpr int kRound = 10;  // after so many sweeps the items are chosen anew
     queue_.assign(seeds.begin(), seeds.end());
-    for (std::uint32_t b = 0; b < scratch_.restless_bodies.size(); ++b) {
-      if (scratch_.restless_bodies[b]) queue_.push_back(b);
-      scratch_.restless_bodies[b] = 0;
-    }
+    queueMarked(scratch_.restless_bodies);
     for (int done = 0; done < scope_.most && !queue_.empty();) {
       walk();
       const int more = std::max(1, std::min(kRound, scope_.most - done) - 1);
@@ -47,6 +46,7 @@ class Refinement {
 
  private:
   static constexpr std::uint32_t kNowhere = ~0u;
+  static constexpr int kMarked = 1;
 
   /// A body that the round at hand has reached.
   struct Reached {
@@ -56,34 +56,46 @@ class Refinement {
     bool loose;     ///< by a contact outside collections
   };
 
-  void listLooseItemsOfBodies() {
-    at_.assign(scratch_.sweep_u.size() + 1, 0);
-    for (const SweepItem& item : scope_.loose) ++at_[item.a() + 1], ++at_[item.b() + 1];
-    for (std::size_t b = 1; b < at_.size(); ++b) at_[b] += at_[b - 1];
-    loose_of_.resize(at_.back());
-    auto& next = place_;  // idle until the walk
-    next.assign(at_.begin(), at_.end() - 1);
-    for (std::uint32_t i = 0; i < scope_.loose.size(); ++i) {
-      loose_of_[next[scope_.loose[i].a()]++] = i;
-      loose_of_[next[scope_.loose[i].b()]++] = i;
+  /// Queues the bodies that the single sweep has marked, and takes the marks away.
+  void queueMarked(std::vector<std::uint8_t>& marks) {
+    std::uint8_t *const first = marks.data(), *const last = first + marks.size();
+    const auto next = [&](std::uint8_t* from) {
+      return static_cast<std::uint8_t*>(
+          std::memchr(from, kMarked, static_cast<std::size_t>(last - from)));
+    };
+    for (std::uint8_t* at = next(first); at; at = next(at + 1)) {
+      queue_.push_back(static_cast<std::uint32_t>(at - first));
+      *at = 0;
     }
   }
 
-  Reached& reach(std::uint32_t body) {
+  /// Each body's loose items as a chain, ascending.
+  void chainLooseItems() {
+    first_of_.assign(scratch_.sweep_u.size(), kNowhere);
+    next_of_.resize(2 * scope_.loose.size());
+    for (auto i = static_cast<std::uint32_t>(scope_.loose.size()); i-- > 0;) {
+      const SweepItem& item = scope_.loose[i];
+      next_of_[2 * i] = std::exchange(first_of_[item.a()], 2 * i);
+      next_of_[2 * i + 1] = std::exchange(first_of_[item.b()], 2 * i + 1);
+    }
+  }
+
+  /// The place in reached_ of a body that responds to forces.
+  std::uint32_t reach(std::uint32_t body) {
     if (place_[body] == kNowhere) {
       place_[body] = static_cast<std::uint32_t>(reached_.size());
       const SolverVelocity& u = scratch_.sweep_u[body];
       reached_.push_back({body, u.vx, u.vy, false, false});
     }
-    return reached_[place_[body]];
+    return place_[body];
   }
 
-  void enqueue(std::uint32_t body) {
-    if (scratch_.sweep_u[body].inv_mass == 0.0) return;
-    Reached& r = reach(body);
-    if (!r.queued) walk_.push_back(body);
+  void enqueue(std::uint32_t place) {
+    Reached& r = reached_[place];
+    if (r.queued) return;
     r.queued = true;
-    scratch_.shaken[body] = 1;
+    walk_.push_back(r.body);
+    scratch_.shaken[r.body] = 1;
   }
 
   /// One sweep from the queued bodies on, breadth first, over the items of each body that it
@@ -94,7 +106,9 @@ class Refinement {
     active_.clear();
     walk_.clear();
     std::ranges::fill(swept_, 0);
-    for (const std::uint32_t body : queue_) enqueue(body);
+    for (const std::uint32_t body : queue_) {
+      if (scratch_.sweep_u[body].inv_mass != 0.0) enqueue(reach(body));
+    }
     walkFrom(0);
   }
 
@@ -114,16 +128,17 @@ class Refinement {
   /// Goes on with the walk from such bodies. Returns false when there are none.
   bool goOnFromRim() {
     const std::size_t head = walk_.size();
-    for (std::size_t i = 0; i < reached_.size(); ++i) {
-      if (isOvertaken(reached_[i])) enqueue(reached_[i].body);
+    const auto count = static_cast<std::uint32_t>(reached_.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (isOvertaken(reached_[i])) enqueue(i);
     }
     walkFrom(head);
     return walk_.size() > head;
   }
 
   void sweepLooseItemsOf(std::uint32_t body) {
-    for (std::uint32_t k = at_[body]; k < at_[body + 1]; ++k) {
-      sweepOnce(loose_of_[k], scope_.loose[loose_of_[k]]);
+    for (std::uint32_t k = first_of_[body]; k != kNowhere; k = next_of_[k]) {
+      if (!swept_[k / 2]) sweepOnce(k / 2, scope_.loose[k / 2]);
     }
   }
 
@@ -138,24 +153,25 @@ class Refinement {
     for (std::uint32_t k = c.weld_at[member]; k < c.weld_at[member + 1]; ++k) {
       const Weld& weld = c.welds[c.weld_of[k]];
       for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-        const std::uint32_t block = c.contacts[i].block;
-        sweepOnce(first_block_[slot] + block, SweepItem(c.blocks[block], state_[id].rotation));
+        const std::uint32_t block = c.contacts[i].block, number = first_block_[slot] + block;
+        if (swept_[number]) continue;
+        sweepOnce(number, SweepItem(c.blocks[block], state_[id].rotation));
       }
     }
   }
 
   void sweepOnce(std::uint32_t number, const SweepItem& item) {
-    if (swept_[number]) return;
     swept_[number] = 1;
     active_.push_back(item);
-    const std::uint32_t ends[] = {item.a(), item.b()};
-    const auto responds = [&](std::uint32_t b) { return scratch_.sweep_u[b].inv_mass != 0.0; };
-    for (const std::uint32_t b : ends) {
-      if (responds(b)) reach(b).loose |= number < scope_.loose.size();
+    const bool loose = number < scope_.loose.size();
+    std::uint32_t places[2], count = 0;
+    for (const std::uint32_t b : {item.a(), item.b()}) {
+      if (scratch_.sweep_u[b].inv_mass == 0.0) continue;
+      reached_[places[count++] = reach(b)].loose |= loose;
     }
     sweepItem(item, scratch_.sweep_u, state_.settings.solver.method);
-    for (const std::uint32_t b : ends) {
-      if (responds(b) && changeSinceStart(reach(b)) > threshold_ * threshold_) enqueue(b);
+    for (const std::uint32_t place : std::span(places, count)) {
+      if (changeSinceStart(reached_[place]) > threshold_ * threshold_) enqueue(place);
     }
   }
 
@@ -216,8 +232,9 @@ class Refinement {
   Scratch& scratch_;
   const SweepScope& scope_;
   double threshold_;
-  std::vector<std::uint32_t> at_,
-      loose_of_;  ///< loose items of body b: loose_of_[at_[b] … at_[b+1]]
+  /// Chains of the loose items' ends, 2i and 2i + 1 of item i: per body the first, per end the
+  /// next.
+  std::vector<std::uint32_t> first_of_, next_of_;
   std::vector<std::uint32_t> first_block_;  ///< per collection slot: number of its first block
   std::vector<std::uint8_t> swept_;         ///< in this round, by number: loose items, then blocks
   std::vector<std::uint32_t> place_;        ///< per body: in reached_

@@ -81,7 +81,7 @@ double enoughAfter(const State& state, double blow) {
 
 /// Sweeps over the active contacts of a collection. What they change is added to each member's
 /// push. Contacts that they leave at their limits are watched from now on. Returns the largest
-/// change of a member's velocity [m/s]; those for whom it was not enough are marked as restless.
+/// change of a member's velocity [m/s]; that of each is left in `scratch.u`, squared.
 double sweepInside(const State& state, Collection& c, Scratch& scratch, int sweeps) {
   auto& u = scratch.sweep_u;
   auto& before = scratch.u;  // idle until the full solve
@@ -112,12 +112,16 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
     before[i].vx = change.squaredNorm();
     largest = std::max(largest, before[i].vx);
   }
-  largest = std::sqrt(largest);
+  return std::sqrt(largest);
+}
+
+/// Marks the members whom the last sweep, which changed one by `largest`, changed too much [m/s].
+void markRestless(const State& state, const Collection& c, Scratch& scratch, double largest) {
   const double enough = enoughAfter(state, largest);
-  for (std::size_t i = 0; i < n; ++i) {
-    scratch.restless_bodies[index(c.members[i])] = before[i].vx > enough * enough;
+  if (largest <= enough) return;
+  for (std::size_t i = 0; i < c.members.size(); ++i) {
+    scratch.restless_bodies[index(c.members[i])] = scratch.u[i].vx > enough * enough ? 1 : 0;
   }
-  return largest;
 }
 
 /// Sweeps go on where something is new.
@@ -176,6 +180,7 @@ double sweepOnce(const State& state, Collection& c, Scratch& scratch) {
     change = sweepInside(state, c, scratch, settings.sweeps);
     scratch.push_stale[index(c.rigid) - state.bodies.size()] = 1;
   }
+  markRestless(state, c, scratch, change);
   c.residual = static_cast<float>(change);
   c.settled = change <= kSettled * residualVelocity(state);
   if (refines(settings)) follow(state, c, scratch, change);

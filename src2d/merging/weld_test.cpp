@@ -184,9 +184,10 @@ void WeldTest::testMotion(Weld& weld) {
   if (weld.cut) return;
   const UnmergingSettings& settings = state_.settings.unmerging;
   const Drift before = weld.turning;
-  const Turning now = relativeMotion(weld);
+  const Least limits = least(weld);
+  const Turning now = relativeMotion(weld, limits);
   const bool literal = rule() == Rule::Paper;
-  const bool cut = literal ? moveLoudly(weld, now) : turns(weld, now);
+  const bool cut = literal ? moveLoudly(weld, now) : turns(weld, now, limits);
   note(weld, [&] {
     return Decision{.criterion = "relative-motion",
                     .equation = "(17)",
@@ -233,7 +234,7 @@ void WeldTest::testShaken() {
 }
 
 void WeldTest::testShake(Weld& weld) {
-  const Turning now = relativeMotion(weld);
+  const Turning now = relativeMotion(weld, least(weld));
   const double threshold = state_.settings.unmerging.velocity * caution(weld);
   if (std::abs(now.fastest) <= threshold || now.nearest <= noise()) return;
   note(weld, [&] {
@@ -254,16 +255,16 @@ bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {
   return weld.turning.steps >= settings.steps;
 }
 
-bool WeldTest::turns(Weld& weld, const Turning& now) {
+bool WeldTest::turns(Weld& weld, const Turning& now, const Least& least) {
   const UnmergingSettings& settings = state_.settings.unmerging;
-  if (now.nearest <= noiseAt(weld) || std::abs(now.fastest) <= slowFor(weld)) {
+  if (now.nearest <= least.noise || std::abs(now.fastest) <= least.slow) {
     weld.turning = {};
     return false;
   }
   const double enough = tipsFor(weld) ? 0.0 : settings.velocity * caution(weld);
   const bool at_once = isStruck() || (mustTip(weld) && c_.struck > 0);  // as the blow is over
   const int steps = at_once ? 1 : settings.steps;
-  return weigh(weld.turning, now.fastest, enough, noiseAt(weld)).exceeds &&
+  return weigh(weld.turning, now.fastest, enough, least.noise).exceeds &&
          weld.turning.steps >= steps;
 }
 
@@ -326,8 +327,8 @@ Vec2 WeldTest::between(const Weld& weld) const {
   return state_.pose(weld.b).position - state_.pose(weld.a).position;
 }
 
-WeldTest::Turning WeldTest::relativeMotion(const Weld& weld) const {
-  const double limit = std::max(noiseAt(weld), slowFor(weld));
+WeldTest::Turning WeldTest::relativeMotion(const Weld& weld, const Least& least) const {
+  const double limit = std::max(least.noise, least.slow);
   if (!scratch_.notes && clearlySlowerThan(limit, weld)) return {};
   // Seen from the first body, so that it does not matter where in the world they are.
   const auto field = [&](BodyId b, const Vec2& at) {

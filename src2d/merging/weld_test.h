@@ -45,6 +45,11 @@ class WeldTest {
     double nearest = 0.0;  ///< the fastest corner of the box that moves less [m/s]
   };
 
+  /// What a weld's bodies must move faster than [m/s].
+  struct Least {
+    double noise, slow;  ///< noiseAt(), slowFor()
+  };
+
   /// Broken (Section 6.3) and on edge (Eqs. (19), (20)).
   void testContacts(std::uint32_t b);
 
@@ -97,7 +102,7 @@ class WeldTest {
 
   /// A pivot that turns slowly gathers speed: each step starts from the velocity of the whole, so
   /// what it would gain is summed, as slip is.
-  bool turns(Weld& weld, const Turning& now);
+  bool turns(Weld& weld, const Turning& now, const Least& least);
 
   /// What nothing else holds turns on however slowly it begins: then it need not be fast, but be
   /// seen for some steps.
@@ -113,8 +118,10 @@ class WeldTest {
   /// holds: there both know the same forces.
   double slowFor(const Weld& weld) const;
 
+  Least least(const Weld& weld) const { return {noiseAt(weld), slowFor(weld)}; }
+
   /// All zero when no corner can be fast enough to matter.
-  Turning relativeMotion(const Weld& weld) const;
+  Turning relativeMotion(const Weld& weld, const Least& least) const;
 
   /// From the centre of mass of the weld's first body to that of the other.
   Vec2 between(const Weld& weld) const;
