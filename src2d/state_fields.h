@@ -154,6 +154,11 @@ void fields(Ar& ar, Some<Weld> auto& w) {
      reason);
 }
 template <class Ar>
+void fields(Ar& ar, Some<Pivot> auto& p) {
+  auto& [weld, reach] = p;
+  ar(weld, reach);
+}
+template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watched, pivots, leaning,
          cut_welds, spare, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,

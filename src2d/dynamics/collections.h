@@ -118,6 +118,12 @@ struct Weld {
   EventReason reason = EventReason::None;
 };
 
+/// A weld that may turn.
+struct Pivot {
+  std::uint32_t weld = 0;
+  float reach = 0.0F;  ///< from the first body's centre to any corner of the two, at most [m]
+};
+
 /// Bodies simulated as one (Section 4).
 struct Collection {
   CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
@@ -129,7 +135,7 @@ struct Collection {
   /// Which contact a block is; empty when contacts have left since.
   std::vector<std::uint32_t> block_contact;
   std::vector<std::uint8_t> watched;     ///< per block: is at its limit, or was in the last step
-  std::vector<std::uint32_t> pivots;     ///< Lost or Pivot: the only ones that can turn in 2D
+  std::vector<Pivot> pivots;             ///< Lost or Pivot: the only ones that can turn in 2D
   std::vector<std::uint32_t> leaning;    ///< bridges with a contact that now carries nothing
   std::vector<std::uint32_t> cut_welds;  ///< in the last step
   /// Welds without which, all at once, it was found to hold together.

@@ -1,5 +1,10 @@
 #include "src2d/merging/grip.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src2d/core/memory.h"
 #include "src2d/cycles/tolerance.h"
 
 namespace merge2d {
@@ -63,11 +68,27 @@ void findGrips(const State& state, Collection& c) {
   }
 }
 
-void listPivots(Collection& c) {
+Pivot pivotAt(const State& state, const Collection& c, std::uint32_t weld) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const Body &a = state[c.welds[weld].a], &b = state[c.welds[weld].b];
+  if (a.rigid != c.rigid || b.rigid != c.rigid) return {weld, kInfinity};
+  const auto size = [](const Vec2& v) { return v.lpNorm<1>(); };  // needs no root
+  double radius = 0.0;
+  for (const BodyId id : {c.welds[weld].a, c.welds[weld].b}) {
+    const OrientedBox& box = state.extent(rigidOf(id)).box;
+    radius = std::max(radius, size(box.frame.position) + size(box.half));
+  }
+  const auto reach = static_cast<float>(radius + size(b.local - a.local));
+  return {weld, std::nextafter(reach, kInfinity)};
+}
+
+void listPivots(const State& state, Collection& c) {
+  const auto turns = [](const Weld& weld) { return isPivot(weld.grip); };
   c.pivots.clear();
   c.pivots_stale = false;
+  reserveTightly(c.pivots, static_cast<std::size_t>(std::ranges::count_if(c.welds, turns)));
   for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
-    if (isPivot(c.welds[i].grip)) c.pivots.push_back(i);
+    if (turns(c.welds[i])) c.pivots.push_back(pivotAt(state, c, i));
   }
 }
 

@@ -75,6 +75,7 @@ void uniteOnFloors(const Collection& c, const Nodes& nodes, const Groups& group,
 Parts partsWithoutCuts(const State& state, const Collection& c) {
   const Nodes nodes = nodesOf(c);
   std::vector<Pin> pins;
+  pins.reserve(c.contacts.size());
   for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
     const Weld& weld = c.welds[i];
     const auto a = nodes.of[weld.node_a], b = nodes.of[weld.node_b];

@@ -16,7 +16,7 @@ class Refinement {
   Refinement(State& state, Scratch& scratch, const SweepScope& scope, double threshold)
       : state_(state), scratch_(scratch), scope_(scope), threshold_(threshold) {
     chainLooseItems();
-    place_.assign(scratch.sweep_u.size(), kNowhere);
+    place_ = nowhere();
     first_block_.reserve(state.collections.size());
     auto items = static_cast<std::uint32_t>(scope.loose.size());
     for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
@@ -69,9 +69,16 @@ class Refinement {
     }
   }
 
+  /// Per body, written as bytes, which is quickest.
+  std::vector<std::uint32_t> nowhere() const {
+    std::vector<std::uint32_t> places(scratch_.sweep_u.size());
+    std::memset(places.data(), 0xff, places.size() * sizeof kNowhere);
+    return places;
+  }
+
   /// Each body's loose items as a chain, ascending.
   void chainLooseItems() {
-    first_of_.assign(scratch_.sweep_u.size(), kNowhere);
+    first_of_ = nowhere();
     next_of_.resize(2 * scope_.loose.size());
     for (auto i = static_cast<std::uint32_t>(scope_.loose.size()); i-- > 0;) {
       const SweepItem& item = scope_.loose[i];

@@ -17,11 +17,10 @@ void WeldTest::testAll() {
   for (std::uint32_t i = 0; i < blocks; ++i) {
     if (c_.watched[i] || scratch_.notes || (whole_ && atLimit(c_.blocks[i]))) testContacts(i);
   }
-  if (c_.pivots_stale) listPivots(c_);
-  for (const std::uint32_t pivot : c_.pivots) {
-    testLost(pivot);
-    testMotion(c_.welds[pivot]);
-  }
+  if (c_.pivots_stale) listPivots(state_, c_);
+  const Least usual = least(Weld{});
+  still_ = std::max(usual.noise, usual.slow);
+  for (const Pivot& pivot : c_.pivots) testPivot(pivot);
   testLeaning();
   if (isStruck()) testShaken();
   // What may be about to part does not fall asleep.
@@ -204,6 +203,23 @@ void WeldTest::testMotion(Weld& weld) {
   if (cut) cutWeld(weld, EventReason::RelativeMotion);
 }
 
+void WeldTest::testPivot(const Pivot& pivot) {
+  const bool lost = c_.welds[pivot.weld].grip == Grip::Lost;
+  if (lost || scratch_.notes) testLost(pivot.weld);
+  if (staysPut(pivot)) {
+    c_.welds[pivot.weld].turning = {};
+  } else {
+    testMotion(c_.welds[pivot.weld]);
+  }
+}
+
+bool WeldTest::staysPut(const Pivot& pivot) const {
+  const Weld& weld = c_.welds[pivot.weld];
+  if (scratch_.notes || weld.cut) return false;
+  const bool bridge = weld.bridge && rule() == Rule::Default;
+  return clearlySlowerThan(bridge ? noiseAt(weld) : still_, weld, pivot);
+}
+
 void WeldTest::leans(std::uint32_t weld) {
   if (!c_.welds[weld].bridge || rule() == Rule::Paper) return;
   if (std::ranges::find(c_.leaning, weld) == c_.leaning.end()) c_.leaning.push_back(weld);
@@ -306,19 +322,10 @@ bool WeldTest::slowerThan(double limit, const Weld& weld, const VelocityField& a
   return linear + std::abs(b.omega - a.omega) * (radius + between) <= limit;
 }
 
-bool WeldTest::clearlySlowerThan(double limit, const Weld& weld) const {
-  const Body &body_a = state_[weld.a], &body_b = state_[weld.b];
-  if (body_a.rigid != c_.rigid || body_b.rigid != c_.rigid) return false;
-  const auto size = [](const Vec2& v) { return v.lpNorm<1>(); };
-  double radius = 0.0;
-  for (const BodyId id : {weld.a, weld.b}) {
-    const OrientedBox& box = state_.extent(rigidOf(id)).box;
-    radius = std::max(radius, size(box.frame.position) + size(box.half));
-  }
-  const double between = size(body_b.local - body_a.local);
+bool WeldTest::clearlySlowerThan(double limit, const Weld& weld, const Pivot& pivot) const {
   const SolverVelocity &a = scratch_.sweep_u[index(weld.a)], &b = scratch_.sweep_u[index(weld.b)];
-  const double linear = size({b.vx - a.vx, b.vy - a.vy}) + std::abs(a.omega) * between;
-  return linear + std::abs(b.omega - a.omega) * (radius + between) <= limit;
+  const double linear = std::abs(b.vx - a.vx) + std::abs(b.vy - a.vy);
+  return linear + (std::abs(a.omega) + std::abs(b.omega - a.omega)) * pivot.reach <= limit;
 }
 
 Vec2 WeldTest::between(const Weld& weld) const {
@@ -329,7 +336,8 @@ Vec2 WeldTest::between(const Weld& weld) const {
 
 WeldTest::Turning WeldTest::relativeMotion(const Weld& weld, const Least& least) const {
   const double limit = std::max(least.noise, least.slow);
-  if (!scratch_.notes && clearlySlowerThan(limit, weld)) return {};
+  const auto number = static_cast<std::uint32_t>(&weld - c_.welds.data());
+  if (!scratch_.notes && clearlySlowerThan(limit, weld, pivotAt(state_, c_, number))) return {};
   // Seen from the first body, so that it does not matter where in the world they are.
   const auto field = [&](BodyId b, const Vec2& at) {
     const SolverVelocity& u = scratch_.sweep_u[index(b)];

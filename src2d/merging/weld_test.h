@@ -66,6 +66,8 @@ class WeldTest {
   /// True when the contact has opened.
   bool testBroken(std::uint32_t weld, Drift& opening, double w_n);
 
+  void testPivot(const Pivot& pivot);
+
   /// A weld all of whose contacts have opened is broken; one that keeps a single contact is a
   /// pivot.
   void testLost(std::uint32_t weld);
@@ -131,7 +133,10 @@ class WeldTest {
                   const VelocityField& b) const;
 
   /// The same by a coarser bound, which needs no root and no pose.
-  bool clearlySlowerThan(double limit, const Weld& weld) const;
+  bool clearlySlowerThan(double limit, const Weld& weld, const Pivot& pivot) const;
+
+  /// Most pivots do not move, which a look at their two velocities tells.
+  bool staysPut(const Pivot& pivot) const;
 
   /// Writes one test down if somebody asks: only then is `test()` made.
   template <class MakeDecision>
@@ -159,6 +164,7 @@ class WeldTest {
   Rotation turn_;
   double residual_;                    ///< what a sweep leaves for the next one [m/s]
   std::vector<std::uint32_t>& leant_;  ///< bridges that leaned in the last step
+  double still_ = 0.0;                 ///< least() of a weld that nothing is special about [m/s]
   bool confirming_ = false;
   bool growing_ = false;    ///< some sum grew in this step, and is not too large yet
   bool disturbed_ = false;  ///< something new entered in this step: the sweeps have converged
