@@ -140,6 +140,8 @@ struct Collection {
   std::vector<std::uint32_t> cut_welds;  ///< in the last step
   /// Welds without which, all at once, it was found to hold together.
   std::vector<std::uint32_t> spare;
+  /// Such a `cut_welds` of a step since which no contact has opened.
+  std::vector<std::uint32_t> stood;
   /// Other welds that have lost a contact since.
   std::vector<std::uint32_t> loosened;
   bool judged = false;  ///< asked since it was laid out whether it holds together

@@ -15,7 +15,7 @@ namespace merge2d {
 inline double cautionWith(const State& state, const Collection& c, const Weld& weld) {
   constexpr double kSteps = 200.0;  // of a weld, times the factor, before it is as any other
   if (weld.vain == 0 || state.settings.unmerging.rule == Rule::Paper) return 1.0;
-  const double factor = std::ldexp(1.0, weld.vain);
+  const double factor = static_cast<double>(1 << weld.vain);
   const auto lived = static_cast<double>(state.step - c.contacts[weld.first].since);
   return lived < kSteps * factor ? factor : 1.0;
 }

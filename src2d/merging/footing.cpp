@@ -58,6 +58,7 @@ bool holdsFirmly(const Collection& c, const Weld& weld) {
 }
 
 /// Asks with one choice of parts. True when some of it gives.
+template <class Joins>
 bool gives(const State& state, Scratch& scratch, const Collection& c, const Joins& joins,
            Footing& footing) {
   constexpr double kTakesPart = 0.1;  // of the fastest motion

@@ -37,9 +37,11 @@ Grip gripOf(const Collection& c, const Weld& weld, double resolution) {
 }
 
 void setGrip(Collection& c, std::uint32_t weld, double resolution) {
-  c.welds[weld].grip = gripOf(c, c.welds[weld], resolution);
-  if (!isPivot(c.welds[weld].grip)) c.welds[weld].turning = {};
-  c.pivots_stale = true;
+  Grip& grip = c.welds[weld].grip;
+  const bool turned = isPivot(grip);
+  grip = gripOf(c, c.welds[weld], resolution);
+  if (!isPivot(grip)) c.welds[weld].turning = {};
+  c.pivots_stale |= isPivot(grip) != turned;
 }
 
 }  // namespace

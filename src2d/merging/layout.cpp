@@ -222,6 +222,7 @@ void layOutBlocks(const State& state, Collection& c) {
 void forgetJudgement(Collection& c) {
   c.cut_welds.clear();
   c.spare.clear();
+  c.stood.clear();
   c.loosened.clear();
   c.judged = false;
   c.borne = {};

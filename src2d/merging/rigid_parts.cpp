@@ -14,13 +14,8 @@ namespace {
 constexpr std::size_t kMostParts = 32, kMostRows = 400;
 
 /// Numbers the parts by their first members; the frame comes after them.
-void numberParts(const Collection& c, RigidParts& p, const Joins& joins) {
+void numberParts(const Collection& c, RigidParts& p) {
   const auto members = static_cast<std::uint32_t>(c.members.size());
-  p.sets.reset(members);
-  for (const Weld& weld : c.welds) {
-    const bool inside = weld.node_a < members && weld.node_b < members;
-    if (inside && joins(weld)) p.sets.unite(weld.node_a, weld.node_b);
-  }
   p.of.resize(members + 1);
   std::uint32_t count = 0;
   for (std::uint32_t m = 0; m < members; ++m) {
@@ -174,9 +169,9 @@ double fastestAtWelds(const State& state, const Collection& c, const RigidParts&
 
 }  // namespace
 
-bool formParts(const State& state, Scratch& scratch, const Collection& c, const Joins& joins) {
+bool makeParts(const State& state, Scratch& scratch, const Collection& c) {
   RigidParts& p = scratch.rigid_parts;
-  numberParts(c, p, joins);
+  numberParts(c, p);
   if (p.of.back() > kMostParts) return false;
   gatherParts(state, scratch, c, p);
   if (!state[c.rigid].floating()) addGround(state, scratch, p, c.anchor);

@@ -1,21 +1,28 @@
 #pragma once
 /// Parts of a collection, each taken as one body, on the contacts between them.
 
-#include <functional>
-
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
 
-/// Whether a weld between two members makes them one part.
-using Joins = std::function<bool(const Weld&)>;
+/// Makes a part of each set of `scratch.rigid_parts`; see formParts.
+bool makeParts(const State& state, Scratch& scratch, const Collection& collection);
 
 /// Takes members as one part that are joined by welds for which `joins` is true, and gives each
 /// part the momentum that the sweep has left its members. What else they touch is immovable: the
 /// frame, and bodies outside, which move as the sweep has left them, or their collection. False
 /// when there are too many parts or contacts to be solved in passing.
-bool formParts(const State& state, Scratch& scratch, const Collection& collection,
-               const Joins& joins);
+template <class Joins>
+bool formParts(const State& state, Scratch& scratch, const Collection& collection, Joins&& joins) {
+  const auto members = static_cast<std::uint32_t>(collection.members.size());
+  DisjointSets& sets = scratch.rigid_parts.sets;
+  sets.reset(members);
+  for (const Weld& weld : collection.welds) {
+    const bool inside = weld.node_a < members && weld.node_b < members;
+    if (inside && joins(weld)) sets.unite(weld.node_a, weld.node_b);
+  }
+  return makeParts(state, scratch, collection);
+}
 
 /// Solves the contacts between the parts until none moves faster than `enough` against another that
 /// it is welded to, or their motion does not change any more. Returns the largest such speed [m/s];

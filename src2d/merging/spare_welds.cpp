@@ -13,17 +13,6 @@ void sortUnique(std::vector<std::uint32_t>& welds) {
   welds.erase(std::unique(welds.begin(), welds.end()), welds.end());
 }
 
-/// The welds that are cut or hold less than they did when `c.spare` was found, and are none of it.
-void listOthers(const Collection& c, std::vector<std::uint32_t>& others) {
-  others.clear();
-  for (const auto* welds : {&c.cut_welds, &c.loosened}) {
-    for (const std::uint32_t weld : *welds) {
-      if (!std::ranges::binary_search(c.spare, weld)) others.push_back(weld);
-    }
-  }
-  sortUnique(others);
-}
-
 void spare(Collection& c, const std::vector<std::uint32_t>& welds) {
   c.judged = true;
   c.spare.assign(welds.begin(), welds.end());
@@ -64,7 +53,20 @@ Parts judge(const State& state, Scratch& scratch, const Collection& c) {
   return partsWithoutCuts(state, c);
 }
 
-bool losesAMember(const Collection& c) {
+void listOthers(const State& state, Scratch& scratch, const Collection& c) {
+  auto& others = scratch.others;
+  others.clear();
+  const bool stood = !c.stood.empty() && c.stood == c.cut_welds;
+  if (stood && !asksForGood(state, scratch, c)) return;
+  for (const auto* welds : {&c.cut_welds, &c.loosened}) {
+    for (const std::uint32_t weld : *welds) {
+      if (!std::ranges::binary_search(c.spare, weld)) others.push_back(weld);
+    }
+  }
+  sortUnique(others);
+}
+
+bool losesAMember(const Collection& c, const Scratch& scratch) {
   const auto holdsNothing = [&](std::uint32_t node) {
     if (node == c.members.size()) return false;  // the frame
     return std::none_of(c.weld_of.begin() + c.weld_at[node],
@@ -73,19 +75,21 @@ bool losesAMember(const Collection& c) {
                                  holds(c.welds[weld].grip);
                         });
   };
-  return std::ranges::any_of(c.cut_welds, [&](std::uint32_t weld) {
-    if (std::ranges::binary_search(c.spare, weld)) return false;
+  return std::ranges::any_of(scratch.others, [&](std::uint32_t weld) {
+    if (!c.welds[weld].cut) return false;
     return holdsNothing(c.welds[weld].node_a) || holdsNothing(c.welds[weld].node_b);
   });
 }
 
 std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collection& c, bool anew) {
   auto& others = scratch.others;
-  listOthers(c, others);
   if (others.empty() && !anew) return {};
   // A layout only assumes that all holds together.
-  const bool known = c.judged && !anew && !losesAMember(c);
-  if (known && !asksForGood(state, scratch, c) && heldAround(state, c, others)) return {};
+  const bool known = c.judged && !anew;
+  if (known && !asksForGood(state, scratch, c) && heldAround(state, c, others)) {
+    c.stood.assign(c.cut_welds.begin(), c.cut_welds.end());
+    return {};
+  }
   if (known && othersAreSpare(state, scratch, c, others)) return {};
   Parts parts = judge(state, scratch, c);
   if (fallsApart(state, c, parts)) return parts;

@@ -106,8 +106,14 @@ bool waits(const State& state, Collection& c, bool disturbed) {
 struct Tested {
   std::size_t slot;
   Noted noted;
-  std::optional<Parts> parts = {};  ///< what it falls into
-  bool sure = false;                ///< whatever the trial finds
+  bool apart = false;  ///< falls into `parts`
+  Parts parts = {};
+  bool sure = false;  ///< whatever the trial finds
+
+  void fallsInto(Parts&& found) {
+    apart = true;
+    parts = std::move(found);
+  }
 };
 
 /// One sweep may not have converged: before anything parts, looks again after more.
@@ -118,7 +124,9 @@ std::optional<Parts> confirmedParts(State& state, Scratch& scratch, Collection& 
   sweepAgain(state, scratch, c);
   confirmJoints(state, c, scratch.sweep_u);
   test.confirmAll();
-  std::optional<Parts> parts = partsAtCuts(state, scratch, c, joints_loosened);
+  listOthers(state, scratch, c);
+  const bool anew = joints_loosened || losesAMember(c, scratch);
+  std::optional<Parts> parts = partsAtCuts(state, scratch, c, anew);
   c.refuted = !test.somethingGrows();
   return parts;
 }
@@ -162,7 +170,7 @@ bool losesFooting(State& state, Scratch& scratch, Tested& tested) {
   c.cut_welds = footing.giving;
   noteFooting(c, footing, scratch.notes);
   tested.noted.close();
-  tested.parts = std::move(parts);
+  tested.fallsInto(std::move(parts));
   tested.sure = std::ranges::none_of(
       footing.giving, [&](std::uint32_t w) { return cautionWith(state, c, c.welds[w]) > 1.0; });
   return true;
@@ -185,12 +193,18 @@ void testCollection(State& state, Scratch& scratch, Tested& tested) {
     tested.noted.close();
     return restate(state, tested.noted, "stays");
   }
-  if (!confirms(state) || !losesAMember(c)) {
-    tested.parts = partsAtCuts(state, scratch, c, joints_loosened);
-    if (!tested.parts) return;
+  if (joints_loosened) c.stood.clear();
+  listOthers(state, scratch, c);
+  const bool loses_a_member = losesAMember(c, scratch);
+  std::optional<Parts> parts;
+  if (!confirms(state) || !loses_a_member) {
+    parts = partsAtCuts(state, scratch, c, joints_loosened || loses_a_member);
+    if (!parts) return;
   }
-  if (!confirms(state)) return;
-  tested.parts = confirmedParts(state, scratch, c, test, joints_loosened, tested.noted);
+  if (confirms(state)) {
+    parts = confirmedParts(state, scratch, c, test, joints_loosened, tested.noted);
+  }
+  if (parts) tested.fallsInto(*std::move(parts));
 }
 
 /// What would not move stays: asked of all at once.
@@ -198,17 +212,17 @@ void keepWhatStays(State& state, Scratch& scratch, std::vector<Tested>& apart) {
   if (apart.empty()) return;
   std::vector<Proposal> proposals;
   for (const Tested& t : apart) {
-    proposals.push_back({state.collections[t.slot].rigid, *t.parts, t.sure});
+    proposals.push_back({state.collections[t.slot].rigid, t.parts, t.sure});
   }
   auto remaining = partsThatMove(state, scratch, proposals);
   for (std::size_t i = 0; i < apart.size(); ++i) {
     Collection& c = state.collections[apart[i].slot];
-    apart[i].parts = std::move(remaining[i]);
-    if (!apart[i].parts) {
+    apart[i].apart = remaining[i] && fallsApart(state, c, *remaining[i]);
+    if (remaining[i]) {
+      apart[i].parts = *std::move(remaining[i]);
+    } else {
       restate(state, apart[i].noted, "stays");
       refuse(c);
-    } else if (!fallsApart(state, c, *apart[i].parts)) {
-      apart[i].parts.reset();
     }
   }
 }
@@ -231,13 +245,13 @@ void unmerge(State& state, Scratch& scratch) {
     Tested tested{slot, Noted(scratch.notes)};
     testCollection(state, scratch, tested);
     tested.noted.close();
-    if (!tested.parts) restate(state, tested.noted, "cut");  // but held together by others
-    if (tested.parts) apart.push_back(std::move(tested));
+    if (!tested.apart) restate(state, tested.noted, "cut");  // but held together by others
+    if (tested.apart) apart.push_back(std::move(tested));
   }
   if (confirms(state)) keepWhatStays(state, scratch, apart);
   for (const Tested& tested : apart) {
     const RigidId id = state.collections[tested.slot].rigid;
-    if (tested.parts) splitAtCuts(state, scratch, id, *tested.parts);
+    if (tested.apart) splitAtCuts(state, scratch, id, tested.parts);
     restate(state, tested.noted, "cut");
   }
   finishSplits(state, scratch);

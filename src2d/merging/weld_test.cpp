@@ -18,8 +18,7 @@ void WeldTest::testAll() {
     if (c_.watched[i] || scratch_.notes || (whole_ && atLimit(c_.blocks[i]))) testContacts(i);
   }
   if (c_.pivots_stale) listPivots(state_, c_);
-  const Least usual = least(Weld{});
-  still_ = std::max(usual.noise, usual.slow);
+  still_ = least(Weld{}).most();
   for (const Pivot& pivot : c_.pivots) testPivot(pivot);
   testLeaning();
   if (isStruck()) testShaken();
@@ -64,7 +63,7 @@ void WeldTest::testContacts(std::uint32_t b) {
       if (!pressed && point.active) point.lost = testBroken(weld, point.opening, w.n);
       if (edge || idle) testSliding(weld, point.slip, w.t);
     }
-    if (pressed) noteCone(weld, k, i, edge);
+    if (pressed && scratch_.notes) noteCone(weld, k, i, edge);
     watched |= edge || !pressed;
     if (point.lost && !was_lost) {
       noteLoosened(weld);
@@ -88,6 +87,7 @@ bool WeldTest::carriesNothing(std::uint32_t w) const {
 }
 
 void WeldTest::noteLoosened(std::uint32_t weld) {
+  c_.stood.clear();
   const bool known = std::ranges::binary_search(c_.spare, weld) ||
                      std::ranges::find(c_.loosened, weld) != c_.loosened.end();
   if (!known) c_.loosened.push_back(weld);
@@ -216,8 +216,8 @@ void WeldTest::testPivot(const Pivot& pivot) {
 bool WeldTest::staysPut(const Pivot& pivot) const {
   const Weld& weld = c_.welds[pivot.weld];
   if (scratch_.notes || weld.cut) return false;
-  const bool bridge = weld.bridge && rule() == Rule::Default;
-  return clearlySlowerThan(bridge ? noiseAt(weld) : still_, weld, pivot);
+  const bool usual = !weld.bridge && weld.vain == 0;
+  return clearlySlowerThan(usual ? still_ : least(weld).most(), weld, pivot);
 }
 
 void WeldTest::leans(std::uint32_t weld) {
@@ -335,7 +335,7 @@ Vec2 WeldTest::between(const Weld& weld) const {
 }
 
 WeldTest::Turning WeldTest::relativeMotion(const Weld& weld, const Least& least) const {
-  const double limit = std::max(least.noise, least.slow);
+  const double limit = least.most();
   const auto number = static_cast<std::uint32_t>(&weld - c_.welds.data());
   if (!scratch_.notes && clearlySlowerThan(limit, weld, pivotAt(state_, c_, number))) return {};
   // Seen from the first body, so that it does not matter where in the world they are.
@@ -374,8 +374,8 @@ void WeldTest::doubt(const Weld& weld) {
 }
 
 void WeldTest::cutWeld(Weld& weld, EventReason reason) {
-  doubt(weld);
   if (weld.cut) return;
+  doubt(weld);
   weld.cut = true;
   weld.reason = reason;
   c_.cut_welds.push_back(static_cast<std::uint32_t>(&weld - c_.welds.data()));

@@ -48,6 +48,7 @@ class WeldTest {
   /// What a weld's bodies must move faster than [m/s].
   struct Least {
     double noise, slow;  ///< noiseAt(), slowFor()
+    double most() const { return std::max(noise, slow); }
   };
 
   /// Broken (Section 6.3) and on edge (Eqs. (19), (20)).

@@ -43,7 +43,9 @@ class EachWeldCut : public Observer {
         const Parts parts = partsWithoutCuts(state, without);
         const bool apart = fallsApart(state, without, parts);
         parted += apart ? 1 : 0;
-        if (losesAMember(without)) {
+        Scratch scratch;
+        listOthers(state, scratch, without);
+        if (losesAMember(without, scratch)) {
           ++alone;
           EXPECT_TRUE(apart);
         }
