@@ -44,6 +44,21 @@ void setGrip(Collection& c, std::uint32_t weld, double resolution) {
   c.pivots_stale |= isPivot(grip) != turned;
 }
 
+/// A weld as a pivot; of one to the frame the reach is not known.
+Pivot pivotAt(const State& state, const Collection& c, std::uint32_t weld) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const Body &a = state[c.welds[weld].a], &b = state[c.welds[weld].b];
+  if (a.rigid != c.rigid || b.rigid != c.rigid) return {weld, kInfinity};
+  const auto size = [](const Vec2& v) { return v.lpNorm<1>(); };  // needs no root
+  double radius = 0.0;
+  for (const BodyId id : {c.welds[weld].a, c.welds[weld].b}) {
+    const OrientedBox& box = state.extent(rigidOf(id)).box;
+    radius = std::max(radius, size(box.frame.position) + size(box.half));
+  }
+  const auto reach = static_cast<float>(radius + size(b.local - a.local));
+  return {weld, std::nextafter(reach, kInfinity)};
+}
+
 }  // namespace
 
 int activeContacts(const Collection& c, const Weld& weld) {
@@ -68,20 +83,6 @@ void findGrips(const State& state, Collection& c) {
     if (c.welds[i].grip == Grip::Unknown) c.welds[i].grip = gripOf(c, c.welds[i], resolution);
     if (!isPivot(c.welds[i].grip)) c.welds[i].turning = {};
   }
-}
-
-Pivot pivotAt(const State& state, const Collection& c, std::uint32_t weld) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const Body &a = state[c.welds[weld].a], &b = state[c.welds[weld].b];
-  if (a.rigid != c.rigid || b.rigid != c.rigid) return {weld, kInfinity};
-  const auto size = [](const Vec2& v) { return v.lpNorm<1>(); };  // needs no root
-  double radius = 0.0;
-  for (const BodyId id : {c.welds[weld].a, c.welds[weld].b}) {
-    const OrientedBox& box = state.extent(rigidOf(id)).box;
-    radius = std::max(radius, size(box.frame.position) + size(box.half));
-  }
-  const auto reach = static_cast<float>(radius + size(b.local - a.local));
-  return {weld, std::nextafter(reach, kInfinity)};
 }
 
 void listPivots(const State& state, Collection& c) {

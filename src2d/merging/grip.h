@@ -24,9 +24,6 @@ inline bool isPivot(Grip grip) { return grip == Grip::Lost || grip == Grip::Pivo
 /// At least one contact holds, or a joint.
 inline bool holds(Grip grip) { return grip != Grip::None && grip != Grip::Lost; }
 
-/// A weld as a pivot; of one to the frame the reach is not known.
-Pivot pivotAt(const State& state, const Collection& c, std::uint32_t weld);
-
 /// Lists the welds that are pivots.
 void listPivots(const State& state, Collection& c);
 

@@ -335,9 +335,6 @@ Vec2 WeldTest::between(const Weld& weld) const {
 }
 
 WeldTest::Turning WeldTest::relativeMotion(const Weld& weld, const Least& least) const {
-  const double limit = least.most();
-  const auto number = static_cast<std::uint32_t>(&weld - c_.welds.data());
-  if (!scratch_.notes && clearlySlowerThan(limit, weld, pivotAt(state_, c_, number))) return {};
   // Seen from the first body, so that it does not matter where in the world they are.
   const auto field = [&](BodyId b, const Vec2& at) {
     const SolverVelocity& u = scratch_.sweep_u[index(b)];
@@ -345,7 +342,7 @@ WeldTest::Turning WeldTest::relativeMotion(const Weld& weld, const Least& least)
   };
   const VelocityField a = field(weld.a, Vec2::Zero()), b = field(weld.b, between(weld));
   Turning motion;
-  if (!scratch_.notes && slowerThan(limit, weld, a, b)) return motion;
+  if (!scratch_.notes && slowerThan(least.most(), weld, a, b)) return motion;
   const Vec2 origin = state_.pose(weld.a).position;
   for (const BodyId id : {weld.a, weld.b}) {
     if (state_[id].rigid != c_.rigid) continue;  // only the box of the body that can move
