@@ -21,13 +21,6 @@ std::uint64_t hashOf(std::string_view bytes) {
   return hash;
 }
 
-/// Changes when a table of the program does.
-std::uint64_t layoutHash() {
-  return hashOf(fmt::format("{} {} {} {} {} {} {} {}", sizeof(Rigid), sizeof(Body), sizeof(Contact),
-                            sizeof(Collection), sizeof(ContactBlock), sizeof(JointBlock),
-                            sizeof(Joint), sizeof(State)));
-}
-
 /// All of a scene that the simulation sees.
 std::uint64_t sceneHash(Scene scene) {
   scene.title.clear();
@@ -132,6 +125,59 @@ class Reader {
   std::string_view rest_;
   const std::string& source_;
 };
+
+/// An archive that writes down which fields there are, in order, with their kinds and sizes.
+class Signature {
+ public:
+  template <class... T>
+  void operator()(const T&... values) {
+    (put(values), ...);
+  }
+  std::string text;
+
+ private:
+  template <class T>
+  void put(const T& value) {
+    if constexpr (Plain<T>) {
+      text += std::is_floating_point_v<T> ? 'f' : std::is_enum_v<T> ? 'e' : 'i';
+      text += static_cast<char>('0' + sizeof value);
+    } else {
+      fields(*this, value);
+    }
+  }
+  void put(const Vec2&) { text += 'v'; }
+  void put(const Eigen::Matrix3d&) { text += 'm'; }
+  template <class A, class B>
+  void put(const std::pair<A, B>& pair) {
+    (*this)(pair.first, pair.second);
+  }
+  template <class T, std::size_t n>
+  void put(const std::array<T, n>& array) {
+    text += fmt::format("{}*", n);
+    put(array.front());
+  }
+  template <class T, std::size_t n>
+  void put(const T (&array)[n]) {
+    text += fmt::format("{}*", n);
+    put(array[0]);
+  }
+  template <class T>
+  void put(const std::vector<T>&) {
+    text += '[';
+    put(T{});
+    text += ']';
+  }
+};
+
+/// Changes when what a state consists of does.
+std::uint64_t layoutHash() {
+  static const std::uint64_t hash = [] {
+    Signature signature;
+    signature(State{}, Actions{}, std::vector<Aabb>{});
+    return hashOf(signature.text);
+  }();
+  return hash;
+}
 
 struct Header {
   std::uint32_t version = kVersion;

@@ -1,8 +1,8 @@
 #pragma once
 /// The state of a world as bytes: a run continues from them as if it had never stopped.
 ///
-/// Format: "merge2d-state", version of the format, layout of the program's tables, fingerprint of
-/// the scene, mode, state, checksum. Only the program that wrote such a file reads it.
+/// Format: "merge2d-state", version of the format, fingerprint of the fields that a state has and
+/// of the scene, mode, state, checksum. Only a program with the same fields reads such a file.
 
 #include <string>
 #include <string_view>

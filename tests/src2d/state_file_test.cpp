@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "src2d/core/error.h"
 #include "tests/support/fingerprint.h"
 #include "tests/support/scenes.h"
@@ -177,6 +179,28 @@ TEST_F(StateFileErrors, AnyFlippedBitIsFound) {
     std::string damaged = bytes_;
     damaged[at] = static_cast<char>(damaged[at] ^ 4);
     EXPECT_THAT(refusal(damaged, scene_), HasSubstr("damaged")) << at;
+  }
+}
+
+/// The bytes with one at `place` changed, and the checksum that belongs to them (FNV-1a, 64 bits).
+std::string forged(std::string bytes, std::size_t place) {
+  bytes[place] = static_cast<char>(bytes[place] ^ 4);
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const std::size_t size = bytes.size() - sizeof hash;
+  for (std::size_t i = 0; i < size; ++i) {
+    hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3u;
+  }
+  std::memcpy(bytes.data() + size, &hash, sizeof hash);
+  return bytes;
+}
+
+TEST_F(StateFileErrors, WhatHasOtherFieldsIsOfAnotherVersion) {
+  const std::size_t version = kStateStart.size(), fields = version + sizeof(std::uint32_t);
+  for (const std::size_t place : {version, fields, fields + 7}) {
+    EXPECT_EQ(refusal(forged(bytes_, place), scene_),
+              "saved.state: the snapshot was written by another version of merge2d; run the scene "
+              "again")
+        << place;
   }
 }
 
