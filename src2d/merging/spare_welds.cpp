@@ -85,14 +85,16 @@ std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collectio
   auto& others = scratch.others;
   if (others.empty() && !anew) return {};
   // A layout only assumes that all holds together.
-  const bool known = c.judged && !anew;
-  if (known && !asksForGood(state, scratch, c) && heldAround(state, c, others)) {
+  const bool known = c.judged && !anew, for_good = asksForGood(state, scratch, c);
+  if (known && !for_good && heldAround(state, c, others)) {
     c.stood.assign(c.cut_welds.begin(), c.cut_welds.end());
     return {};
   }
-  if (known && othersAreSpare(state, scratch, c, others)) return {};
+  if (known && for_good && othersAreSpare(state, scratch, c, others)) return {};
+  // What no detour leads around mostly parts, whatever else is spare.
   Parts parts = judge(state, scratch, c);
   if (fallsApart(state, c, parts)) return parts;
+  if (known && !for_good && othersAreSpare(state, scratch, c, others)) return {};
   others.assign(c.cut_welds.begin(), c.cut_welds.end());
   sortUnique(others);
   spare(c, others);
