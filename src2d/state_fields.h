@@ -159,13 +159,18 @@ void fields(Ar& ar, Some<Pivot> auto& p) {
   ar(weld, reach);
 }
 template <class Ar>
+void fields(Ar& ar, Some<BlockWatch> auto& w) {
+  auto& [bits] = w;
+  ar(bits);
+}
+template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
-  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watched, pivots, leaning,
+  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
          cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds,
          weld_at, weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up,
          struck, refusals, patience, hastened_in, hastened_every, lingering, residual, settled,
          rested, refuted] = c;
-  ar(id, rigid, anchor, members, contacts, blocks, block_contact, watched, pivots, leaning,
+  ar(id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
      cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
      weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up, struck,
      refusals, patience, hastened_in, hastened_every, lingering, residual, settled, rested,

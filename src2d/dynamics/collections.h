@@ -124,6 +124,19 @@ struct Pivot {
   float reach = 0.0F;  ///< from the first body's centre to any corner of the two, at most [m]
 };
 
+/// What the tests of a step know of a block before they look at its contact.
+struct BlockWatch {
+  /// The point has carried a force: PointWatch::active, at hand.
+  bool active(int point) const { return ((bits >> point) & 1) != 0; }
+  void activate(int point) { bits = static_cast<std::uint8_t>(bits | (1 << point)); }
+  /// It is at its limit, or was in the last step.
+  bool watched() const { return (bits & kWatched) != 0; }
+  void watch(bool on) { bits = static_cast<std::uint8_t>(on ? bits | kWatched : bits & ~kWatched); }
+
+  static constexpr int kWatched = 4;
+  std::uint8_t bits = kWatched;
+};
+
 /// Bodies simulated as one (Section 4).
 struct Collection {
   CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
@@ -134,7 +147,7 @@ struct Collection {
   std::vector<ContactBlock> blocks;       ///< one per contact, in the order of an undisturbed sweep
   /// Which contact a block is; empty when contacts have left since.
   std::vector<std::uint32_t> block_contact;
-  std::vector<std::uint8_t> watched;     ///< per block: is at its limit, or was in the last step
+  std::vector<BlockWatch> watches;       ///< per block
   std::vector<Pivot> pivots;             ///< Lost or Pivot: the only ones that can turn in 2D
   std::vector<std::uint32_t> leaning;    ///< bridges with a contact that now carries nothing
   std::vector<std::uint32_t> cut_welds;  ///< in the last step

@@ -36,14 +36,6 @@ Grip gripOf(const Collection& c, const Weld& weld, double resolution) {
   return hadContact(c, weld) ? Grip::Lost : Grip::None;
 }
 
-void setGrip(Collection& c, std::uint32_t weld, double resolution) {
-  Grip& grip = c.welds[weld].grip;
-  const bool turned = isPivot(grip);
-  grip = gripOf(c, c.welds[weld], resolution);
-  if (!isPivot(grip)) c.welds[weld].turning = {};
-  c.pivots_stale |= isPivot(grip) != turned;
-}
-
 /// A weld as a pivot; of one to the frame the reach is not known.
 Pivot pivotAt(const State& state, const Collection& c, std::uint32_t weld) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -57,6 +49,19 @@ Pivot pivotAt(const State& state, const Collection& c, std::uint32_t weld) {
   }
   const auto reach = static_cast<float>(radius + size(b.local - a.local));
   return {weld, std::nextafter(reach, kInfinity)};
+}
+
+/// A weld that has just become a pivot joins the others, one that has ceased to be one leaves them.
+void keepPivots(const State& state, Collection& c, std::uint32_t weld) {
+  if (c.pivots_stale) return;
+  const auto place = std::ranges::lower_bound(c.pivots, weld, {}, &Pivot::weld);
+  if (!isPivot(c.welds[weld].grip)) {
+    c.pivots.erase(place);
+    return;
+  }
+  const auto offset = place - c.pivots.begin();
+  reserveTightly(c.pivots, c.pivots.size() + 1);
+  c.pivots.insert(c.pivots.begin() + offset, pivotAt(state, c, weld));
 }
 
 }  // namespace
@@ -73,7 +78,11 @@ double resolutionOf(const State& state, const Collection& c) {
 }
 
 void updateGrip(const State& state, Collection& c, std::uint32_t weld) {
-  setGrip(c, weld, resolutionOf(state, c));
+  Grip& grip = c.welds[weld].grip;
+  const bool turned = isPivot(grip);
+  grip = gripOf(c, c.welds[weld], resolutionOf(state, c));
+  if (!isPivot(grip)) c.welds[weld].turning = {};
+  if (isPivot(grip) != turned) keepPivots(state, c, weld);
 }
 
 void findGrips(const State& state, Collection& c) {

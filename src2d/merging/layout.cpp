@@ -198,20 +198,23 @@ void orderBlocks(Collection& c) {
 void layOutBlocks(const State& state, Collection& c) {
   orderBlocks(c);
   const auto old_blocks = std::exchange(c.blocks, {});
-  const auto old_watched = std::exchange(c.watched, {});
+  const auto old_watches = std::exchange(c.watches, {});
   c.blocks.reserve(c.contacts.size());
-  c.watched.reserve(c.contacts.size());
+  c.watches.reserve(c.contacts.size());
   c.points = 0;
   for (const std::uint32_t contact : c.block_contact) {
     InternalContact& inner = c.contacts[contact];
     if (inner.block != InternalContact::kNoBlock) {
       c.blocks.push_back(old_blocks[inner.block]);
-      c.watched.push_back(old_watched[inner.block]);
+      c.watches.push_back(old_watches[inner.block]);
     } else {
       c.blocks.push_back(makeBlock(state, c, inner));
-      c.watched.push_back(1);
+      c.watches.emplace_back();
       inner.count = static_cast<std::int16_t>(
           c.blocks.back().count);  // points too close to each other count as one
+    }
+    for (int i = 0; i < inner.count; ++i) {
+      if (inner.watch[static_cast<std::size_t>(i)].active) c.watches.back().activate(i);
     }
     inner.block = static_cast<std::uint32_t>(c.blocks.size() - 1);
     c.points += inner.count;

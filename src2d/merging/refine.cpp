@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src2d/dynamics/nncg.h"
+#include "src2d/merging/limits.h"
 #include "src2d/merging/ordering.h"
 
 namespace merge2d {
@@ -26,6 +27,7 @@ class Refinement {
     }
     swept_.resize(items);
     active_.reserve(items);
+    inner_.reserve(items);
     reached_.reserve(scratch.sweep_u.size());
     walk_.reserve(scratch.sweep_u.size());
   }
@@ -38,6 +40,7 @@ class Refinement {
       walk();
       const int more = std::max(1, std::min(kRound, scope_.most - done) - 1);
       converge(more);
+      for (const auto& [c, block] : inner_) watchLimits(c->blocks[block], c->watches[block]);
       done += 1 + more;
       queueRestless();
     }
@@ -111,6 +114,7 @@ class Refinement {
     for (const Reached& r : reached_) place_[r.body] = kNowhere;
     reached_.clear();
     active_.clear();
+    inner_.clear();
     walk_.clear();
     std::ranges::fill(swept_, 0);
     for (const std::uint32_t body : queue_) {
@@ -163,6 +167,7 @@ class Refinement {
         const std::uint32_t block = c.contacts[i].block, number = first_block_[slot] + block;
         if (swept_[number]) continue;
         sweepOnce(number, SweepItem(c.blocks[block], state_[id].rotation));
+        inner_.emplace_back(&c, block);
       }
     }
   }
@@ -250,6 +255,7 @@ class Refinement {
   std::vector<Reached> reached_;            ///< by this round; only those that respond to forces
   std::size_t known_ = 0;                   ///< so many of them when the last sweeps began
   std::vector<SweepItem> active_;           ///< of this round, in the order of the walk
+  std::vector<std::pair<Collection*, std::uint32_t>> inner_;  ///< blocks among them
 
   // Largest changes of a body's velocity, squared [m²/s²].
   double restless_ = 0.0;  ///< in the last sweep

@@ -97,7 +97,7 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
     for (JointBlock& k : c.joints) solveJoint(k, turn, u[k.a], u[k.b]);
     for (std::uint32_t i = 0; i < c.active_blocks; ++i) {
       sweepBlock(c.blocks[i], turn, u, state.settings.solver.method);
-      if (s + 1 == sweeps && atLimit(c.blocks[i])) c.watched[i] = 1;
+      if (s + 1 == sweeps) watchLimits(c.blocks[i], c.watches[i]);
     }
   }
   settleJoints(state, c, u, residualVelocity(state));
@@ -217,6 +217,9 @@ void sweepBreadthFirst(State& state, Scratch& scratch) {
   }
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     scratch.push_stale[slot] = scratch.disturbed[slot];
+    if (!scratch.disturbed[slot]) continue;
+    Collection& c = state.collections[slot];
+    for (std::size_t i = 0; i < c.blocks.size(); ++i) watchLimits(c.blocks[i], c.watches[i]);
   }
 }
 

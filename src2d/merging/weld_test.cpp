@@ -12,10 +12,10 @@ namespace merge2d {
 void WeldTest::testAll() {
   std::swap(leant_, c_.leaning);
   c_.leaning.clear();
-  // A plain sweep has watched the contacts that it left at their limits.
+  // Sweeps have watched the contacts that they left at their limits.
   const std::size_t blocks = whole_ ? c_.blocks.size() : c_.active_blocks;
   for (std::uint32_t i = 0; i < blocks; ++i) {
-    if (c_.watched[i] || scratch_.notes || (whole_ && atLimit(c_.blocks[i]))) testContacts(i);
+    if (c_.watches[i].watched() || scratch_.notes) testContacts(i);
   }
   if (c_.pivots_stale) listPivots(state_, c_);
   still_ = least(Weld{}).most();
@@ -40,6 +40,7 @@ void WeldTest::testContacts(std::uint32_t b) {
   InternalContact& inner = c_.contacts[c_.block_contact[b]];
   const std::uint32_t weld = inner.weld;
   const Vec2 n = turn_ * Vec2(k.nx, k.ny);
+  BlockWatch watch = c_.watches[b];
   bool watched = false;
   for (int i = 0; i < k.count; ++i) {
     PointWatch& point = inner.watch[static_cast<std::size_t>(i)];
@@ -64,14 +65,16 @@ void WeldTest::testContacts(std::uint32_t b) {
       if (edge || idle) testSliding(weld, point.slip, w.t);
     }
     if (pressed && scratch_.notes) noteCone(weld, k, i, edge);
-    watched |= edge || !pressed;
+    if (point.active) watch.activate(i);
+    watched |= edge || (!pressed && point.active);
     if (point.lost && !was_lost) {
       noteLoosened(weld);
       doubt(c_.welds[weld]);
     }
     if (was_lost != point.lost || was_active != point.active) updateGrip(state_, c_, weld);
   }
-  c_.watched[b] = watched ? 1 : 0;
+  watch.watch(watched);
+  c_.watches[b] = watch;
 }
 
 bool WeldTest::carriesNothing(std::uint32_t w) const {
@@ -216,8 +219,10 @@ void WeldTest::testPivot(const Pivot& pivot) {
 bool WeldTest::staysPut(const Pivot& pivot) const {
   const Weld& weld = c_.welds[pivot.weld];
   if (scratch_.notes || weld.cut) return false;
+  const double speed = fastestBound(weld, pivot);
+  if (!weld.bridge && speed <= still_) return true;  // whatever doubt there is asks for more
   const bool usual = !weld.bridge && weld.vain == 0;
-  return clearlySlowerThan(usual ? still_ : least(weld).most(), weld, pivot);
+  return !usual && speed <= least(weld).most();
 }
 
 void WeldTest::leans(std::uint32_t weld) {
@@ -322,10 +327,10 @@ bool WeldTest::slowerThan(double limit, const Weld& weld, const VelocityField& a
   return linear + std::abs(b.omega - a.omega) * (radius + between) <= limit;
 }
 
-bool WeldTest::clearlySlowerThan(double limit, const Weld& weld, const Pivot& pivot) const {
+double WeldTest::fastestBound(const Weld& weld, const Pivot& pivot) const {
   const SolverVelocity &a = scratch_.sweep_u[index(weld.a)], &b = scratch_.sweep_u[index(weld.b)];
   const double linear = std::abs(b.vx - a.vx) + std::abs(b.vy - a.vy);
-  return linear + (std::abs(a.omega) + std::abs(b.omega - a.omega)) * pivot.reach <= limit;
+  return linear + (std::abs(a.omega) + std::abs(b.omega - a.omega)) * pivot.reach;
 }
 
 Vec2 WeldTest::between(const Weld& weld) const {

@@ -133,8 +133,8 @@ class WeldTest {
   bool slowerThan(double limit, const Weld& weld, const VelocityField& a,
                   const VelocityField& b) const;
 
-  /// The same by a coarser bound, which needs no root and no pose.
-  bool clearlySlowerThan(double limit, const Weld& weld, const Pivot& pivot) const;
+  /// No corner is faster than this, a coarser bound that needs no root and no pose [m/s].
+  double fastestBound(const Weld& weld, const Pivot& pivot) const;
 
   /// Most pivots do not move, which a look at their two velocities tells.
   bool staysPut(const Pivot& pivot) const;

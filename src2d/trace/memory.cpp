@@ -23,7 +23,7 @@ std::size_t bytesOfState(const State& s) {
       bytesOf(s.contacts.slots, s.contacts.free_slots, s.contacts.order, s.contacts.idle) +
       bytesOfBroadphase(s.broadphase);
   for (const Collection& c : s.collections) {
-    total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.watched, c.pivots,
+    total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.watches, c.pivots,
                      c.leaning, c.cut_welds, c.spare, c.stood, c.loosened, c.welds, c.weld_at,
                      c.weld_of, c.joints, c.push);
   }

@@ -54,7 +54,7 @@ class EachWeldAskedTwice : public Observer {
       InternalContact& inner = c.contacts[c.block_contact[b]];
       if (inner.weld == but || !inner.watch[0].holds()) continue;
       c.blocks[b].lambda = {};
-      c.watched[b] = 1;
+      c.watches[b].watch(true);
       inner.watch[0].opening = {1.0F, 1};  // [m/s], far too much
       WeldTest(state, own, c, false).testAll();
       ASSERT_TRUE(inner.watch[0].lost);
