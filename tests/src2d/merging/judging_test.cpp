@@ -34,7 +34,7 @@ Pairs heldOf(const State& state, const MergeGraph& graph, const std::vector<Read
 class FullJudge : public Observer {
  public:
   void afterStage(Stage stage, const State& state, const Scratch& scratch) override {
-    if (stage == Stage::Unmerge) afterUnmerge(state);
+    if (stage == Stage::Unmerge || stage == Stage::Merge) everythingHolds(state);
     if (stage == Stage::AdvancePositions) beforeMerge(state, scratch);
     if (stage == Stage::Merge) afterMerge(state);
   }
@@ -44,8 +44,8 @@ class FullJudge : public Observer {
   int welded = 0;
 
  private:
-  /// What is left of each collection is held together, if all of it is judged.
-  static void afterUnmerge(const State& state) {
+  /// What is left of each collection, or has come to it, is held together, if all of it is judged.
+  static void everythingHolds(const State& state) {
     for (const Collection& c : state.collections) {
       if (c.id == kNoCollection) continue;
       const Parts parts = partsWithoutCuts(state, c);

@@ -40,6 +40,7 @@ class EachWeldCut : public Observer {
         Collection without = c;
         without.welds[i].cut = true;
         without.cut_welds = {static_cast<std::uint32_t>(i)};
+        without.stood.clear();
         const Parts parts = partsWithoutCuts(state, without);
         const bool apart = fallsApart(state, without, parts);
         parted += apart ? 1 : 0;
