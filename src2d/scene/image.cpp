@@ -21,6 +21,8 @@ class PngReader {
 
   void readHeader(const std::string& bytes) {
     if (png_image_begin_read_from_memory(&image_, bytes.data(), bytes.size()) == 0) fail();
+    // As with 8 bits, where no chunk says otherwise; libpng would take 16 for linear light.
+    image_.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   }
 
   Image readPixels() {

@@ -219,6 +219,21 @@ TEST(Drawing, GreyPicturesOfAnyDepthAreRead) {
   }
 }
 
+/// A sample of 16 bits that repeats its 8 means the same grey, and so the same density.
+TEST(Drawing, TheDepthOfASampleChangesNoDensity) {
+  const auto densityOf = [](int depth, unsigned value) {
+    const auto body = [&](std::uint32_t x, std::uint32_t) {
+      const unsigned grey = x == 1 ? value : 255;
+      return depth == 8 ? bits(grey, 8) : bits(257 * grey, 16);
+    };
+    const TemporaryFile file("grey.png", encodePng(3, 1, {.depth = depth, .color = 0}, body));
+    return loadScene(file.path().string()).bodies.at(0).density;
+  };
+  for (const unsigned value : {0u, 64u, 128u, 200u, 235u}) {
+    EXPECT_EQ(densityOf(16, value), densityOf(8, value)) << value;
+  }
+}
+
 TEST(Drawing, APaletteEntryThatIsNotThereIsNoCrash) {
   const PngKind palette{.depth = 8, .color = 3, .palette = std::string("\xff\xff\xff", 3)};
   const std::string file = encodePng(2, 2, palette, [](auto, auto) { return "11111111"; });
