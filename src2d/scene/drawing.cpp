@@ -291,17 +291,20 @@ class Drawing {
   /// Remembers a body that is blue in part: `matter` are its pixels.
   void noteMixture(const std::vector<Cell>& matter) {
     const auto blue = [&](const Cell& c) { return ink(c) == Ink::Pinned; };
-    if (mixtures_++ == 0) mixture_ = *std::ranges::find_if(matter, blue);
+    if (mixtures_++ > 0) return;
+    mixture_ = *std::ranges::find_if(matter, blue);
+    beside_ = *std::ranges::find_if_not(matter, blue);
   }
 
   void warnOfMixtures() {
     if (mixtures_ == 0) return;
     const std::string more = mixtures_ == 1 ? "" : fmt::format(" ({} bodies are so)", mixtures_);
-    warn(
-        fmt::format("pixel ({}, {}) is blue, but its body has other colours too and is not pinned: "
-                    "a body is pinned where all of it is blue; leave a white gap to what touches "
-                    "it{}",
-                    mixture_.x, mixture_.y, more));
+    const Image::Pixel& p = image_.at(beside_.x, beside_.y);
+    warn(fmt::format(
+        "pixel ({}, {}) is blue, but its body has other colours too, such as "
+        "#{:02x}{:02x}{:02x} at ({}, {}), and is not pinned: a body is pinned where all "
+        "of it is blue; draw the rest in blue, or leave a white gap to what touches it{}",
+        mixture_.x, mixture_.y, p.r, p.g, p.b, beside_.x, beside_.y, more));
   }
 
   void warnOfDoubts() {
@@ -346,7 +349,7 @@ class Drawing {
   double pixel_;
   std::map<std::string, int> numbers_;
   std::optional<Cell> first_;  ///< of the bodies' pixels
-  Cell mixture_;               ///< the first blue pixel of a body that is blue in part
+  Cell mixture_, beside_;      ///< the first pixels of a body that is blue in part: blue, and not
   int mixtures_ = 0;           ///< how many bodies are
 };
 

@@ -23,9 +23,9 @@ TEST(DrawingDoubts, AVerticalHorizonIsAnError) {
 TEST(DrawingDoubts, ABodyThatIsBlueInPartIsWarnedAbout) {
   EXPECT_THAT(draw({"###  b", "#b#  b"}).warnings,
               ElementsAre(EndsWith(
-                  "drawn.png: pixel (1, 1) is blue, but its body has other colours too and "
-                  "is not pinned: a body is pinned where all of it is blue; leave a white "
-                  "gap to what touches it")));
+                  "drawn.png: pixel (1, 1) is blue, but its body has other colours too, such as "
+                  "#000000 at (0, 0), and is not pinned: a body is pinned where all of it is blue; "
+                  "draw the rest in blue, or leave a white gap to what touches it")));
   EXPECT_THAT(draw({"#b   b  b#"}).warnings,
               ElementsAre(AllOf(HasSubstr("pixel (1, 0) is blue"), EndsWith("(2 bodies are so)"))));
   EXPECT_THAT(draw({"byb  r#"}).warnings, IsEmpty()) << "yellow is no matter";
