@@ -77,7 +77,9 @@ class Drawing {
     addGround(patches);
     if (patches.size() > SceneLimits::kBodies) {
       fail(patches[SceneLimits::kBodies].front(),
-           "is one body too many: a scene has at most {}, this drawing has {}",
+           "is one body too many: a scene has at most {}, this drawing has {}; is it a photograph, "
+           "or "
+           "full of specks? All that touches is one body",
            SceneLimits::kBodies, patches.size());
     }
     for (const Patch& patch : patches) addBody(patch);
@@ -237,8 +239,10 @@ class Drawing {
     body.at = point(0.5 * (x0 + x1), 0.5 * (y0 + y1));
     for (const PixelRect& r : coverByRectangles(mask)) body.shapes.push_back(placed(r, mask));
     if (body.shapes.size() > SceneLimits::kShapesPerBody) {
-      fail(cells[0], "starts a body of {} rectangles, at most {} are allowed", body.shapes.size(),
-           SceneLimits::kShapesPerBody);
+      fail(cells[0],
+           "starts a body of {} rectangles, at most {} are allowed: fill its holes, or straighten "
+           "its edges",
+           body.shapes.size(), SceneLimits::kShapesPerBody);
     }
     return body;
   }

@@ -97,9 +97,10 @@ TEST(DrawingDoubts, TooManyBodiesAreRefused) {
   for (std::size_t y = 0; y < 700; y += 2) {
     for (std::size_t x = 0; x < 700; x += 2) rows[y][x] = '#';
   }
-  EXPECT_EQ(drawingError(encode(rows)),
-            "bad.png: pixel (500, 570) is one body too many: a scene has at most 100000, this "
-            "drawing has 122500");
+  EXPECT_EQ(
+      drawingError(encode(rows)),
+      "bad.png: pixel (500, 570) is one body too many: a scene has at most 100000, this "
+      "drawing has 122500; is it a photograph, or full of specks? All that touches is one body");
 }
 
 TEST(DrawingDoubts, ABodyOfTooManyPiecesIsRefused) {
@@ -108,7 +109,9 @@ TEST(DrawingDoubts, ABodyOfTooManyPiecesIsRefused) {
     for (std::size_t x = y % 2; x < 300; x += 2) rows[y][x] = '#';
   }
   EXPECT_EQ(drawingError(encode(rows)),
-            "bad.png: pixel (0, 0) starts a body of 45000 rectangles, at most 10000 are allowed");
+            "bad.png: pixel (0, 0) starts a body of 45000 rectangles, at most 10000 are allowed: "
+            "fill its "
+            "holes, or straighten its edges");
 }
 
 TEST(DrawingDoubts, WhatIsNotAPngIsOneError) {
