@@ -153,19 +153,22 @@ class Signature {
   }
   template <class T, std::size_t n>
   void put(const std::array<T, n>& array) {
-    text += fmt::format("{}*", n);
-    put(array.front());
+    putTimes(n, array[0]);
   }
   template <class T, std::size_t n>
   void put(const T (&array)[n]) {
-    text += fmt::format("{}*", n);
-    put(array[0]);
+    putTimes(n, array[0]);
   }
   template <class T>
   void put(const std::vector<T>&) {
     text += '[';
     put(T{});
     text += ']';
+  }
+  template <class T>
+  void putTimes(std::size_t times, const T& item) {
+    text += fmt::format("{}*", times);
+    put(item);
   }
 };
 

@@ -78,8 +78,7 @@ class Drawing {
     if (patches.size() > SceneLimits::kBodies) {
       fail(patches[SceneLimits::kBodies].front(),
            "is one body too many: a scene has at most {}, this drawing has {}; is it a photograph, "
-           "or "
-           "full of specks? All that touches is one body",
+           "or full of specks? All that touches is one body",
            SceneLimits::kBodies, patches.size());
     }
     for (const Patch& patch : patches) addBody(patch);
