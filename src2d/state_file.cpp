@@ -32,21 +32,25 @@ std::uint64_t sceneHash(Scene scene) {
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-class Writer {
+/// An archive that goes through values down to their plain fields, which `Sink` takes by `plain`,
+/// as it takes lists by `list`.
+template <class Sink>
+class Walk {
  public:
   template <class... T>
   void operator()(const T&... values) {
     (put(values), ...);
   }
-  std::string bytes;
 
  private:
+  Sink& sink() { return static_cast<Sink&>(*this); }
+
   template <class T>
   void put(const T& value) {
     if constexpr (Plain<T>) {
-      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+      sink().plain(value);
     } else {
-      fields(*this, value);
+      fields(sink(), value);
     }
   }
   void put(const Vec2& v) { (*this)(v.x(), v.y()); }
@@ -67,9 +71,40 @@ class Writer {
   }
   template <class T>
   void put(const std::vector<T>& list) {
-    put(static_cast<std::uint64_t>(list.size()));
-    for (const T& item : list) put(item);
+    sink().list(list);
   }
+};
+
+/// Writes values as bytes.
+class Writer : public Walk<Writer> {
+ public:
+  template <class T>
+  void plain(const T& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  template <class T>
+  void list(const std::vector<T>& items) {
+    plain(static_cast<std::uint64_t>(items.size()));
+    for (const T& item : items) (*this)(item);
+  }
+  std::string bytes;
+};
+
+/// Writes down which fields there are, in order, with their kinds and sizes.
+class Signature : public Walk<Signature> {
+ public:
+  template <class T>
+  void plain(const T& value) {
+    text += std::is_floating_point_v<T> ? 'f' : std::is_enum_v<T> ? 'e' : 'i';
+    text += static_cast<char>('0' + sizeof value);
+  }
+  template <class T>
+  void list(const std::vector<T>&) {
+    text += '[';
+    (*this)(T{});
+    text += ']';
+  }
+  std::string text;
 };
 
 /// The counterpart of Writer; throws InputError at the end of the bytes.
@@ -124,52 +159,6 @@ class Reader {
 
   std::string_view rest_;
   const std::string& source_;
-};
-
-/// An archive that writes down which fields there are, in order, with their kinds and sizes.
-class Signature {
- public:
-  template <class... T>
-  void operator()(const T&... values) {
-    (put(values), ...);
-  }
-  std::string text;
-
- private:
-  template <class T>
-  void put(const T& value) {
-    if constexpr (Plain<T>) {
-      text += std::is_floating_point_v<T> ? 'f' : std::is_enum_v<T> ? 'e' : 'i';
-      text += static_cast<char>('0' + sizeof value);
-    } else {
-      fields(*this, value);
-    }
-  }
-  void put(const Vec2&) { text += 'v'; }
-  void put(const Eigen::Matrix3d&) { text += 'm'; }
-  template <class A, class B>
-  void put(const std::pair<A, B>& pair) {
-    (*this)(pair.first, pair.second);
-  }
-  template <class T, std::size_t n>
-  void put(const std::array<T, n>& array) {
-    putTimes(n, array[0]);
-  }
-  template <class T, std::size_t n>
-  void put(const T (&array)[n]) {
-    putTimes(n, array[0]);
-  }
-  template <class T>
-  void put(const std::vector<T>&) {
-    text += '[';
-    put(T{});
-    text += ']';
-  }
-  template <class T>
-  void putTimes(std::size_t times, const T& item) {
-    text += fmt::format("{}*", times);
-    put(item);
-  }
 };
 
 /// Changes when what a state consists of does.

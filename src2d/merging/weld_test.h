@@ -1,6 +1,8 @@
 #pragma once
 /// The tests of the welds of one collection (Sections 6.3 and 6.4): broken, sliding, moving.
 
+#include <algorithm>
+
 #include "src2d/dynamics/state.h"
 #include "src2d/merging/caution.h"
 #include "src2d/merging/metric.h"

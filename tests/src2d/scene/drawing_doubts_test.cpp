@@ -110,8 +110,7 @@ TEST(DrawingDoubts, ABodyOfTooManyPiecesIsRefused) {
   }
   EXPECT_EQ(drawingError(encode(rows)),
             "bad.png: pixel (0, 0) starts a body of 45000 rectangles, at most 10000 are allowed: "
-            "fill its "
-            "holes, or straighten its edges");
+            "fill its holes, or straighten its edges");
 }
 
 TEST(DrawingDoubts, WhatIsNotAPngIsOneError) {
