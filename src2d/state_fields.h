@@ -68,9 +68,9 @@ void fields(Ar& ar, Some<Rigid> auto& r) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Body> auto& b) {
-  auto& [first_shape, shape_count, rigid, motion, alive, magnet_on, mass, inertia, friction,
+  auto& [first_shape, shape_count, rigid, motion, alive, magnet_on, jolted, mass, inertia, friction,
          restitution, pinned_until, local_angle, local, local_rotation, load, load_asleep] = b;
-  ar(first_shape, shape_count, rigid, motion, alive, magnet_on, mass, inertia, friction,
+  ar(first_shape, shape_count, rigid, motion, alive, magnet_on, jolted, mass, inertia, friction,
      restitution, pinned_until, local_angle, local, local_rotation, load, load_asleep);
 }
 
@@ -169,12 +169,12 @@ void fields(Ar& ar, Some<Collection> auto& c) {
          cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds,
          weld_at, weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up,
          struck, refusals, patience, hastened_in, hastened_every, lingering, residual, settled,
-         rested, refuted] = c;
+         rested, refuted, jolted] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
      cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
      weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up, struck,
-     refusals, patience, hastened_in, hastened_every, lingering, residual, settled, rested,
-     refuted);
+     refusals, patience, hastened_in, hastened_every, lingering, residual, settled, rested, refuted,
+     jolted);
 }
 
 template <class Ar>

@@ -177,10 +177,11 @@ struct Collection {
   std::int16_t hastened_in = 0;     ///< steps before slow sweeps are hastened (slow_sweep.h)
   std::int16_t hastened_every = 0;  ///< and how many there were the last time
   float lingering = 0.0F;           ///< what the last refinement did not quieten [m/s]
-  float residual = 0.0F;  ///< largest change of a member's velocity in the last sweep [m/s]
-  bool settled = false;   ///< inner forces did not change in the last sweep
-  std::int8_t calm = 0;   ///< steps for which it has been so, in a round (sweep.cpp)
-  bool refuted = false;   ///< a closer look found that nothing parts, and nothing is new
+  float residual = 0.0F;    ///< largest change of a member's velocity in the last sweep [m/s]
+  bool settled = false;     ///< inner forces did not change in the last sweep
+  std::int8_t calm = 0;     ///< steps for which it has been so, in a round (sweep.cpp)
+  bool refuted = false;     ///< a closer look found that nothing parts, and nothing is new
+  std::uint8_t jolted = 0;  ///< the most of its members': Body::jolted
 };
 
 /// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.

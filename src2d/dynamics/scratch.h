@@ -111,7 +111,6 @@ struct RigidParts {
     double mass = 0.0, inertia = 0.0;
     Aabb bounds;  ///< in the collection's frame
   };
-  DisjointSets sets;
   std::vector<std::uint32_t> of;       ///< per node of the collection: its part
   std::vector<Part> parts;             ///< then the frame, then bodies outside that touch some
   std::vector<SolverVelocity> u;       ///< the same; only the parts respond

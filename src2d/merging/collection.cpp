@@ -36,6 +36,7 @@ RigidId collectionOf(State& state, BodyId b) {
   removeRigid(state, own);
   enlist(state, id, b, {single.x, single.rotation}, single.angle);
   state.collection(id).members = {b};
+  state.collection(id).jolted = state[b].jolted;
   addShapes(state, id, {b});
   insertRigid(state, id);
   state.collection(id).stale = true;
@@ -62,6 +63,7 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   const auto middle = static_cast<std::ptrdiff_t>(target.members.size());
   target.members.insert(target.members.end(), source.members.begin(), source.members.end());
   std::inplace_merge(target.members.begin(), target.members.begin() + middle, target.members.end());
+  target.jolted = std::max(target.jolted, source.jolted);
   state.extents[state[to].extent].bounds.include(placed(relative, state.extent(from).bounds));
   state[to].resized = true;
   target.stale = true;

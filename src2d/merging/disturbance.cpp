@@ -108,7 +108,23 @@ void reportImpacts(const State& state, Scratch& scratch) {
   });
 }
 
+void ageJolts(State& state) {
+  for (Collection& c : state.collections) {
+    if (c.jolted == 0) continue;
+    --c.jolted;
+    for (const BodyId b : c.members) {
+      std::uint8_t& left = state[b].jolted;
+      left = static_cast<std::uint8_t>(left - (left > 0));
+    }
+  }
+}
+
 }  // namespace
+
+void jolt(State& state, BodyId b) {
+  const RigidId id = state[b].rigid;
+  if (state.isCollection(id)) state.collection(id).jolted = state[b].jolted = kFollowed;
+}
 
 void orderContacts(State& state, Scratch& scratch) {
   expectContactsOfKicked(state, scratch);
@@ -116,6 +132,7 @@ void orderContacts(State& state, Scratch& scratch) {
   reportImpacts(state, scratch);
   scratch.seeds.clear();
   scratch.disturbed.assign(state.collections.size(), 0);
+  ageJolts(state);
   if (!state.settings.unmerging.ordering) return;
   enum class Blow { None, Soft, Hard };
   const auto seed = [&](BodyId b, Blow blow) {
@@ -123,6 +140,7 @@ void orderContacts(State& state, Scratch& scratch) {
     const RigidId id = state[b].rigid;
     if (!state.isCollection(id)) return;
     scratch.disturbed[index(id) - state.bodies.size()] = 1;
+    jolt(state, b);
     std::int16_t& struck = state.collection(id).struck;
     if (blow != Blow::None) struck = std::max<std::int16_t>(struck, kFollowed - 1);
     if (blow == Blow::Hard) struck = kFollowed;

@@ -128,7 +128,7 @@ void releaseRows(State& state, Scratch& scratch) {
   trim(scratch.blocks, scratch.row_sources, scratch.block_order, scratch.sweep_contacts,
        scratch.candidates, scratch.near_candidates, scratch.nncg.before, scratch.nncg.direction,
        scratch.nncg.u_before, scratch.nncg.u_direction, scratch.pairs, scratch.ready, scratch.u,
-       state.broadphase.near);
+       scratch.island_bodies, scratch.moved, scratch.doubted, state.broadphase.near);
 }
 
 }  // namespace merge2d

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src2d/dynamics/nncg.h"
+#include "src2d/merging/disturbance.h"
 #include "src2d/merging/limits.h"
 #include "src2d/merging/ordering.h"
 
@@ -226,13 +227,15 @@ class Refinement {
   }
 
   /// Queues the bodies that are not quiet: those that the last sweep still changed, and at the rim,
-  /// where not all items know of it yet, those that moved in this round.
+  /// where not all items know of it yet, those that moved in this round. Marks what was jolted.
   void queueRestless() {
     queue_.clear();
     restless_ = 0.0;
     for (std::size_t i = 0; i < reached_.size(); ++i) {
       const bool swept = reached_[i].queued && i < known_;
-      const double change = swept ? changeInLastSweep(i) : changeSinceStart(reached_[i]);
+      const double since_start = changeSinceStart(reached_[i]);
+      noteJolt(state_, reached_[i].body, since_start);
+      const double change = swept ? changeInLastSweep(i) : since_start;
       const bool restless = change > threshold_ * threshold_;
       if (restless) queue_.push_back(reached_[i].body);
       double& largest = restless ? restless_ : left_;
@@ -298,6 +301,12 @@ double residualVelocity(const State& state) {
 double refinedVelocity(const State& state) {
   constexpr double kPart = 0.1;
   return kPart * state.settings.unmerging.sliding;
+}
+
+void noteJolt(State& state, std::uint32_t body, double change) {
+  constexpr double kMuch = 5.0;
+  const double much = kMuch * state.settings.unmerging.sliding;
+  if (change > much * much && body < state.bodies.size()) jolt(state, BodyId{body});
 }
 
 double sweepUntilQuiet(State& state, Scratch& scratch, const SweepScope& scope,

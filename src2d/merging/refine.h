@@ -53,6 +53,10 @@ double residualVelocity(const State& state);
 /// of the slip that parts a weld [m/s].
 double refinedVelocity(const State& state);
 
+/// Notes a body whose velocity sweeps have changed by so much, squared, that it feels something
+/// new: by five times that slip, half of what gravity adds in a step of 0.01 s [m²/s²].
+void noteJolt(State& state, std::uint32_t body, double change);
+
 /// Sweeps what is at the seeds and at the bodies marked in `scratch.restless_bodies`, breadth
 /// first; then what is at bodies that the last sweep changed by more than `threshold` [m/s], and so
 /// on, accelerated as in the full solve, until there are none or `scope.most` sweeps are

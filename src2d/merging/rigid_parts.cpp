@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "src2d/core/memory.h"
 #include "src2d/dynamics/nncg.h"
 #include "src2d/merging/momentum.h"
 #include "src2d/merging/refine.h"
@@ -14,12 +15,12 @@ namespace {
 constexpr std::size_t kMostParts = 32, kMostRows = 400;
 
 /// Numbers the parts by their first members; the frame comes after them.
-void numberParts(const Collection& c, RigidParts& p) {
+void numberParts(const Collection& c, DisjointSets& sets, RigidParts& p) {
   const auto members = static_cast<std::uint32_t>(c.members.size());
   p.of.resize(members + 1);
   std::uint32_t count = 0;
   for (std::uint32_t m = 0; m < members; ++m) {
-    const std::uint32_t first = p.sets.find(m);
+    const std::uint32_t first = sets.find(m);
     p.of[m] = first == m ? count++ : p.of[first];
   }
   p.of[members] = count;
@@ -98,6 +99,12 @@ void addRow(RigidParts& p, const ContactBlock& model, BlockGeometry& g,
 
 /// False when there are too many.
 bool listWelds(const State& state, const Collection& c, RigidParts& p) {
+  const auto isBetween = [&](const Weld& weld) { return p.of[weld.node_a] != p.of[weld.node_b]; };
+  std::size_t rows = 0;
+  for (const Weld& weld : c.welds) rows += isBetween(weld) ? weld.count : 0;
+  if (rows > kMostRows) return false;
+  reserveTightly(p.rows, rows);
+  reserveTightly(p.weld_of, rows);
   const Pose frame = state[c.rigid].frame();
   const auto partOf = [&](std::uint32_t b) {
     const bool member = state.bodies[b].rigid == c.rigid;
@@ -105,8 +112,7 @@ bool listWelds(const State& state, const Collection& c, RigidParts& p) {
   };
   for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
     const Weld& weld = c.welds[w];
-    if (p.of[weld.node_a] == p.of[weld.node_b]) continue;
-    if (p.rows.size() + weld.count > kMostRows) return false;
+    if (!isBetween(weld)) continue;
     for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
       const ContactBlock& inner = c.blocks[c.contacts[i].block];
       BlockGeometry g;
@@ -171,7 +177,7 @@ double fastestAtWelds(const State& state, const Collection& c, const RigidParts&
 
 bool makeParts(const State& state, Scratch& scratch, const Collection& c) {
   RigidParts& p = scratch.rigid_parts;
-  numberParts(c, p);
+  numberParts(c, scratch.sets, p);
   if (p.of.back() > kMostParts) return false;
   gatherParts(state, scratch, c, p);
   if (!state[c.rigid].floating()) addGround(state, scratch, p, c.anchor);

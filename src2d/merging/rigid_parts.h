@@ -15,7 +15,7 @@ bool makeParts(const State& state, Scratch& scratch, const Collection& collectio
 template <class Joins>
 bool formParts(const State& state, Scratch& scratch, const Collection& collection, Joins&& joins) {
   const auto members = static_cast<std::uint32_t>(collection.members.size());
-  DisjointSets& sets = scratch.rigid_parts.sets;
+  DisjointSets& sets = scratch.sets;
   sets.reset(members);
   for (const Weld& weld : collection.welds) {
     const bool inside = weld.node_a < members && weld.node_b < members;

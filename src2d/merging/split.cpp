@@ -80,7 +80,10 @@ RigidId newPart(State& state, const std::vector<BodyId>& members,
   r.leaf = -1;
   r.quiet_steps = 0;
   r.asleep = false;
-  for (const BodyId b : members) state[b].rigid = id;
+  for (const BodyId b : members) {
+    state[b].rigid = id;
+    c.jolted = std::max(c.jolted, state[b].jolted);
+  }
   inheritMotion(state, id, whole, anchored);
   addShapes(state, id, members);
   insertRigid(state, id);

@@ -115,12 +115,15 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
   return std::sqrt(largest);
 }
 
-/// Marks the members whom the last sweep, which changed one by `largest`, changed too much [m/s].
-void markRestless(const State& state, const Collection& c, Scratch& scratch, double largest) {
+/// Marks the members whom the last sweep, which changed one by `largest`, changed too much [m/s],
+/// and those that it jolted.
+void markRestless(State& state, const Collection& c, Scratch& scratch, double largest) {
   const double enough = enoughAfter(state, largest);
   if (largest <= enough) return;
   for (std::size_t i = 0; i < c.members.size(); ++i) {
-    scratch.restless_bodies[index(c.members[i])] = scratch.u[i].vx > enough * enough ? 1 : 0;
+    const auto b = static_cast<std::uint32_t>(c.members[i]);
+    scratch.restless_bodies[b] = scratch.u[i].vx > enough * enough ? 1 : 0;
+    noteJolt(state, b, scratch.u[i].vx);
   }
 }
 
@@ -165,7 +168,7 @@ bool rests(const State& state, const Scratch& scratch, Collection& c) {
 
 /// Sweeps one collection once; one that could sleep but for its inner forces a few times more, so
 /// that it soon can. Returns the largest change [m/s].
-double sweepOnce(const State& state, Collection& c, Scratch& scratch) {
+double sweepOnce(State& state, Collection& c, Scratch& scratch) {
   constexpr double kSettled = 0.02;  // of what a sweep may leave
   const UnmergingSettings& settings = state.settings.unmerging;
   if (refines(settings) && rests(state, scratch, c)) {

@@ -6,6 +6,7 @@
 
 #include "src2d/dynamics/nncg.h"
 #include "src2d/merging/caution.h"
+#include "src2d/merging/disturbance.h"
 #include "src2d/merging/grip.h"
 #include "src2d/merging/momentum.h"
 #include "src2d/merging/refine.h"
@@ -290,11 +291,16 @@ void forget(const State& state, Collection& c, std::uint32_t w) {
 
 }  // namespace
 
-void withholdCuts(const State& state, Collection& c) {
-  for (const std::uint32_t w : c.cut_welds) holdOn(state, c, w);
-  for (const std::uint32_t w : c.loosened) holdOn(state, c, w);
-  c.cut_welds.clear();
-  c.loosened.clear();
+bool withholdCuts(const State& state, Collection& c) {
+  const auto withhold = [&](std::uint32_t w) {
+    const Weld& weld = c.welds[w];
+    if (std::max(state[weld.a].jolted, state[weld.b].jolted) == kFollowed) return false;
+    holdOn(state, c, w);
+    return true;
+  };
+  std::erase_if(c.cut_welds, withhold);
+  std::erase_if(c.loosened, withhold);
+  return c.cut_welds.empty() && c.loosened.empty();
 }
 
 namespace {

@@ -27,8 +27,9 @@ struct Proposal {
 std::vector<std::optional<Parts>> partsThatMove(State& state, Scratch& scratch,
                                                 std::span<const Proposal> proposals);
 
-/// Lets all welds hold that were cut or lost contacts since that was last judged; what was summed
-/// against them stays.
-void withholdCuts(const State& state, Collection& c);
+/// Lets welds hold that were cut or lost contacts since that was last judged, but for those at
+/// bodies that this step jolted; what was summed against them stays. Returns true when none is
+/// left.
+bool withholdCuts(const State& state, Collection& c);
 
 }  // namespace merge2d

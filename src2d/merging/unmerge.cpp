@@ -43,13 +43,24 @@ struct Noted {
   }
 };
 
-/// What was decided about welds may not be what came of it: one verdict `to` another where the pair
-/// stayed together.
-void restate(const State& state, const Noted& noted, std::string_view to) {
+/// What was decided about welds may not be what came of it: one verdict `to` another where `holds`.
+template <class Holds>
+void restate(const Noted& noted, std::string_view to, Holds&& holds) {
   for (std::size_t i = noted.first; i < noted.last; ++i) {
     Decision& d = noted.notes->decisions[i];
-    if (d.verdict == "unmerge" && stillTogether(state, d.a, d.b)) d.verdict = to;
+    if (d.verdict == "unmerge" && holds(d)) d.verdict = to;
   }
+}
+
+/// The same where the pair stayed together.
+void restate(const State& state, const Noted& noted, std::string_view to) {
+  restate(noted, to, [&](const Decision& d) { return stillTogether(state, d.a, d.b); });
+}
+
+bool isCut(const Collection& c, BodyId a, BodyId b) {
+  return std::ranges::any_of(c.cut_welds, [&](std::uint32_t weld) {
+    return c.welds[weld].a == a && c.welds[weld].b == b;
+  });
 }
 
 void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts) {
@@ -84,7 +95,7 @@ bool breakInside(State& state, Scratch& scratch, Collection& c) {
   return true;
 }
 
-/// What seemed to part would not have moved: that is asked again, but ever less often while nothing
+/// What seemed to part would not have moved: that is asked again, but ever less often where nothing
 /// new comes in.
 void refuse(Collection& c) {
   constexpr std::int8_t kMost = 5;  // 32 steps
@@ -93,13 +104,25 @@ void refuse(Collection& c) {
   c.refuted = true;
 }
 
-/// Whether to let what seems to part be for now.
-bool waits(const State& state, Collection& c, bool disturbed) {
-  if (disturbed) c.patience = c.refusals = 0;
+/// Whether what has come in lately jolted a good part of the collection.
+bool isJolted(const State& state, const Collection& c) {
+  constexpr std::ptrdiff_t kPart = 4;
+  if (c.jolted == 0) return false;
+  const auto jolted =
+      std::ranges::count_if(c.members, [&](BodyId b) { return state[b].jolted > 0; });
+  return kPart * jolted >= std::ssize(c.members);
+}
+
+/// Whether to let all that seems to part be for now. Not what is jolted in this step: a heap on
+/// which things fall is always disturbed somewhere, and the rest of it waits on.
+bool waits(const State& state, Collection& c, bool disturbed, Noted& noted) {
+  if (disturbed && isJolted(state, c)) c.patience = c.refusals = 0;
   if (c.patience == 0 || (c.cut_welds.empty() && c.loosened.empty())) return false;
   --c.patience;
-  withholdCuts(state, c);
-  return true;
+  const bool all = withholdCuts(state, c);
+  noted.close();
+  restate(noted, "stays", [&](const Decision& d) { return !isCut(c, d.a, d.b); });
+  return all;
 }
 
 /// One collection, tested.
@@ -189,10 +212,9 @@ void testCollection(State& state, Scratch& scratch, Tested& tested) {
   if (joints_loosened) doubtJoints(scratch, c);
   WeldTest test(state, scratch, c, scratch.disturbed[slot] != 0);
   test.testAll();
-  if (confirms(state) && !joints_loosened && waits(state, c, scratch.disturbed[slot] != 0)) {
-    tested.noted.close();
-    return restate(state, tested.noted, "stays");
-  }
+  if (confirms(state) && !joints_loosened &&
+      waits(state, c, scratch.disturbed[slot] != 0, tested.noted))
+    return;
   if (joints_loosened) c.stood.clear();
   listOthers(state, scratch, c);
   const bool loses_a_member = losesAMember(c, scratch);

@@ -98,7 +98,7 @@ struct WeldView {
 };
 
 enum class EventType { Merge, Unmerge, Sleep, Wake, Impact, Emit, Break };
-enum class EventReason { None, Broken, Sliding, RelativeMotion, Cycle, User };
+enum class EventReason : std::uint8_t { None, Broken, Sliding, RelativeMotion, Cycle, User };
 
 /// What happened. A `Merge` is a join: of two things one was made, so that n bodies need n − 1 of
 /// them, however many contacts hold them together afterwards. An `Unmerge` is the end of one weld,

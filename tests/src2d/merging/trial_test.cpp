@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <utility>
+
 #include "tests/src2d/merging/merging_testing.h"
 #include "tests/support/scenes.h"
 
@@ -85,6 +88,62 @@ TEST(Trial, ABlowGoesThroughNeighboursThatPartInTheSameStep) {
   EXPECT_EQ(reference, 16);
   EXPECT_NEAR(movedIn(Mode::Merge), reference, 2);
   EXPECT_NEAR(movedIn(Mode::MergeSleep), reference, 2);
+}
+
+/// Watches how long collections wait in which a trial found that nothing would move.
+class Waiting : public Observer {
+ public:
+  void afterStage(Stage stage, const State& state, const Scratch& scratch) override {
+    if (stage == Stage::SingleIterationPGS) remember(state);
+    if (stage != Stage::Unmerge) return;
+    for (std::size_t slot = 0; slot < scratch.disturbed.size(); ++slot) {
+      const Collection& c = state.collections[slot];
+      const auto known = before_.find(c.id);
+      if (scratch.disturbed[slot] && known != before_.end()) compare(state, c, known->second);
+    }
+  }
+
+  int waited = 0, asked = 0, anew = 0;  ///< collections in disturbed steps
+
+ private:
+  struct Before {
+    int patience = 0;
+    bool jolted = false;  ///< a quarter of its members
+  };
+
+  void remember(const State& state) {
+    before_.clear();
+    for (const Collection& c : state.collections) {
+      if (c.id == kNoCollection || c.patience == 0) continue;
+      const auto jolted =
+          std::ranges::count_if(c.members, [&](BodyId b) { return state[b].jolted > 0; });
+      before_[c.id] = {c.patience, 4 * jolted >= std::ssize(c.members)};
+    }
+  }
+
+  void compare(const State& state, const Collection& c, const Before& before) {
+    const bool some = !c.cut_welds.empty() || !c.loosened.empty();
+    if (c.patience == before.patience - 1 && !before.jolted) {
+      ++(some ? asked : waited);
+      EXPECT_TRUE(!some || c.jolted > 0) << "step " << state.step;
+    } else if (c.patience == 0) {
+      ++anew;
+      EXPECT_TRUE(before.jolted) << "step " << state.step;
+    }
+  }
+
+  std::map<CollectionId, Before> before_;
+};
+
+/// A heap on which things fall is always disturbed somewhere.
+TEST(Trial, WhatStayedWaitsOnWhileABlowFallsElsewhere) {
+  Waiting waiting;
+  World world(loadScene("funnel"), {.mode = Mode::Merge, .timings = false});
+  world.observe(&waiting);
+  for (int i = 0; i < 12000; ++i) world.step();
+  EXPECT_GT(waiting.waited, 400);
+  EXPECT_GT(waiting.asked, 20) << "of what the blow jolts";
+  EXPECT_GT(waiting.anew, 5) << "as it jolts much of the collection";
 }
 
 }  // namespace
