@@ -126,6 +126,14 @@ void jolt(State& state, BodyId b) {
   if (state.isCollection(id)) state.collection(id).jolted = state[b].jolted = kFollowed;
 }
 
+bool isJolted(const State& state, const Collection& c) {
+  constexpr std::ptrdiff_t kPart = 4;
+  if (c.jolted == 0) return false;
+  const auto jolted =
+      std::ranges::count_if(c.members, [&](BodyId b) { return state[b].jolted > 0; });
+  return kPart * jolted >= std::ssize(c.members);
+}
+
 void orderContacts(State& state, Scratch& scratch) {
   expectContactsOfKicked(state, scratch);
   findMeetings(state, scratch);

@@ -303,9 +303,13 @@ double refinedVelocity(const State& state) {
   return kPart * state.settings.unmerging.sliding;
 }
 
-void noteJolt(State& state, std::uint32_t body, double change) {
+double joltVelocity(const State& state) {
   constexpr double kMuch = 5.0;
-  const double much = kMuch * state.settings.unmerging.sliding;
+  return kMuch * state.settings.unmerging.sliding;
+}
+
+void noteJolt(State& state, std::uint32_t body, double change) {
+  const double much = joltVelocity(state);
   if (change > much * much && body < state.bodies.size()) jolt(state, BodyId{body});
 }
 

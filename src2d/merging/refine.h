@@ -53,8 +53,11 @@ double residualVelocity(const State& state);
 /// of the slip that parts a weld [m/s].
 double refinedVelocity(const State& state);
 
-/// Notes a body whose velocity sweeps have changed by so much, squared, that it feels something
-/// new: by five times that slip, half of what gravity adds in a step of 0.01 s [m²/s²].
+/// A body whose velocity sweeps change by more than this feels something new: five times that slip,
+/// half of what gravity adds in a step of 0.01 s [m/s].
+double joltVelocity(const State& state);
+
+/// Notes it where that is so, of a change squared [m²/s²].
 void noteJolt(State& state, std::uint32_t body, double change);
 
 /// Sweeps what is at the seeds and at the bodies marked in `scratch.restless_bodies`, breadth

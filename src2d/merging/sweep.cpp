@@ -116,9 +116,10 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
 }
 
 /// Marks the members whom the last sweep, which changed one by `largest`, changed too much [m/s],
-/// and those that it jolted.
+/// and those that it jolted: no others while the collection waits long, as only they can part.
 void markRestless(State& state, const Collection& c, Scratch& scratch, double largest) {
-  const double enough = enoughAfter(state, largest);
+  const bool waits = c.patience > 0 && c.refusals == kMostRefusals && !isJolted(state, c);
+  const double enough = waits ? joltVelocity(state) : enoughAfter(state, largest);
   if (largest <= enough) return;
   for (std::size_t i = 0; i < c.members.size(); ++i) {
     const auto b = static_cast<std::uint32_t>(c.members[i]);

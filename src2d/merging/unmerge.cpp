@@ -6,6 +6,7 @@
 #include "src2d/contact/detection.h"
 #include "src2d/merging/caution.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/disturbance.h"
 #include "src2d/merging/footing.h"
 #include "src2d/merging/group_notes.h"
 #include "src2d/merging/joint_welds.h"
@@ -98,19 +99,9 @@ bool breakInside(State& state, Scratch& scratch, Collection& c) {
 /// What seemed to part would not have moved: that is asked again, but ever less often where nothing
 /// new comes in.
 void refuse(Collection& c) {
-  constexpr std::int8_t kMost = 5;  // 32 steps
   c.patience = static_cast<std::int8_t>(1 << c.refusals);
-  c.refusals = std::min<std::int8_t>(kMost, static_cast<std::int8_t>(c.refusals + 1));
+  c.refusals = std::min<std::int8_t>(kMostRefusals, static_cast<std::int8_t>(c.refusals + 1));
   c.refuted = true;
-}
-
-/// Whether what has come in lately jolted a good part of the collection.
-bool isJolted(const State& state, const Collection& c) {
-  constexpr std::ptrdiff_t kPart = 4;
-  if (c.jolted == 0) return false;
-  const auto jolted =
-      std::ranges::count_if(c.members, [&](BodyId b) { return state[b].jolted > 0; });
-  return kPart * jolted >= std::ssize(c.members);
 }
 
 /// Whether to let all that seems to part be for now. Not what is jolted in this step: a heap on
