@@ -104,11 +104,23 @@ void refuse(Collection& c) {
   c.refuted = true;
 }
 
+/// Where nothing seems to part, refusals are forgotten little by little.
+void forgetRefusals(const State& state, Collection& c) {
+  constexpr std::int64_t kEvery = 256;  // steps
+  if (c.refusals == 0 || state.step % kEvery != 0) return;
+  --c.refusals;
+  c.patience = std::min(c.patience, static_cast<std::int8_t>(1 << c.refusals));
+}
+
 /// Whether to let all that seems to part be for now. Not what is jolted in this step: a heap on
 /// which things fall is always disturbed somewhere, and the rest of it waits on.
 bool waits(const State& state, Collection& c, bool disturbed, Noted& noted) {
   if (disturbed && isJolted(state, c)) c.patience = c.refusals = 0;
-  if (c.patience == 0 || (c.cut_welds.empty() && c.loosened.empty())) return false;
+  if (c.cut_welds.empty() && c.loosened.empty()) {
+    forgetRefusals(state, c);
+    return false;
+  }
+  if (c.patience == 0) return false;
   --c.patience;
   const bool all = withholdCuts(state, c);
   noted.close();

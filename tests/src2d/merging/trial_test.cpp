@@ -146,5 +146,28 @@ TEST(Trial, WhatStayedWaitsOnWhileABlowFallsElsewhere) {
   EXPECT_GT(waiting.anew, 5) << "as it jolts much of the collection";
 }
 
+/// The most refusals in a row of any collection.
+class Refusals : public Observer {
+ public:
+  void afterStage(Stage stage, const State& state, const Scratch&) override {
+    if (stage != Stage::Unmerge) return;
+    now = 0;
+    for (const Collection& c : state.collections) now = std::max<int>(now, c.refusals);
+    most = std::max(most, now);
+  }
+
+  int now = 0, most = 0;
+};
+
+TEST(Trial, WhatItRefusedIsForgottenInAHeapAtRest) {
+  Refusals refusals;
+  World world(loadScene("pile"), {.mode = Mode::Merge, .timings = false});
+  world.observe(&refusals);
+  for (int i = 0; i < 1500; ++i) world.step();
+  EXPECT_GT(refusals.most, 2);
+  for (int i = 0; i < 2500; ++i) world.step();
+  EXPECT_EQ(refusals.now, 0);
+}
+
 }  // namespace
 }  // namespace merge2d
