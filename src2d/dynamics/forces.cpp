@@ -16,34 +16,32 @@ Vec2 velocityAt(const State& state, BodyId body, const Vec2& p) {
   return state.rigid(body).velocityAt(p);
 }
 
-/// 1/m seen along `direction` at world point `p` of a body, 0 when it does not respond; with no
-/// direction the largest of all.
-double inverseMassAt(const State& state, BodyId id, const Vec2& p,
+/// 1/m seen along `direction` at a place `arm` from the centre of mass of a body, 0 when it does
+/// not respond; with no direction the largest of all.
+double inverseMassAt(const State& state, BodyId id, const Vec2& arm,
                      const std::optional<Vec2>& direction) {
   const Body& body = state[id];
   if (!state.responds(id)) return 0.0;
-  const Vec2 from_center = p - state.pose(id).position;
-  const double arm = direction ? cross(from_center, *direction) : from_center.norm();
-  return 1.0 / body.mass + arm * arm / body.inertia;
+  const double lever = direction ? cross(arm, *direction) : arm.norm();
+  return 1.0 / body.mass + lever * lever / body.inertia;
 }
 
-/// A spring as it is now.
-struct Stretch {
-  BodyId body{}, to_body{};
-  bool other = false;  ///< to_body counts
-  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
-  double length = 0.0;
-  Vec2 direction = Vec2::Zero();
-};
+SpringEnd endOf(const State& state, BodyId body, const Vec2& anchor) {
+  const Pose pose = state.pose(body);
+  const Vec2 at = pose * anchor;
+  return {body, at, at - pose.position};
+}
 
-Stretch stretchOf(const State& state, const TimedSpring& spring) {
-  Stretch s;
-  s.body = BodyId{static_cast<std::uint32_t>(spring.body)};
+SpringStretch stretchOf(const State& state, const TimedSpring& spring) {
+  SpringStretch s;
+  s.from = endOf(state, BodyId{static_cast<std::uint32_t>(spring.body)}, spring.anchor);
   s.other = spring.to_body >= 0;
-  if (s.other) s.to_body = BodyId{static_cast<std::uint32_t>(spring.to_body)};
-  s.from = state.pose(s.body) * spring.anchor;
-  s.to = s.other ? state.pose(s.to_body) * spring.to : spring.to;
-  const Vec2 along = s.to - s.from;
+  if (s.other) {
+    s.to = endOf(state, BodyId{static_cast<std::uint32_t>(spring.to_body)}, spring.to);
+  } else {
+    s.to.at = spring.to;
+  }
+  const Vec2 along = s.to.at - s.from.at;
   s.length = along.norm();
   if (s.length > 1e-12) s.direction = along / s.length;
   return s;
@@ -51,46 +49,56 @@ Stretch stretchOf(const State& state, const TimedSpring& spring) {
 
 /// What an explicit step of a spring does to the velocity of each of its ends, relative to that
 /// velocity, summed per body. A spring without length acts in any direction.
-void addGains(const State& state, const TimedSpring& spring, std::vector<double>& gain) {
-  if (!state.bodies[spring.body].alive) return;
-  const Stretch s = stretchOf(state, spring);
+void addGains(const State& state, const TimedSpring& spring, const SpringStretch& s,
+              std::vector<double>& gain) {
   std::optional<Vec2> direction;
   if (spring.rest_length != 0.0) direction = s.direction;
   const double strength = state.h * spring.damping + state.h * state.h * spring.stiffness;
-  gain[index(s.body)] += strength * inverseMassAt(state, s.body, s.from, direction);
-  if (s.other)
-    gain[index(s.to_body)] += strength * inverseMassAt(state, s.to_body, s.to, direction);
+  const auto add = [&](const SpringEnd& end) {
+    gain[index(end.body)] += strength * inverseMassAt(state, end.body, end.arm, direction);
+  };
+  add(s.from);
+  if (s.other) add(s.to);
 }
 
 /// Springs that are together too stiff for an explicit step are given the force of an implicit one.
 /// Without this limit they would gain energy until they explode; below it a spring is left as it
 /// is.
-double stableShare(const Stretch& s, const std::vector<double>& gain) {
-  const double all = gain[index(s.body)] + (s.other ? gain[index(s.to_body)] : 0.0);
+double stableShare(const SpringStretch& s, const std::vector<double>& gain) {
+  const double all = gain[index(s.from.body)] + (s.other ? gain[index(s.to.body)] : 0.0);
   return all <= 1.0 ? 1.0 : 1.0 / (1.0 + all);
 }
 
-void addSpring(const State& state, const TimedSpring& spring, Scratch& scratch) {
-  if (!state.bodies[spring.body].alive) return;
-  const Stretch s = stretchOf(state, spring);
-  Vec2 velocity = -velocityAt(state, s.body, s.from);
-  if (s.other) velocity += velocityAt(state, s.to_body, s.to);
+void addSpring(const State& state, const TimedSpring& spring, const SpringStretch& s,
+               Scratch& scratch) {
+  Vec2 velocity = -velocityAt(state, s.from.body, s.from.at);
+  if (s.other) velocity += velocityAt(state, s.to.body, s.to.at);
   // A spring without length damps every motion of its end, a long one only along itself.
   const Vec2 damped =
       spring.rest_length == 0.0 ? velocity : s.direction * velocity.dot(s.direction);
   const Vec2 force =
       stableShare(s, scratch.spring_gain) *
       (spring.stiffness * (s.length - spring.rest_length) * s.direction + spring.damping * damped);
-  scratch.loads.push_back(loadAt(state, s.body, s.from, force));
-  if (s.other) scratch.loads.push_back(loadAt(state, s.to_body, s.to, -force));
-  scratch.springs.push_back({s.from, s.to, force.dot(s.direction)});
+  scratch.loads.push_back({s.from.body, force, cross(s.from.arm, force)});
+  if (s.other) scratch.loads.push_back({s.to.body, -force, cross(s.to.arm, -force)});
+  scratch.springs.push_back({s.from.at, s.to.at, force.dot(s.direction)});
 }
 
+/// Where the ends of a spring are takes longer than all else about it, above all in collections.
 void addSprings(const State& state, const Actions& actions, Scratch& scratch) {
   if (actions.springs.empty()) return;
+  const auto acts = [&](const TimedSpring& spring) { return state.bodies[spring.body].alive; };
   scratch.spring_gain.assign(state.bodies.size(), 0.0);
-  for (const TimedSpring& spring : actions.springs) addGains(state, spring, scratch.spring_gain);
-  for (const TimedSpring& spring : actions.springs) addSpring(state, spring, scratch);
+  scratch.stretches.clear();
+  for (const TimedSpring& spring : actions.springs) {
+    if (!acts(spring)) continue;
+    scratch.stretches.push_back(stretchOf(state, spring));
+    addGains(state, spring, scratch.stretches.back(), scratch.spring_gain);
+  }
+  auto stretch = scratch.stretches.begin();
+  for (const TimedSpring& spring : actions.springs) {
+    if (acts(spring)) addSpring(state, spring, *stretch++, scratch);
+  }
 }
 
 double smooth(double s) { return s * s * (3.0 - 2.0 * s); }

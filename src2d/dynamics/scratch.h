@@ -20,6 +20,21 @@ struct Load {
   double torque = 0.0;        ///< [N m]
 };
 
+/// One end of a spring.
+struct SpringEnd {
+  BodyId body{};
+  Vec2 at = Vec2::Zero();   ///< in the world [m]
+  Vec2 arm = Vec2::Zero();  ///< from the body's centre of mass [m]
+};
+
+/// A spring as it is now.
+struct SpringStretch {
+  SpringEnd from, to;
+  bool other = false;  ///< `to` is at a body
+  double length = 0.0;
+  Vec2 direction = Vec2::Zero();
+};
+
 /// An impulse given at the start of this step.
 struct Kick {
   BodyId body{};
@@ -124,8 +139,9 @@ struct Scratch {
   std::vector<Load> loads;
   std::vector<Kick> kicks;
   std::vector<SpringView> springs;
-  std::vector<double> spring_gain;  ///< per body: what its springs together do to its velocity
-  std::vector<BodyPair> pairs;      ///< body pairs in contact, ascending
+  std::vector<SpringStretch> stretches;  ///< of those whose body is alive
+  std::vector<double> spring_gain;       ///< per body: what its springs together do to its velocity
+  std::vector<BodyPair> pairs;           ///< body pairs in contact, ascending
   std::vector<Event> events;
   Notes* notes = nullptr;  ///< null: nobody asks
   Stats stats;

@@ -39,8 +39,8 @@ std::size_t bytesOfParts(const RigidParts& p) {
 }
 
 std::size_t bytesOfScratch(const Scratch& s) {
-  return bytesOf(s.loads, s.kicks, s.springs, s.spring_gain, s.pairs, s.events, s.moved,
-                 s.moved_flag, s.candidates, s.touching, s.near_candidates, s.near_refined,
+  return bytesOf(s.loads, s.kicks, s.springs, s.stretches, s.spring_gain, s.pairs, s.events,
+                 s.moved, s.moved_flag, s.candidates, s.touching, s.near_candidates, s.near_refined,
                  s.paired_with, s.meetings, s.seeds, s.stirred, s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
                  s.push_stale, s.others, s.doubted, s.overloaded_joints, s.leant, s.ready,
