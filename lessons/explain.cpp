@@ -159,9 +159,10 @@ class Explainer {
                       who, atStep(), because(out.tests, {"cut"}));
     } else if (has(out.tests, "stays")) {
       out.outcome = Outcome::Loose;
-      out.text =
-          fmt::format("The weld of {} stayed {}, as nothing that it held would have moved: {}.",
-                      who, atStep(), because(out.tests, {"stays"}));
+      out.text = fmt::format(
+          "The weld of {} stayed {}, as nothing that it held moved when that was last "
+          "tried: {}.",
+          who, atStep(), because(out.tests, {"stays"}));
     } else if (has(out.tests, "wait") || has(out.tests, "lost") || has(out.tests, "edge")) {
       out.outcome = Outcome::Loose;
       out.text = fmt::format("The weld of {} held {}, but is under watch: {}{}.", who, atStep(),
