@@ -139,6 +139,8 @@ struct BlockWatch {
 
 /// Bodies simulated as one (Section 4).
 struct Collection {
+  static constexpr std::int8_t kMostRefusals = 5;  ///< then it waits longest, for 32 steps
+
   CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
   RigidId rigid{};
   BodyId anchor{};              ///< when its rigid is not floating: a body of that frame
@@ -182,6 +184,8 @@ struct Collection {
   std::int8_t calm = 0;     ///< steps for which it has been so, in a round (sweep.cpp)
   bool refuted = false;     ///< a closer look found that nothing parts, and nothing is new
   std::uint8_t jolted = 0;  ///< the most of its members': Body::jolted
+
+  bool waitsLong() const { return patience > 0 && refusals == kMostRefusals; }
 };
 
 /// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.

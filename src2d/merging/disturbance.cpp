@@ -119,11 +119,21 @@ void ageJolts(State& state) {
   }
 }
 
-}  // namespace
-
 void jolt(State& state, BodyId b) {
   const RigidId id = state[b].rigid;
   if (state.isCollection(id)) state.collection(id).jolted = state[b].jolted = kFollowed;
+}
+
+}  // namespace
+
+double joltVelocity(const State& state) {
+  constexpr double kMuch = 5.0;
+  return kMuch * state.settings.unmerging.sliding;
+}
+
+void noteJolt(State& state, std::uint32_t body, double change) {
+  const double much = joltVelocity(state);
+  if (change > much * much && body < state.bodies.size()) jolt(state, BodyId{body});
 }
 
 bool isJolted(const State& state, const Collection& c) {

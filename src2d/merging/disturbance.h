@@ -10,11 +10,14 @@ namespace merge2d {
 /// A disturbance is followed for so many steps after the last sign of it.
 inline constexpr std::int16_t kFollowed = 10;
 
-/// So many refusals in a row make a collection wait the longest, for 32 steps (unmerge.cpp).
-inline constexpr std::int8_t kMostRefusals = 5;
+/// A member that meets something is jolted, and so is one whose velocity sweeps change by more than
+/// this: five times the slip that parts a weld, half of what gravity adds in a step of 0.01 s
+/// [m/s].
+double joltVelocity(const State& state);
 
-/// A member that meets something, or that sweeps have changed much: it counts for kFollowed steps.
-void jolt(State& state, BodyId b);
+/// Notes for kFollowed steps that a body is jolted, where its velocity changes by so much, squared
+/// [m²/s²].
+void noteJolt(State& state, std::uint32_t body, double change);
 
 /// Whether what has come in lately has jolted a good part of the collection: a quarter.
 bool isJolted(const State& state, const Collection& c);

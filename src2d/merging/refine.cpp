@@ -303,16 +303,6 @@ double refinedVelocity(const State& state) {
   return kPart * state.settings.unmerging.sliding;
 }
 
-double joltVelocity(const State& state) {
-  constexpr double kMuch = 5.0;
-  return kMuch * state.settings.unmerging.sliding;
-}
-
-void noteJolt(State& state, std::uint32_t body, double change) {
-  const double much = joltVelocity(state);
-  if (change > much * much && body < state.bodies.size()) jolt(state, BodyId{body});
-}
-
 double sweepUntilQuiet(State& state, Scratch& scratch, const SweepScope& scope,
                        std::span<const std::uint32_t> seeds, double threshold) {
   return Refinement(state, scratch, scope, threshold).run(seeds);

@@ -53,13 +53,6 @@ double residualVelocity(const State& state);
 /// of the slip that parts a weld [m/s].
 double refinedVelocity(const State& state);
 
-/// A body whose velocity sweeps change by more than this feels something new: five times that slip,
-/// half of what gravity adds in a step of 0.01 s [m/s].
-double joltVelocity(const State& state);
-
-/// Notes it where that is so, of a change squared [m²/s²].
-void noteJolt(State& state, std::uint32_t body, double change);
-
 /// Sweeps what is at the seeds and at the bodies marked in `scratch.restless_bodies`, breadth
 /// first; then what is at bodies that the last sweep changed by more than `threshold` [m/s], and so
 /// on, accelerated as in the full solve, until there are none or `scope.most` sweeps are

@@ -118,7 +118,7 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
 /// Marks the members whom the last sweep, which changed one by `largest`, changed too much [m/s],
 /// and those that it jolted: no others while the collection waits long, as only they can part.
 void markRestless(State& state, const Collection& c, Scratch& scratch, double largest) {
-  const bool waits = c.patience > 0 && c.refusals == kMostRefusals && !isJolted(state, c);
+  const bool waits = c.waitsLong() && !isJolted(state, c);
   const double enough = waits ? joltVelocity(state) : enoughAfter(state, largest);
   if (largest <= enough) return;
   for (std::size_t i = 0; i < c.members.size(); ++i) {

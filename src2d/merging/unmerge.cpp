@@ -100,7 +100,8 @@ bool breakInside(State& state, Scratch& scratch, Collection& c) {
 /// new comes in.
 void refuse(Collection& c) {
   c.patience = static_cast<std::int8_t>(1 << c.refusals);
-  c.refusals = std::min<std::int8_t>(kMostRefusals, static_cast<std::int8_t>(c.refusals + 1));
+  c.refusals =
+      std::min<std::int8_t>(Collection::kMostRefusals, static_cast<std::int8_t>(c.refusals + 1));
   c.refuted = true;
 }
 

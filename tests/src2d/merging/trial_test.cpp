@@ -94,7 +94,7 @@ TEST(Trial, ABlowGoesThroughNeighboursThatPartInTheSameStep) {
 class Waiting : public Observer {
  public:
   void afterStage(Stage stage, const State& state, const Scratch& scratch) override {
-    if (stage == Stage::SingleIterationPGS) remember(state);
+    if (stage == Stage::SingleIterationPGS) remember(state, scratch);
     if (stage != Stage::Unmerge) return;
     for (std::size_t slot = 0; slot < scratch.disturbed.size(); ++slot) {
       const Collection& c = state.collections[slot];
@@ -104,6 +104,7 @@ class Waiting : public Observer {
   }
 
   int waited = 0, asked = 0, anew = 0;  ///< collections in disturbed steps
+  int quiet = 0, followed = 0;          ///< of those that wait long, in which nothing is jolted
 
  private:
   struct Before {
@@ -111,13 +112,16 @@ class Waiting : public Observer {
     bool jolted = false;  ///< a quarter of its members
   };
 
-  void remember(const State& state) {
+  void remember(const State& state, const Scratch& scratch) {
     before_.clear();
     for (const Collection& c : state.collections) {
       if (c.id == kNoCollection || c.patience == 0) continue;
       const auto jolted =
           std::ranges::count_if(c.members, [&](BodyId b) { return state[b].jolted > 0; });
       before_[c.id] = {c.patience, 4 * jolted >= std::ssize(c.members)};
+      if (!c.waitsLong() || jolted > 0) continue;
+      const auto isShaken = [&](BodyId b) { return scratch.shaken[index(b)] != 0; };
+      ++(std::ranges::any_of(c.members, isShaken) ? followed : quiet);
     }
   }
 
@@ -138,12 +142,14 @@ class Waiting : public Observer {
 /// A heap on which things fall is always disturbed somewhere.
 TEST(Trial, WhatStayedWaitsOnWhileABlowFallsElsewhere) {
   Waiting waiting;
-  World world(loadScene("funnel"), {.mode = Mode::Merge, .timings = false});
-  world.observe(&waiting);
-  for (int i = 0; i < 12000; ++i) world.step();
+  Simulation run(loadScene("funnel"), Mode::Merge);
+  run.world().observe(&waiting);
+  run.steps(12000);
   EXPECT_GT(waiting.waited, 400);
   EXPECT_GT(waiting.asked, 20) << "of what the blow jolts";
   EXPECT_GT(waiting.anew, 5) << "as it jolts much of the collection";
+  EXPECT_GT(waiting.quiet, 500) << "no more sweeps there, unless neighbours pass something on";
+  EXPECT_GT(waiting.quiet, 4 * waiting.followed);
 }
 
 /// The most refusals in a row of any collection.
@@ -161,11 +167,11 @@ class Refusals : public Observer {
 
 TEST(Trial, WhatItRefusedIsForgottenInAHeapAtRest) {
   Refusals refusals;
-  World world(loadScene("pile"), {.mode = Mode::Merge, .timings = false});
-  world.observe(&refusals);
-  for (int i = 0; i < 1500; ++i) world.step();
+  Simulation run(loadScene("pile"), Mode::Merge);
+  run.world().observe(&refusals);
+  run.steps(1500);
   EXPECT_GT(refusals.most, 2);
-  for (int i = 0; i < 2500; ++i) world.step();
+  run.steps(2500);
   EXPECT_EQ(refusals.now, 0);
 }
 
