@@ -222,7 +222,9 @@ bool WeldTest::staysPut(const Pivot& pivot) const {
   const double speed = fastestBound(weld, pivot);
   if (!weld.bridge && speed <= still_) return true;  // whatever doubt there is asks for more
   const bool usual = !weld.bridge && weld.vain == 0;
-  return !usual && speed <= least(weld).most();
+  if (usual) return false;
+  const double limit = least(weld).most();
+  return speed <= limit || closerBound(weld, pivot) <= limit;
 }
 
 void WeldTest::leans(std::uint32_t weld) {
@@ -331,6 +333,12 @@ double WeldTest::fastestBound(const Weld& weld, const Pivot& pivot) const {
   const SolverVelocity &a = scratch_.sweep_u[index(weld.a)], &b = scratch_.sweep_u[index(weld.b)];
   const double linear = std::abs(b.vx - a.vx) + std::abs(b.vy - a.vy);
   return linear + (std::abs(a.omega) + std::abs(b.omega - a.omega)) * pivot.reach;
+}
+
+double WeldTest::closerBound(const Weld& weld, const Pivot& pivot) const {
+  const SolverVelocity &a = scratch_.sweep_u[index(weld.a)], &b = scratch_.sweep_u[index(weld.b)];
+  const Vec2 linear = Vec2(b.vx - a.vx, b.vy - a.vy) - cross(b.omega, between(weld));
+  return linear.norm() + std::abs(b.omega - a.omega) * pivot.reach;
 }
 
 Vec2 WeldTest::between(const Weld& weld) const {

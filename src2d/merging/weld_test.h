@@ -135,8 +135,10 @@ class WeldTest {
   bool slowerThan(double limit, const Weld& weld, const VelocityField& a,
                   const VelocityField& b) const;
 
-  /// No corner is faster than this, a coarser bound that needs no root and no pose [m/s].
+  /// No corner is faster than these: a coarser bound that needs no root and no pose, and one that
+  /// needs to know where the two are [m/s].
   double fastestBound(const Weld& weld, const Pivot& pivot) const;
+  double closerBound(const Weld& weld, const Pivot& pivot) const;
 
   /// Most pivots do not move, which a look at their two velocities tells.
   bool staysPut(const Pivot& pivot) const;
