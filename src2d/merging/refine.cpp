@@ -7,6 +7,7 @@
 
 #include "src2d/dynamics/nncg.h"
 #include "src2d/merging/disturbance.h"
+#include "src2d/merging/interleave.h"
 #include "src2d/merging/limits.h"
 #include "src2d/merging/ordering.h"
 
@@ -30,7 +31,7 @@ class Refinement {
     active_.reserve(items);
     inner_.reserve(items);
     reached_.reserve(scratch.sweep_u.size());
-    walk_.reserve(scratch.sweep_u.size());
+    walk_.resize(scratch.sweep_u.size() + 1);
   }
 
   double run(std::span<const std::uint32_t> seeds) {
@@ -41,6 +42,7 @@ class Refinement {
       walk();
       const int more = std::max(1, std::min(kRound, scope_.most - done) - 1);
       converge(more);
+      for (std::size_t i = 0; i < walked_; ++i) scratch_.shaken[walk_[i]] = 1;
       for (const auto& [c, block] : inner_) watchLimits(c->blocks[block], c->watches[block]);
       done += 1 + more;
       queueRestless();
@@ -49,7 +51,7 @@ class Refinement {
   }
 
  private:
-  static constexpr std::uint32_t kNowhere = ~0u;
+  static constexpr std::uint32_t kNowhere = Interleaving::kFixed;
   static constexpr int kMarked = 1;
 
   /// A body that the round at hand has reached.
@@ -101,12 +103,14 @@ class Refinement {
     return place_[body];
   }
 
-  void enqueue(std::uint32_t place) {
+  /// Where it `moves`. That comes of a sweep that a processor has hardly begun: at a branch it
+  /// would have to guess, and be wrong half of the time.
+  void enqueue(std::uint32_t place, bool moves = true) {
     Reached& r = reached_[place];
-    if (r.queued) return;
-    r.queued = true;
-    walk_.push_back(r.body);
-    scratch_.shaken[r.body] = 1;
+    const bool anew = moves & !r.queued;
+    walk_[walked_] = r.body;
+    walked_ += anew ? 1 : 0;
+    r.queued |= anew;
   }
 
   /// One sweep from the queued bodies on, breadth first, over the items of each body that it
@@ -116,7 +120,7 @@ class Refinement {
     reached_.clear();
     active_.clear();
     inner_.clear();
-    walk_.clear();
+    walked_ = 0;
     std::ranges::fill(swept_, 0);
     for (const std::uint32_t body : queue_) {
       if (scratch_.sweep_u[body].inv_mass != 0.0) enqueue(reach(body));
@@ -125,7 +129,7 @@ class Refinement {
   }
 
   void walkFrom(std::size_t head) {
-    for (; head < walk_.size(); ++head) {
+    for (; head < walked_; ++head) {
       sweepLooseItemsOf(walk_[head]);
       sweepInnerContactsOf(walk_[head]);
     }
@@ -139,13 +143,13 @@ class Refinement {
 
   /// Goes on with the walk from such bodies. Returns false when there are none.
   bool goOnFromRim() {
-    const std::size_t head = walk_.size();
+    const std::size_t head = walked_;
     const auto count = static_cast<std::uint32_t>(reached_.size());
     for (std::uint32_t i = 0; i < count; ++i) {
       if (isOvertaken(reached_[i])) enqueue(i);
     }
     walkFrom(head);
-    return walk_.size() > head;
+    return walked_ > head;
   }
 
   void sweepLooseItemsOf(std::uint32_t body) {
@@ -184,7 +188,7 @@ class Refinement {
     }
     sweepItem(item, scratch_.sweep_u, state_.settings.solver.method);
     for (const std::uint32_t place : std::span(places, count)) {
-      if (changeSinceStart(reached_[place]) > threshold_ * threshold_) enqueue(place);
+      enqueue(place, changeSinceStart(reached_[place]) > threshold_ * threshold_);
     }
   }
 
@@ -210,11 +214,13 @@ class Refinement {
     };
     int most = 2 * sweeps;
     for (int done = 0; done < sweeps && most > 0;) {
+      const auto items = interleaving_.of(active_, reached_.size(),
+                                          [&](std::uint32_t body) { return place_[body]; });
       Nncg iteration(
           active_.size(), [&](std::size_t i) -> Impulses& { return active_[i].impulses(); },
           reached_.size(), [&](std::size_t i) -> SolverVelocity& { return u[reached_[i].body]; },
           [&] {
-            for (const SweepItem& item : active_) sweepItem(item, u, method);
+            for (const SweepItem& item : items) sweepItem(item, u, method);
           },
           scratch_.nncg);
       known_ = reached_.size();
@@ -254,10 +260,12 @@ class Refinement {
   std::vector<std::uint8_t> swept_;         ///< in this round, by number: loose items, then blocks
   std::vector<std::uint32_t> place_;        ///< per body: in reached_
   std::vector<std::uint32_t> queue_;        ///< bodies from which a round begins
-  std::vector<std::uint32_t> walk_;         ///< bodies whose items are swept in this round
+  std::vector<std::uint32_t> walk_;         ///< bodies whose items are swept in this round, first
+  std::size_t walked_ = 0;                  ///< so many
   std::vector<Reached> reached_;            ///< by this round; only those that respond to forces
   std::size_t known_ = 0;                   ///< so many of them when the last sweeps began
   std::vector<SweepItem> active_;           ///< of this round, in the order of the walk
+  Interleaving interleaving_;               ///< of them, for the sweeps after the walk
   std::vector<std::pair<Collection*, std::uint32_t>> inner_;  ///< blocks among them
 
   // Largest changes of a body's velocity, squared [m²/s²].
