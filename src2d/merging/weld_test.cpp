@@ -221,8 +221,6 @@ bool WeldTest::staysPut(const Pivot& pivot) const {
   if (scratch_.notes || weld.cut) return false;
   const double speed = fastestBound(weld, pivot);
   if (!weld.bridge && speed <= still_) return true;  // whatever doubt there is asks for more
-  const bool usual = !weld.bridge && weld.vain == 0;
-  if (usual) return false;
   const double limit = least(weld).most();
   return speed <= limit || closerBound(weld, pivot) <= limit;
 }
