@@ -44,9 +44,16 @@ inline std::string pluralOf(std::string_view word) {
                              : std::string(word);
 }
 
+/// Whether it is a known word cut short: "--out" of "--output". Less than four letters, or half a
+/// word, may begin too many.
+inline bool abbreviates(std::string_view word, std::string_view known) {
+  return word.size() >= 4 && 2 * word.size() >= known.size() && known.starts_with(word);
+}
+
 /// How far `word` is from a known one, or one of them from the plural of the other: who writes
 /// "bodies" means "body", and the other way round.
 inline std::size_t distanceToMeant(std::string_view word, std::string_view known) {
+  if (word != known && abbreviates(word, known)) return 1;
   return std::min({editDistance(word, known), editDistance(word, pluralOf(known)),
                    editDistance(pluralOf(word), known)});
 }

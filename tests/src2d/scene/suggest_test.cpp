@@ -40,5 +40,13 @@ TEST(Suggest, APluralMeansItsWord) {
   EXPECT_EQ(nearest("body", std::array<std::string_view, 2>{"kind", "bodies"}), "bodies");
 }
 
+TEST(Suggest, AnAbbreviationMeansItsWord) {
+  const std::array<std::string_view, 3> keys{"restitution", "--output", "iterations"};
+  EXPECT_EQ(nearest("--out", keys), "--output");
+  EXPECT_EQ(nearest("restit", keys), "restitution");
+  EXPECT_EQ(nearest("--o", keys), "") << "too short to tell";
+  EXPECT_EQ(nearest("rest", keys), "") << "less than half of it";
+}
+
 }  // namespace
 }  // namespace merge2d
