@@ -29,7 +29,7 @@ constexpr const char* kCompareExamples = R"(Examples:
   merge2d compare tower-platform --window 1,5.9
   merge2d compare pile --csv pile.csv -o charts --theme print
 
-The four modes take turns of 50 steps. Distances are those of the bodies' centres from where they
+The four modes take turns of 200 steps. Distances are those of the bodies' centres from where they
 are in the reference; after a collapse they grow with chaos as well as with errors, so compare
 also the bodies that tipped over (turned by 45 degrees), and when: the k-th in each mode against the
 k-th in the reference. 'Creep' is how far bodies move on what they rest on, in each mode by itself.

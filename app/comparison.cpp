@@ -7,15 +7,18 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "app/statistics.h"
+#include "app/timed_run.h"
+#include "src2d/core/assert.h"
 #include "src2d/core/error.h"
 
 namespace merge2d {
 namespace {
 
-constexpr std::int64_t kTurn = 50;  // steps
+constexpr std::int64_t kTurn = 200;  // steps
 constexpr double kTippingAngle = std::numbers::pi / 4.0;
 
 /// Where the dynamic bodies are after a step.
@@ -104,13 +107,13 @@ class TippingLog {
 
 double meanMs(std::span<const StepRow> steps) {
   double sum = 0.0;
-  for (const StepRow& row : steps) sum += row.ms;
+  for (const StepRow& row : steps) sum += row.time.ms;
   return steps.empty() ? 0.0 : sum / static_cast<double>(steps.size());
 }
 
 double medianMs(std::span<const StepRow> steps) {
   std::vector<double> all;
-  for (const StepRow& row : steps) all.push_back(row.ms);
+  for (const StepRow& row : steps) all.push_back(row.time.ms);
   return median(std::move(all));
 }
 
@@ -122,7 +125,7 @@ double mean(std::span<const StepRow> steps, int StepRow::*number) {
 
 double meanMs(std::span<const StepRow> steps, Stage stage) {
   double sum = 0.0;
-  for (const StepRow& row : steps) sum += row.stage_ms[static_cast<std::size_t>(stage)];
+  for (const StepRow& row : steps) sum += row.time.stage_ms[static_cast<std::size_t>(stage)];
   return steps.empty() ? 0.0 : sum / static_cast<double>(steps.size());
 }
 
@@ -164,11 +167,12 @@ TippingDifference tippingDifference(const ModeRun& reference, const ModeRun& run
   return out;
 }
 
-/// One mode: its world, and what is noted of it.
+/// One mode: its world, what is noted of it, and a world that does the same for its time.
 class Comparison::Lane {
  public:
   Lane(const std::shared_ptr<const Scene>& scene, Mode mode, bool timings, ModeRun& run)
-      : simulation_(scene, {.mode = mode, .timings = timings}), run_(run), timings_(timings) {
+      : simulation_(scene, {.mode = mode, .timings = false}), run_(run) {
+    if (timings) timed_.emplace(scene, mode);
     run_.mode = mode;
     world().capture(now_);
     tipping_.update(now_, world().bodies(), run_.tipping_times);
@@ -178,6 +182,11 @@ class Comparison::Lane {
   bool done() const { return simulation_.done(); }
   /// Of the turn that just ended.
   const std::vector<Sample>& samples() const { return samples_; }
+
+  /// Takes the time of the next turn.
+  void time() {
+    if (timed_) timed_->advance(kTurn);
+  }
 
   void takeTurn() {
     samples_.clear();
@@ -189,12 +198,22 @@ class Comparison::Lane {
       noteMotion();
     }
     run_.last = now_.stats;
+    if (timed_) noteTimes();
   }
 
  private:
+  void noteTimes() {
+    const Stats &timed = timed_->stats(), &seen = now_.stats;
+    MERGE2D_ASSERT(timed.active_bodies == seen.active_bodies && timed.contacts == seen.contacts,
+                   "the run whose time is taken has {} bodies and {} contacts, not {} and {}",
+                   timed.active_bodies, timed.contacts, seen.active_bodies, seen.contacts);
+    auto row = run_.steps.end() - std::ssize(timed_->times());
+    for (const StepTime& time : timed_->times()) (row++)->time = time;
+  }
+
   void noteCosts() {
     const Stats& stats = now_.stats;
-    StepRow row{.ms = timings_ ? simulation_.milliseconds().back() : 0.0,
+    StepRow row{.time = {},  // see noteTimes()
                 .active_bodies = stats.active_bodies,
                 .contacts = stats.contacts,
                 .internal_contacts = stats.internal_contacts,
@@ -204,9 +223,6 @@ class Comparison::Lane {
                 .unmerges = count(now_.events, EventType::Unmerge),
                 .broken_joints = count(now_.events, EventType::Break),
                 .max_penetration = stats.max_penetration};
-    for (std::size_t s = 0; s < kStages; ++s) {
-      row.stage_ms[s] = timings_ ? static_cast<float>(1e3 * stats.seconds[s]) : 0.0F;
-    }
     run_.steps.push_back(row);
     // Welds change in steps with events alone.
     if (row.merges + row.unmerges > 0) run_.flicker += welds_.update(now_);
@@ -233,8 +249,8 @@ class Comparison::Lane {
   }
 
   Simulation simulation_;
+  std::optional<TimedRun> timed_;
   ModeRun& run_;
-  bool timings_;
   Snapshot before_, now_;
   WeldLog welds_;
   TippingLog tipping_;
@@ -251,14 +267,20 @@ Comparison::Comparison(std::shared_ptr<const Scene> scene, bool timings)
 
 Comparison::~Comparison() = default;
 
-void Comparison::advance() {
+template <class Do>
+void Comparison::inEachMode(Do&& what) {
   for (std::size_t i = 0; i < kModes.size(); ++i) {
     try {
-      lanes_[i]->takeTurn();
+      what(*lanes_[i]);
     } catch (const SimulationError& error) {
       throw SimulationError(fmt::format("in mode {}: {}", name(kModes[i]), error.what()));
     }
   }
+}
+
+void Comparison::advance() {
+  inEachMode([](Lane& lane) { lane.time(); });
+  inEachMode([](Lane& lane) { lane.takeTurn(); });
   measureDistances();
 }
 

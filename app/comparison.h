@@ -11,6 +11,7 @@
 #include "app/creep.h"
 #include "app/hits.h"
 #include "app/simulation.h"
+#include "app/timed_run.h"
 
 namespace merge2d {
 
@@ -19,8 +20,7 @@ inline constexpr std::array<Mode, 4> kModes = {Mode::Reference, Mode::Sleep, Mod
 
 /// What one step took and did.
 struct StepRow {
-  double ms = 0.0;                        ///< [ms]
-  std::array<float, kStages> stage_ms{};  ///< [ms]; zero without timings
+  StepTime time;  ///< zero without timings
   int active_bodies = 0, contacts = 0, internal_contacts = 0;
   int collections = 0, asleep = 0;
   int merges = 0, unmerges = 0, broken_joints = 0;
@@ -78,8 +78,8 @@ TippingDifference tippingDifference(const ModeRun& reference, const ModeRun& run
 
 inline constexpr int kFlickerSteps = 20;
 
-/// Steps the four worlds in turns of so many steps, so that a machine that is busy for a moment is
-/// busy for all of them.
+/// Steps the four worlds in turns, so that a machine that is busy for a moment is busy for all of
+/// them.
 class Comparison {
  public:
   Comparison(std::shared_ptr<const Scene> scene, bool timings);
@@ -100,6 +100,8 @@ class Comparison {
  private:
   class Lane;
 
+  template <class Do>
+  void inEachMode(Do&& what);
   void measureDistances();
 
   std::shared_ptr<const Scene> scene_;

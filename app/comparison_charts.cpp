@@ -86,7 +86,7 @@ const StepRow& medianStep(const std::vector<StepRow>& rows, std::size_t from, st
   std::vector<std::size_t> order;
   for (std::size_t i = from; i < to; ++i) order.push_back(i);
   const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
-  std::ranges::nth_element(order, middle, {}, [&](std::size_t i) { return rows[i].ms; });
+  std::ranges::nth_element(order, middle, {}, [&](std::size_t i) { return rows[i].time.ms; });
   return rows[*middle];
 }
 
@@ -131,9 +131,9 @@ std::vector<Chart> timeCharts(const Comparison& comparison) {
     chart.stacked = true;
     for (const StageGroup& group : stageGroups()) {
       chart.series.push_back(bins.series(group.name, [&](std::size_t from, std::size_t to) {
-        const StepRow& row = medianStep(run.steps, from, to);
+        const StepTime& time = medianStep(run.steps, from, to).time;
         double ms = 0.0;
-        for (const Stage stage : group.stages) ms += row.stage_ms[static_cast<std::size_t>(stage)];
+        for (const Stage stage : group.stages) ms += time.stage_ms[static_cast<std::size_t>(stage)];
         return ms;
       }));
     }

@@ -300,7 +300,10 @@ std::string comparisonCsv(const Comparison& comparison) {
                          row.internal_contacts, row.merges, row.unmerges, distance.mean,
                          distance.largest, row.collections, row.asleep, row.broken_joints,
                          row.max_penetration);
-      if (comparison.timings()) out += fmt::format(",{},{}", row.ms, fmt::join(row.stage_ms, ","));
+      const StepTime& took = row.time;
+      if (comparison.timings()) {
+        out += fmt::format(",{},{}", took.ms, fmt::join(took.stage_ms, ","));
+      }
       out += '\n';
     }
   }

@@ -293,6 +293,21 @@ TEST_F(Compare, WritesATableWithARowPerModeAndStep) {
   }
 }
 
+/// Also of the last turn, which is a short one.
+TEST_F(Compare, TakesTheTimeOfEveryStep) {
+  EXPECT_EQ(
+      run({"compare", "toppled.toml", "--steps", "120", "--csv", "all.csv", "--no-charts"}).code,
+      0);
+  const std::vector<Words> rows = rowsOf("all.csv");
+  ASSERT_THAT(rows, SizeIs(4 * 120));
+  for (const Words& row : rows) {
+    double stages = 0.0;
+    for (std::size_t i = 15; i < row.size(); ++i) stages += std::stod(row[i]);
+    EXPECT_GT(stages, 0.0) << row[0] << ", step " << row[1];
+    EXPECT_LT(stages, std::stod(row[14])) << row[0] << ", step " << row[1];
+  }
+}
+
 TEST_F(Compare, TellsInItsTableWhatRunTellsOfEachStep) {
   EXPECT_EQ(run({"compare", "toppled.toml", "--csv", "all.csv", "--no-charts"}).code, 0);
   EXPECT_EQ(run({"run", "toppled.toml", "--csv", "one.csv"}).code, 0);
