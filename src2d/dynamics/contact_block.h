@@ -82,13 +82,23 @@ inline void solveNormalPair(const ContactBlock& k, double w1, double w2, double&
 
   const double q1 = w1 - k.k11 * l1 - k.k12 * l2;
   const double q2 = w2 - k.k12 * l1 - k.k22 * l2;
-  x1 = -q1 / k.k11;
+  const double only1 = -q1 / k.k11, leaves2 = k.k12 * only1 + q2;
+  x1 = only1;
   x2 = 0.0;
-  if (x1 >= 0.0 && k.k12 * x1 + q2 >= 0.0) return;  // only the first presses
+  if (only1 >= 0.0 && leaves2 >= 0.0) return;  // only the first presses
+  const double only2 = -q2 / k.k22, leaves1 = k.k12 * only2 + q1;
   x1 = 0.0;
-  x2 = -q2 / k.k22;
-  if (x2 >= 0.0 && k.k12 * x2 + q1 >= 0.0) return;  // only the second presses
+  x2 = only2;
+  if (only2 >= 0.0 && leaves1 >= 0.0) return;  // only the second presses
   x2 = 0.0;
+  if (q1 >= 0.0 && q2 >= 0.0) return;  // none presses
+
+  // One of them does, and is missed by a rounding error.
+  if (std::min(-q1, leaves2) >= std::min(-q2, leaves1)) {
+    x1 = std::max(0.0, only1);
+  } else {
+    x2 = std::max(0.0, only2);
+  }
 }
 
 /// The impulse at the limits of friction, where the tangent moves by `w` [m/s].

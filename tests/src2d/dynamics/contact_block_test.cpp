@@ -50,6 +50,24 @@ RC_GTEST_PROP(ContactBlock, TheNormalsSolveTheirComplementarityProblem, (bool pa
   }
 }
 
+/// One point bears all and the other just touches: each case of the solution may then fail by a
+/// rounding error, and what rests was let go.
+RC_GTEST_PROP(ContactBlock, StaysWhereOnlyRoundingTellsWhatPresses, (bool first)) {
+  SolverVelocity a = anyBody(), b = anyBody();
+  a.vx = a.vy = a.omega = b.vx = b.vy = b.omega = 0.0;
+  ContactBlock k;
+  prepareBlock(k, anyGeometry(2), a, b);
+  const int bears = first ? 0 : 1;
+  k.lambda_n(bears) = uniform(0.1, 1);
+  for (int i = 0; i < 2; ++i) {
+    k.bias[i] = 1e-18 * uniform(-10, 10) - k.softness * k.lambda_n(i);
+  }
+  const double before = k.lambda_n(bears);
+  solveBlock(k, k.nx, k.ny, a, b);
+  RC_ASSERT(std::abs(k.lambda_n(bears) - before) < 1e-12);
+  RC_ASSERT(k.lambda_n(1 - bears) < 1e-12);
+}
+
 RC_GTEST_PROP(ContactBlock, FrictionOpposesSlipAndStaysInItsCone, ()) {
   SolverVelocity a = anyBody(), b = anyBody();
   ContactBlock k;
