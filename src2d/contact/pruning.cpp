@@ -2,6 +2,9 @@
 /// side made of many pieces would otherwise rest on many points (Section 2, "Collision Detection").
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "src2d/contact/detection.h"
 
@@ -12,6 +15,8 @@ namespace {
 constexpr double kSameNormal = 0.02;
 /// … and they lie in one line along the tangent up to this height [m], relative to the region.
 constexpr double kSameLine = 0.005;
+/// The outermost two stand for what is between them, unless it is nearer than they let it [m].
+constexpr double kNearer = 1e-4;
 
 struct Region {
   Vec2 normal;
@@ -19,6 +24,18 @@ struct Region {
   ContactPoint* low = nullptr;  ///< outermost points along the tangent
   ContactPoint* high = nullptr;
   double low_at = 0.0, high_at = 0.0;
+
+  double placeOf(const ContactPoint& point) const {
+    return perpendicular(normal).dot(point.position);
+  }
+  /// Where the gaps of the outermost are those of a straight line.
+  double gapAt(double at) const {
+    const double part = high_at > low_at ? (at - low_at) / (high_at - low_at) : 0.0;
+    return low->gap + part * (high->gap - low->gap);
+  }
+  bool keeps(const ContactPoint& point) const {
+    return &point == low || &point == high || point.gap < gapAt(placeOf(point)) - kNearer;
+  }
 };
 
 }  // namespace
@@ -50,23 +67,24 @@ void prunePair(ContactTable& table, const BodyPair& pair) {
       regions.push_back({contact.normal, contact.normal.dot(point.position)});
       region = regions.end() - 1;
     }
-    const double at = perpendicular(region->normal).dot(point.position);
+    const double at = region->placeOf(point);
     if (!region->low || at < region->low_at) region->low = &point, region->low_at = at;
     if (!region->high || at > region->high_at) region->high = &point, region->high_at = at;
   });
 
-  // Keep these only.
+  // Keep these, and what they do not stand for.
+  thread_local std::vector<std::uint8_t> keep;
+  keep.clear();
+  forEach([&](const Contact& contact, const ContactPoint& point) {
+    keep.push_back(regionOf(contact, point)->keeps(point) ? 1 : 0);
+  });
+  auto kept = keep.begin();
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
     Contact& contact = table[table.order[i]];
-    int kept = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
-      const ContactPoint point = contact.points[k];
-      const bool outermost = std::any_of(regions.begin(), regions.end(), [&](const Region& r) {
-        return r.low == &contact.points[k] || r.high == &contact.points[k];
-      });
-      if (outermost) contact.points[static_cast<std::size_t>(kept++)] = point;
+    const auto count = std::exchange(contact.count, std::int16_t{0});
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      if (*kept++) contact.points[static_cast<std::size_t>(contact.count++)] = contact.points[k];
     }
-    contact.count = static_cast<std::int16_t>(kept);
   }
 }
 

@@ -105,7 +105,8 @@ void refuse(Collection& c) {
   c.refuted = true;
 }
 
-/// Where nothing seems to part, refusals are forgotten little by little.
+/// Where nothing seems to part, as no weld is cut or others hold what it held, refusals are
+/// forgotten little by little.
 void forgetRefusals(const State& state, Collection& c) {
   constexpr std::int64_t kEvery = 256;  // steps
   if (c.refusals == 0 || state.step % kEvery != 0) return;
@@ -225,7 +226,7 @@ void testCollection(State& state, Scratch& scratch, Tested& tested) {
   std::optional<Parts> parts;
   if (!confirms(state) || !loses_a_member) {
     parts = partsAtCuts(state, scratch, c, joints_loosened || loses_a_member);
-    if (!parts) return;
+    if (!parts) return forgetRefusals(state, c);
   }
   if (confirms(state)) {
     parts = confirmedParts(state, scratch, c, test, joints_loosened, tested.noted);

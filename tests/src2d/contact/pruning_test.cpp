@@ -33,6 +33,20 @@ TEST(Pruning, AConcaveBodyOnTheFloorRestsOnItsOutermostTwoPoints) {
   }
 }
 
+/// A point between the outermost two was dropped however deep it was.
+TEST(Pruning, AToothThatIsALittleLongerBears) {
+  constexpr double kLonger = 0.004;  // m
+  BodyDesc body = comb(3);
+  body.shapes[2] = makeBox(0.2, 1 + kLonger, Pose::at({0, 0.5 * (1 - kLonger)}, 0.0));
+  Scene scene = onGround();
+  add(scene, body);
+  World world = reference(scene);
+  const double start = see(world, BodyId{1}).x.y();
+  runSteps(world, 200);
+  EXPECT_NEAR(see(world, BodyId{1}).x.y() - start, kLonger, 0.001);
+  EXPECT_LT(fastest(world), 1e-6);
+}
+
 TEST(Pruning, AFloorOfManyTilesIsOneFlatRegion) {
   Scene scene;
   BodyDesc floor;
