@@ -53,7 +53,7 @@ void inherit(ContactPoint& point, const Contact& old) {
   point.fresh = true;
 }
 
-/// Keeps the outermost points of a pair; those that go are noted when somebody asks.
+/// Keeps the points of a pair that bear; those that go are noted when somebody asks.
 void prune(State& state, const BodyPair& pair, Notes* notes) {
   const Pose frame = state.pose(pair.a);
   const auto points = [&] {

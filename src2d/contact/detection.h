@@ -17,8 +17,9 @@ void updateManifold(const State& state, Contact& contact, double ahead);
 /// Lists the body pairs that have a contact point, ascending.
 void collectPairs(const State& state, Scratch& scratch);
 
-/// At most two well-spread points per flat region of a pair of bodies: keeps the outermost two of
-/// each group of points with one normal and in one line, over all shape contacts of the pair.
+/// Two well-spread points per flat region of a pair of bodies: keeps the outermost two of each
+/// group of points with one normal and in one line, over all shape contacts of the pair, and what
+/// is nearer than these would let it. Guarded by Pruning.AToothThatIsALittleLongerBears.
 void prunePair(ContactTable& table, const BodyPair& pair);
 
 }  // namespace merge2d

@@ -1,4 +1,4 @@
-/// At most two points per flat region of a pair of bodies.
+/// Two points per flat region of a pair of bodies, and those that these do not stand for.
 
 #include <gtest/gtest.h>
 
