@@ -38,47 +38,51 @@ struct Region {
   }
 };
 
+/// Where a point belongs, or the end.
+auto regionOf(std::vector<Region>& regions, const Vec2& normal, const ContactPoint& point) {
+  return std::find_if(regions.begin(), regions.end(), [&](const Region& r) {
+    return std::abs(cross(r.normal, normal)) < kSameNormal && r.normal.dot(normal) > 0.0 &&
+           std::abs(r.normal.dot(point.position) - r.height) < kSameLine;
+  });
+}
+
+void addTo(std::vector<Region>& regions, const Vec2& normal, ContactPoint& point) {
+  auto region = regionOf(regions, normal, point);
+  if (region == regions.end()) {
+    regions.push_back({normal, normal.dot(point.position)});
+    region = regions.end() - 1;
+  }
+  const double at = region->placeOf(point);
+  if (!region->low || at < region->low_at) region->low = &point, region->low_at = at;
+  if (!region->high || at > region->high_at) region->high = &point, region->high_at = at;
+}
+
+/// Calls `visit(contact, point)` for all points of a pair, which are in the frame of its first body
+/// already.
+template <class Visit>
+void forEachPoint(ContactTable& table, const BodyPair& pair, Visit&& visit) {
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    Contact& contact = table[table.order[i]];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
+      visit(contact, contact.points[k]);
+    }
+  }
+}
+
 }  // namespace
 
 void prunePair(ContactTable& table, const BodyPair& pair) {
-  // All contacts of the pair are in a's frame already.
   thread_local std::vector<Region> regions;
+  thread_local std::vector<std::uint8_t> keeps;  // per point, in order
   regions.clear();
-  const auto forEach = [&](auto&& visit) {
-    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-      Contact& contact = table[table.order[i]];
-      for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
-        visit(contact, contact.points[k]);
-      }
-    }
-  };
-  const auto regionOf = [&](const Contact& contact, const ContactPoint& point) {
-    return std::find_if(regions.begin(), regions.end(), [&](const Region& r) {
-      return std::abs(cross(r.normal, contact.normal)) < kSameNormal &&
-             r.normal.dot(contact.normal) > 0.0 &&
-             std::abs(r.normal.dot(point.position) - r.height) < kSameLine;
-    });
-  };
-
-  // Group the points and find the outermost two of each group.
-  forEach([&](Contact& contact, ContactPoint& point) {
-    auto region = regionOf(contact, point);
-    if (region == regions.end()) {
-      regions.push_back({contact.normal, contact.normal.dot(point.position)});
-      region = regions.end() - 1;
-    }
-    const double at = region->placeOf(point);
-    if (!region->low || at < region->low_at) region->low = &point, region->low_at = at;
-    if (!region->high || at > region->high_at) region->high = &point, region->high_at = at;
+  keeps.clear();
+  forEachPoint(table, pair, [&](Contact& contact, ContactPoint& point) {
+    addTo(regions, contact.normal, point);
   });
-
-  // Keep these, and what they do not stand for.
-  thread_local std::vector<std::uint8_t> keep;
-  keep.clear();
-  forEach([&](const Contact& contact, const ContactPoint& point) {
-    keep.push_back(regionOf(contact, point)->keeps(point) ? 1 : 0);
+  forEachPoint(table, pair, [&](Contact& contact, ContactPoint& point) {
+    keeps.push_back(regionOf(regions, contact.normal, point)->keeps(point) ? 1 : 0);
   });
-  auto kept = keep.begin();
+  auto kept = keeps.begin();
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
     Contact& contact = table[table.order[i]];
     const auto count = std::exchange(contact.count, std::int16_t{0});
