@@ -162,6 +162,10 @@ class JointReader {
   [[noreturn]] static void failWithoutKind(TableReader& table) {
     for (const KindsKey& key : kKindsKeys) table.has(key.key);
     for (const char* key : {"bodies", "at", "break_force", "collide"}) table.has(key);
+    if (table.holds("type")) {  // as other engines call it
+      table.failAt("type",
+                   fmt::format("[[joint]] has no 'type' but a 'kind', {}", choiceOf<JointKind>()));
+    }
     table.done();
     table.fail(fmt::format("[[joint]] needs the key 'kind', {}", choiceOf<JointKind>()));
   }

@@ -150,6 +150,9 @@ TEST(Joints, AreOfAKnownKindWithItsOwnKeys) {
               "18:1: unknown key 'body' in [[joint]] (did you mean 'bodies'?)");
   expectError("knd = \"weld\"\nbodies = [\"crate\"]\nat = [0, 0]",
               "17:1: unknown key 'knd' in [[joint]] (did you mean 'kind'?)");
+  expectError("type = \"weld\"\nbodies = [\"crate\"]\nat = [0, 0]",
+              "17:8: [[joint]] has no 'type' but a 'kind', one of \"revolute\", \"weld\", "
+              "\"distance\", \"prismatic\"");
 }
 
 TEST(Joints, SayWhatIsWrongWithTheirNumbers) {
