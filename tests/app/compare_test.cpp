@@ -296,10 +296,10 @@ TEST_F(Compare, WritesATableWithARowPerModeAndStep) {
 /// Also of the last turn, which is a short one.
 TEST_F(Compare, TakesTheTimeOfEveryStep) {
   EXPECT_EQ(
-      run({"compare", "toppled.toml", "--steps", "120", "--csv", "all.csv", "--no-charts"}).code,
+      run({"compare", "toppled.toml", "--steps", "250", "--csv", "all.csv", "--no-charts"}).code,
       0);
   const std::vector<Words> rows = rowsOf("all.csv");
-  ASSERT_THAT(rows, SizeIs(4 * 120));
+  ASSERT_THAT(rows, SizeIs(4 * 250));
   for (const Words& row : rows) {
     double stages = 0.0;
     for (std::size_t i = 15; i < row.size(); ++i) stages += std::stod(row[i]);

@@ -356,8 +356,8 @@ double lateEnergy(SceneRun run, int steps) {
   return energy;
 }
 
-/// Lines fall into a heap and jam. Some such heaps slip and catch for ever, but then in the
-/// reference too.
+/// Lines fall into a heap and jam. Only what would not rest in the reference, gone on with from the
+/// same places, may still come apart then.
 TEST(LongDrawn, WhatComesApartLateWouldNotRestInTheReferenceEither) {
   constexpr double kRest = 1e-9;  // J
   int at_rest = 0;
