@@ -11,16 +11,16 @@ namespace {
 
 /// How the car moves against the ferry, from two seconds on; from ten it is looked at once in each
 /// wave, which takes eight.
-struct Drift {
+struct Excursion {
   double end = 0.0, farthest = 0.0;  ///< from where it was at first [m]
   double by_waves = 0.0;             ///< after a whole number of waves, at most [m]
 };
 
-Drift drift(double seconds, SceneRun& run) {
+Excursion drift(double seconds, SceneRun& run) {
   run.until(2.0);
   const Vec2 start = run.seenFrom("ferry", "car");
   Vec2 wave = start;
-  Drift out;
+  Excursion out;
   for (int t = 3; t <= seconds; ++t) {
     run.until(t);
     const Vec2 now = run.seenFrom("ferry", "car");
@@ -42,7 +42,7 @@ TEST(Ferry, TheMergedCarStaysWhereItIs) {
 
 TEST(Ferry, InTenMinutesTheMergedCarStaysAndTheReferenceMovesWithEachWave) {
   SceneRun run("ferry"), reference("ferry", Mode::Reference);
-  const Drift merged = drift(600.0, run), free = drift(600.0, reference);
+  const Excursion merged = drift(600.0, run), free = drift(600.0, reference);
   EXPECT_LT(merged.farthest, 1e-12);
   EXPECT_NEAR(free.end, 1.8e-6, 0.2e-6);
   EXPECT_NEAR(free.farthest, 2.4e-6, 0.2e-6);

@@ -5,14 +5,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "tests/support/random.h"
+
 namespace merge2d {
 namespace {
-
-double uniform(double low, double high) {
-  return low + (high - low) * *rc::gen::inRange(0, 1000001) * 1e-6;
-}
-
-Vec2 anyVector(double size) { return {uniform(-size, size), uniform(-size, size)}; }
 
 SolverVelocity anyBody() {
   return {uniform(-2, 2), uniform(-2, 2), uniform(-2, 2), uniform(0.01, 2), uniform(0.01, 2)};
@@ -24,7 +20,7 @@ BlockGeometry anyGeometry(int count) {
   g.normal = Rotation::of(uniform(-3.1, 3.1)) * Vec2(1, 0);
   g.count = count;
   g.softness = uniform(0, 0.1);
-  const Vec2 a = anyVector(1), b = anyVector(1);
+  const Vec2 a = anyVec(1), b = anyVec(1);
   const Vec2 along = uniform(0.2, 1.0) * perpendicular(g.normal);
   g.arm_a[0] = a, g.arm_a[1] = a + along;
   g.arm_b[0] = b, g.arm_b[1] = b + along;

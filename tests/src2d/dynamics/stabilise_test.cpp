@@ -11,14 +11,6 @@ namespace {
 
 const Overrides kPost{{"solver.stabilisation", "post"}};
 
-World running(const Scene& scene, Mode mode) {
-  return World(scene, {.mode = mode, .timings = false});
-}
-
-void run(World& world, double time) {
-  while (world.time() < time - 1e-9) world.step();
-}
-
 const std::string kDeepBox = R"(
 format = 1
 gravity = [0, 0]
@@ -34,7 +26,7 @@ box = [1, 1]
 )";
 
 TEST(Stabilise, AnOverlapGoesWithoutAVelocity) {
-  World world = running(parseScene(kDeepBox, "s.toml", kPost), Mode::Reference);
+  World world = reference(parseScene(kDeepBox, "s.toml", kPost));
   for (int i = 0; i < 20; ++i) {
     world.step();
     EXPECT_NEAR(world.capture().bodies[1].v.norm(), 0.0, 1e-12);
@@ -43,7 +35,7 @@ TEST(Stabilise, AnOverlapGoesWithoutAVelocity) {
 }
 
 TEST(Stabilise, BaumgartePushesInstead) {
-  World world = running(parseScene(kDeepBox, "s.toml"), Mode::Reference);
+  World world = reference(parseScene(kDeepBox, "s.toml"));
   world.step();
   EXPECT_GT(world.capture().bodies[1].v.y(), 0.1);
 }
@@ -62,8 +54,8 @@ at = [0, 0.5]
 box = [1, 1]
 repeat = { count = [1, 10], spacing = [1, 1] }
 )";
-  World world = running(parseScene(column, "s.toml", kPost), Mode::Reference);
-  run(world, 4.0);
+  World world = reference(parseScene(column, "s.toml", kPost));
+  runSeconds(world, 4.0);
   const Snapshot now = world.capture();
   for (const BodyState& body : now.bodies) EXPECT_LT(body.v.norm(), 1e-3);
   EXPECT_LT(now.stats.max_penetration, 1e-4);
@@ -82,7 +74,7 @@ kind = "revolute"
 bodies = ["bob"]
 at = [0, 0]
 )";
-  World world = running(parseScene(pendulum, "s.toml", kPost), Mode::Reference);
+  World world = reference(parseScene(pendulum, "s.toml", kPost));
   for (int i = 0; i < 400; ++i) {
     world.step();
     ASSERT_NEAR(world.capture().bodies[0].x.norm(), 1.0, 5e-3) << i;
@@ -93,8 +85,8 @@ at = [0, 0]
 int mergedInTheSpinner(const char* spin, const Overrides& overrides) {
   Overrides all{{"body.tray.script.spin", spin}};
   all.insert(all.end(), overrides.begin(), overrides.end());
-  World world = running(loadScene("spinner", all), Mode::Merge);
-  run(world, 5.0);
+  World world(loadScene("spinner", all), inMode(Mode::Merge));
+  runSeconds(world, 5.0);
   int merged = 0;
   for (const BodyState& body : world.capture().bodies) merged += body.collection != kNoCollection;
   return merged;

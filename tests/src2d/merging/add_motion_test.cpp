@@ -4,14 +4,10 @@
 #include <rapidcheck/gtest.h>
 
 #include "src2d/merging/collection.h"
+#include "tests/support/random.h"
 
 namespace merge2d {
 namespace {
-
-double uniform(double low, double high) {
-  return low + (high - low) * *rc::gen::inRange(0, 1000001) * 1e-6;
-}
-Vec2 anyVec(double size) { return {uniform(-size, size), uniform(-size, size)}; }
 
 Rigid anyRigid() {
   Rigid r;

@@ -164,7 +164,7 @@ TEST(Collection, MembersDoNotDriftInTenThousandSteps) {
   EXPECT_NEAR(at_last.angular_momentum, at_first.angular_momentum, 1e-9);
 }
 
-const std::string kTwoPiles = kGround + R"(
+const std::string kTwoColumns = kGround + R"(
 [[body]]
 name = "left"
 at = [-3, 0.5]
@@ -178,7 +178,7 @@ repeat = { count = [1, 3], spacing = [1, 1] }
 )";
 
 TEST(Collection, TwoPilesOnOneFloorStayTwo) {
-  Simulation run(kTwoPiles, Mode::Merge);
+  Simulation run(kTwoColumns, Mode::Merge);
   run.until(2.0);
   const Snapshot now = run.now();
   ASSERT_EQ(now.collections.size(), 2u);
@@ -194,7 +194,7 @@ TEST(Collection, TwoPilesOnOneFloorStayTwo) {
 }
 
 TEST(Collection, UnderThePapersRuleTwoPilesOnOneFloorAreOne) {
-  Simulation run(kTwoPiles, Mode::Merge, kPaper);
+  Simulation run(kTwoColumns, Mode::Merge, kPaper);
   run.until(2.0);
   const Snapshot now = run.now();
   ASSERT_EQ(now.collections.size(), 1u);
@@ -204,7 +204,7 @@ TEST(Collection, UnderThePapersRuleTwoPilesOnOneFloorAreOne) {
 }
 
 TEST(Collection, UnderThePapersRuleWhatComesFreeLeavesTheRestOnTheFloorTogether) {
-  Simulation run(kTwoPiles, Mode::Merge, kPaper);
+  Simulation run(kTwoColumns, Mode::Merge, kPaper);
   run.until(2.0);
   run.kick("left[0,2]", {5.0, 0.0});
   run.steps(5);
@@ -214,7 +214,7 @@ TEST(Collection, UnderThePapersRuleWhatComesFreeLeavesTheRestOnTheFloorTogether)
 }
 
 TEST(Collection, UnderThePapersRulePilesOnTwoFloorsStayTwo) {
-  Simulation run(kTwoPiles + R"(
+  Simulation run(kTwoColumns + R"(
 [[body]]
 name = "shelf"
 motion = "pinned"

@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "src2d/merging/parts.h"
-#include "src2d/world.h"
-#include "tests/support/scenes.h"
+#include "tests/src2d/merging/merging_testing.h"
 
 namespace merge2d {
 namespace {
@@ -31,26 +30,16 @@ class EachWeldAvoided : public Observer {
   int avoided = 0, welds = 0;
 };
 
-EachWeldAvoided watched(const Scene& scene, int steps) {
-  EachWeldAvoided avoided;
-  World world(scene, {.mode = Mode::Merge, .timings = false});
-  for (int i = 0; i < 150; ++i) {
-    if (i + steps == 150) world.observe(&avoided);
-    world.step();
-  }
-  return avoided;
-}
-
 TEST(Detours, WhatAWayAroundHoldsDoesNotFallApart) {
   for (const Scene& scene : {wall(6, 5), column(5), pyramid(5)}) {
-    EXPECT_GT(watched(scene, 150).welds, 0);
+    EXPECT_GT(watched<EachWeldAvoided>(scene, 150).welds, 0);
   }
 }
 
 TEST(Detours, LeadAroundMostWeldsOfAWallAndNoneOfAColumn) {
-  const EachWeldAvoided in_wall = watched(wall(6, 5), 1);
+  const EachWeldAvoided in_wall = watched<EachWeldAvoided>(wall(6, 5), 1);
   EXPECT_GT(in_wall.avoided, in_wall.welds / 2);
-  const EachWeldAvoided in_column = watched(column(5), 1);
+  const EachWeldAvoided in_column = watched<EachWeldAvoided>(column(5), 1);
   EXPECT_EQ(in_column.welds, 5);
   EXPECT_EQ(in_column.avoided, 0);
 }
@@ -61,7 +50,7 @@ TEST(Detours, DoNotLeadThroughTheGround) {
   add(scene, box(0.4, 1, {-1, 0.5}));
   add(scene, box(0.4, 1, {1, 0.5}));
   add(scene, box(3, 0.2, {0, 1.1}));
-  const EachWeldAvoided of_portal = watched(scene, 1);
+  const EachWeldAvoided of_portal = watched<EachWeldAvoided>(scene, 1);
   EXPECT_EQ(of_portal.welds, 4);
   // The pillars' welds with the ground have a way around, by plank and other pillar; those of the
   // plank would need the ground.

@@ -44,7 +44,7 @@ TEST(Magnet, HoldsWhatHangsFromIt) {
 /// What comes near fast has contacts far ahead of it, and a magnet must not close them all within a
 /// step: a bar that hit it with its corner left with six times its energy.
 TEST(Magnet, AddsNoEnergyToWhatSpinsPast) {
-  constexpr double kMass = 0.2, kInertia = kMass * (0.04 + 1.0) / 12.0;
+  constexpr double kBarMass = 0.2, kInertia = kBarMass * (0.04 + 1.0) / 12.0;
   for (const double spin : {5.0, 10.0, 20.0, 30.0}) {  // rad/s
     for (const double distance : {0.02, 0.05, 0.1, 0.2}) {
       Simulation run(fmt::format(R"(
@@ -66,13 +66,13 @@ body = "magnet"
 )",
                                  0.6 + distance, spin * 180.0 / std::numbers::pi),
                      Mode::Reference);
-      const double start = 0.5 * kMass + 0.5 * kInertia * spin * spin;
+      const double start = 0.5 * kBarMass + 0.5 * kInertia * spin * spin;
       double most = 0.0;
       for (int step = 0; step < 200; ++step) {
         run.steps(1);
         const BodyState bar = run.body("bar");
         const double energy =
-            0.5 * kMass * bar.v.squaredNorm() + 0.5 * kInertia * bar.omega * bar.omega;
+            0.5 * kBarMass * bar.v.squaredNorm() + 0.5 * kInertia * bar.omega * bar.omega;
         most = std::max(most, energy);
       }
       EXPECT_LT(most, 1.001 * start) << spin << " rad/s, " << distance << " m";

@@ -77,6 +77,18 @@ class Simulation {
   std::map<EventType, int> events_;
 };
 
+/// What an observer says of the last `steps` of 150.
+template <class Observing>
+Observing watched(const Scene& scene, int steps) {
+  Observing observer;
+  World world(scene, {.mode = Mode::Merge, .timings = false});
+  for (int i = 0; i < 150; ++i) {
+    if (i + steps == 150) world.observe(&observer);
+    world.step();
+  }
+  return observer;
+}
+
 /// How many bodies stand farther from where they were.
 inline int moved(const Snapshot& before, const Snapshot& after, double distance) {
   int count = 0;

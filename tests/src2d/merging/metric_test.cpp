@@ -3,40 +3,37 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "tests/support/random.h"
+
 namespace merge2d {
 namespace {
-
-double uniform(double low, double high) {
-  return low + (high - low) * *rc::gen::inRange(0, 1000001) * 1e-6;
-}
-Vec2 anyVec(double size) { return {uniform(-size, size), uniform(-size, size)}; }
 
 VelocityField anyField() { return {anyVec(5.0), anyVec(2.0), uniform(-3.0, 3.0)}; }
 OrientedBox anyBox() {
   return {Pose::at(anyVec(5.0), uniform(-3.0, 3.0)), {uniform(0.1, 3.0), uniform(0.1, 3.0)}};
 }
 
-const VelocityField kStill;
+const VelocityField kAtRest;
 
 TEST(Metric, EndsOfASeeSawMoveWithOmegaTimesHalfItsLength) {
   const double length = 6.0, omega = 0.25;
   const OrientedBox beam{Pose::at({3.0, 4.0}, 0.1), {0.5 * length, 0.0}};
   const VelocityField turning{beam.frame.position, Vec2::Zero(), omega};
-  EXPECT_NEAR(fastestCorner(beam, turning, kStill), omega * length / 2.0, 1e-15);
+  EXPECT_NEAR(fastestCorner(beam, turning, kAtRest), omega * length / 2.0, 1e-15);
 }
 
 TEST(Metric, SeesASlowSeeSawThatIsStillAtItsPivot) {  // Figure 2
   const double threshold = 1e-2;
   const OrientedBox beam{Pose::at({0.0, 1.0}, 0.0), {3.0, 0.1}};
   const VelocityField turning{beam.frame.position, Vec2::Zero(), 0.01};
-  EXPECT_LT((turning.at(beam.frame.position) - kStill.at(beam.frame.position)).norm(), threshold);
-  EXPECT_GT(fastestCorner(beam, turning, kStill), threshold);
+  EXPECT_LT((turning.at(beam.frame.position) - kAtRest.at(beam.frame.position)).norm(), threshold);
+  EXPECT_GT(fastestCorner(beam, turning, kAtRest), threshold);
 }
 
 TEST(Metric, OfATranslationIsItsSpeed) {
   const OrientedBox box{Pose::at({1.0, 2.0}, 0.7), {2.0, 1.0}};
   const VelocityField moving{{5.0, 5.0}, {3.0, -4.0}, 0.0};
-  EXPECT_NEAR(fastestCorner(box, moving, kStill), 5.0, 1e-15);
+  EXPECT_NEAR(fastestCorner(box, moving, kAtRest), 5.0, 1e-15);
 }
 
 RC_GTEST_PROP(Metric, DoesNotDependOnWhereInTheWorldThePairIs, ()) {

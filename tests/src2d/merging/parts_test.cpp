@@ -5,8 +5,7 @@
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/grip.h"
 #include "src2d/merging/spare_welds.h"
-#include "src2d/world.h"
-#include "tests/support/scenes.h"
+#include "tests/src2d/merging/merging_testing.h"
 
 namespace merge2d {
 namespace {
@@ -71,28 +70,18 @@ class EachWeldCut : public Observer {
   int alone = 0;  ///< cuts that leave a member without anything that holds it
 };
 
-EachWeldCut watched(const Scene& scene, int steps) {
-  EachWeldCut cut;
-  World world(scene, {.mode = Mode::Merge, .timings = false});
-  for (int i = 0; i < 150; ++i) {
-    if (i + steps == 150) world.observe(&cut);
-    world.step();
-  }
-  return cut;
-}
-
 TEST(Parts, EqualTheGroupsOfAllContacts) {
   for (const Scene& scene : {wall(6, 5), column(5), pyramid(5)}) {
-    EXPECT_GT(watched(scene, 60).welds, 0);
+    EXPECT_GT(watched<EachWeldCut>(scene, 60).welds, 0);
   }
 }
 
 TEST(Parts, AColumnFallsApartAtAnyWeldAndAWallHardlyAnywhere) {
-  const EachWeldCut in_column = watched(column(5), 1);
+  const EachWeldCut in_column = watched<EachWeldCut>(column(5), 1);
   EXPECT_EQ(in_column.welds, 5);
   EXPECT_EQ(in_column.parted, 5);
   EXPECT_EQ(in_column.alone, 1) << "the uppermost";
-  const EachWeldCut in_wall = watched(wall(6, 5), 1);
+  const EachWeldCut in_wall = watched<EachWeldCut>(wall(6, 5), 1);
   EXPECT_LT(in_wall.parted, in_wall.welds / 4);
 }
 

@@ -6,14 +6,10 @@
 #include "src2d/dynamics/setup.h"
 #include "src2d/merging/collection.h"
 #include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/random.h"
 
 namespace merge2d {
 namespace {
-
-double uniform(double low, double high) {
-  return low + (high - low) * *rc::gen::inRange(0, 1000001) * 1e-6;
-}
-Vec2 anyVec(double size) { return {uniform(-size, size), uniform(-size, size)}; }
 
 /// Boxes and discs anywhere, with any motion.
 void anySetup(int count, Setup& setup) {

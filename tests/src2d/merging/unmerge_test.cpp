@@ -9,7 +9,7 @@
 namespace merge2d {
 namespace {
 
-const std::string kColumn = kGround + R"(
+const std::string kSixBoxes = kGround + R"(
 [[body]]
 name = "box"
 at = [0, 0.5]
@@ -20,7 +20,7 @@ repeat = { count = [1, 6], spacing = [1, 1] }
 std::string boxName(int row) { return "box[0," + std::to_string(row) + "]"; }
 
 TEST(Unmerge, FreesOnlyTheBodyThatWasHit) {
-  Simulation run(kColumn, Mode::Merge);
+  Simulation run(kSixBoxes, Mode::Merge);
   run.until(3.0);
   const CollectionId pile = run.collectionOf(boxName(0));
   ASSERT_EQ(run.collectionOf(boxName(5)), pile);
@@ -33,7 +33,7 @@ TEST(Unmerge, FreesOnlyTheBodyThatWasHit) {
 }
 
 TEST(Unmerge, ABreakInTheMiddleLeavesTwoParts) {  // Figure 3
-  Simulation run(kColumn, Mode::Merge);
+  Simulation run(kSixBoxes, Mode::Merge);
   run.until(3.0);
   const CollectionId pile = run.collectionOf(boxName(0));
   ASSERT_EQ(run.collectionOf(boxName(5)), pile);
