@@ -39,9 +39,6 @@ struct ContactPoint {
   float w_n = 0.0F, w_t = 0.0F;           ///< velocity after it [m/s]
 };
 
-/// More cuts in vain than these make no difference.
-inline constexpr std::int16_t kMostVain = 5;
-
 /// The contact of two convex shapes: persistent over steps, at most two points.
 struct Contact {
   ContactKey key;

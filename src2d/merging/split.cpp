@@ -5,6 +5,7 @@
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
+#include "src2d/merging/caution.h"
 #include "src2d/merging/collection.h"
 
 namespace merge2d {

@@ -54,6 +54,13 @@ TEST_P(LongPile, FallsAsleepWithAnySeed) {
 }
 INSTANTIATE_TEST_SUITE_P(Long, LongPile, testing::Values(2, 3, 4, 5));
 
+/// Rigid rows see a slow slip in this heap where soft contacts hold, whenever it has merged.
+TEST(LongPileAtRest, DoesNotMergeAndPartForEver) {
+  SceneRun run("pile", Mode::MergeSleep, {{"seed", "16"}});
+  run.until(60.0);
+  EXPECT_EQ(run.eventsAfter(4800), 0);
+}
+
 /// Nothing left the tray, and nothing sank into it.
 void expectInTheTray(const SceneRun& run) {
   constexpr double kWall = 28.0;  // the inner faces of the tray [m]

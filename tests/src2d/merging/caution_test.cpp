@@ -1,5 +1,8 @@
 /// What was cut in vain bears more the next time, until it has got somewhere.
 
+#include "src2d/merging/caution.h"
+
+#include "src2d/dynamics/setup.h"
 #include "tests/src2d/merging/merging_testing.h"
 
 namespace merge2d {
@@ -61,6 +64,21 @@ TEST(Caution, DoesNotHoldWhatIsStruckHard) {
   const double expected = lastWay(reference);
   EXPECT_GT(expected, 0.05);
   EXPECT_NEAR(lastWay(run), expected, 0.05 * expected);
+}
+
+TEST(Caution, IsLessWhileAJoltStillCounts) {
+  merge2d::Setup setup;
+  setUp(column(2), Mode::Merge, setup);
+  Collection c;
+  c.contacts.resize(1);
+  Weld weld;
+  EXPECT_EQ(cautionWith(setup.state, c, weld), 1.0);
+  weld.vain = kMostVainWhenJolted;
+  const double before = cautionWith(setup.state, c, weld);
+  weld.vain = kMostVain;
+  EXPECT_GT(cautionWith(setup.state, c, weld), before);
+  c.jolted = 1;
+  EXPECT_EQ(cautionWith(setup.state, c, weld), before) << "as that may well move it";
 }
 
 TEST(Caution, IsNotInThePapersRule) {
