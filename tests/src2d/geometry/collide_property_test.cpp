@@ -7,16 +7,13 @@
 #include <numbers>
 
 #include "src2d/geometry/collide.h"
+#include "tests/support/random.h"
 
 namespace merge2d {
 namespace {
 
 // Box2D keeps A's face unless B's separates better by a tenth of its linear slop. [m]
 constexpr double kPreference = 5.2e-4;
-
-double uniform(double low, double high) {
-  return low + (high - low) * *rc::gen::inRange(0, 1000001) * 1e-6;
-}
 
 /// A polygon inscribed in an ellipse, somewhere in its body's frame.
 Polygon anyPolygon() {

@@ -81,11 +81,10 @@ class Simulation {
 template <class Observing>
 Observing watched(const Scene& scene, int steps) {
   Observing observer;
-  World world(scene, {.mode = Mode::Merge, .timings = false});
-  for (int i = 0; i < 150; ++i) {
-    if (i + steps == 150) world.observe(&observer);
-    world.step();
-  }
+  World world(scene, inMode(Mode::Merge));
+  runSteps(world, 150 - steps);
+  world.observe(&observer);
+  runSteps(world, steps);
   return observer;
 }
 
