@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "src2d/merging/disturbance.h"
 #include "src2d/merging/grip.h"
 #include "src2d/merging/limits.h"
 #include "src2d/merging/metric.h"
@@ -240,36 +239,6 @@ void WeldTest::testLeaning() {
   }
 }
 
-bool WeldTest::isStruck() const { return c_.struck == kFollowed && rule() == Rule::Default; }
-
-void WeldTest::testShaken() {
-  for (const BodyId member : c_.members) {
-    if (!scratch_.shaken[index(member)]) continue;
-    const std::uint32_t node = state_[rigidOf(member)].member;
-    for (std::uint32_t k = c_.weld_at[node]; k < c_.weld_at[node + 1]; ++k) {
-      Weld& weld = c_.welds[c_.weld_of[k]];
-      const bool other = weld.b == member && scratch_.shaken[index(weld.a)];
-      if (!other && !weld.cut && !weld.expected && weld.joints == 0) testShake(weld);
-    }
-  }
-}
-
-void WeldTest::testShake(Weld& weld) {
-  const Turning now = relativeMotion(weld, least(weld));
-  const double threshold = state_.settings.unmerging.velocity * caution(weld);
-  if (std::abs(now.fastest) <= threshold || now.nearest <= noise()) return;
-  note(weld, [&] {
-    return Decision{.criterion = "relative-motion",
-                    .equation = "(17)",
-                    .value = std::abs(now.fastest),
-                    .threshold = threshold,
-                    .count = 1,
-                    .verdict = "unmerge",
-                    .caution = caution(weld)};
-  });
-  cutWeld(weld, EventReason::RelativeMotion);
-}
-
 bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {
   const UnmergingSettings& settings = state_.settings.unmerging;
   weld.turning.steps = std::abs(now.fastest) > settings.velocity ? weld.turning.steps + 1 : 0;
@@ -328,13 +297,13 @@ bool WeldTest::slowerThan(double limit, const Weld& weld, const VelocityField& a
 }
 
 double WeldTest::fastestBound(const Weld& weld, const Pivot& pivot) const {
-  const SolverVelocity &a = scratch_.sweep_u[index(weld.a)], &b = scratch_.sweep_u[index(weld.b)];
+  const SolverVelocity &a = velocity(weld.a), &b = velocity(weld.b);
   const double linear = std::abs(b.vx - a.vx) + std::abs(b.vy - a.vy);
   return linear + (std::abs(a.omega) + std::abs(b.omega - a.omega)) * pivot.reach;
 }
 
 double WeldTest::closerBound(const Weld& weld, const Pivot& pivot) const {
-  const SolverVelocity &a = scratch_.sweep_u[index(weld.a)], &b = scratch_.sweep_u[index(weld.b)];
+  const SolverVelocity &a = velocity(weld.a), &b = velocity(weld.b);
   const Vec2 linear = Vec2(b.vx - a.vx, b.vy - a.vy) - cross(b.omega, between(weld));
   return linear.norm() + std::abs(b.omega - a.omega) * pivot.reach;
 }
@@ -348,7 +317,7 @@ Vec2 WeldTest::between(const Weld& weld) const {
 WeldTest::Turning WeldTest::relativeMotion(const Weld& weld, const Least& least) const {
   // Seen from the first body, so that it does not matter where in the world they are.
   const auto field = [&](BodyId b, const Vec2& at) {
-    const SolverVelocity& u = scratch_.sweep_u[index(b)];
+    const SolverVelocity& u = velocity(b);
     return VelocityField{at, {u.vx, u.vy}, u.omega};
   };
   const VelocityField a = field(weld.a, Vec2::Zero()), b = field(weld.b, between(weld));

@@ -95,12 +95,15 @@ class WeldTest {
   /// Something hits the collection in this step.
   bool isStruck() const;
 
-  /// Relative motion of all welds around bodies that a blow reached. Deviation: in the paper only
-  /// contacts at their limits part, which holds for sweeps that have converged. A blow is over in a
-  /// step, and its sweeps leave the last joints of a chain at odds with each other: held together,
-  /// they would take all of it. Guarded by Blow.LiftsWhatStandsAbove.
+  /// All welds around bodies that a blow reached. Deviation: in the paper only contacts at their
+  /// limits part, which holds for sweeps that have converged. A blow is over in a step, and its
+  /// sweeps leave the last joints of a chain at odds with each other: held together, they would
+  /// take all of it. Guarded by Blow.LiftsWhatStandsAbove.
   void testShaken();
-  void testShake(Weld& weld);
+  void testShake(Weld& weld, const VelocityField& whole);
+
+  /// The faster of the weld's two bodies against the motion of the whole collection [m/s].
+  double swayAgainst(const VelocityField& whole, const Weld& weld) const;
 
   /// As in the paper: fast enough in several consecutive steps.
   bool moveLoudly(Weld& weld, const Turning& now) const;
@@ -127,6 +130,9 @@ class WeldTest {
 
   /// All zero when no corner can be fast enough to matter.
   Turning relativeMotion(const Weld& weld, const Least& least) const;
+
+  /// After the sweeps of this step so far.
+  const SolverVelocity& velocity(BodyId b) const { return scratch_.sweep_u[index(b)]; }
 
   /// From the centre of mass of the weld's first body to that of the other.
   Vec2 between(const Weld& weld) const;

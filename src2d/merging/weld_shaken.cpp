@@ -1,0 +1,67 @@
+/// What a blow does to the welds of a collection, in the step in which it strikes.
+
+#include <algorithm>
+#include <cmath>
+
+#include "src2d/merging/disturbance.h"
+#include "src2d/merging/momentum.h"
+#include "src2d/merging/weld_test.h"
+
+namespace merge2d {
+namespace {
+
+/// Deviation: what a blow moves by as much as this against the whole does not stay with it, though
+/// each single weld of it gives too little to part: of the unmerging velocity, what it moves by,
+/// and what its weld must give for that. Guarded by TowerImpulseHeavy.FreesWhatMoves.
+constexpr double kCarriedOff = 1.5, kGives = 0.1;
+
+}  // namespace
+
+bool WeldTest::isStruck() const { return c_.struck == kFollowed && rule() == Rule::Default; }
+
+void WeldTest::testShaken() {
+  const VelocityField whole =
+      fieldOf(state_, c_, [&](BodyId b) -> const SolverVelocity& { return velocity(b); });
+  for (const BodyId member : c_.members) {
+    if (!scratch_.shaken[index(member)]) continue;
+    const std::uint32_t node = state_[rigidOf(member)].member;
+    for (std::uint32_t k = c_.weld_at[node]; k < c_.weld_at[node + 1]; ++k) {
+      Weld& weld = c_.welds[c_.weld_of[k]];
+      const bool other = weld.b == member && scratch_.shaken[index(weld.a)];
+      if (!other && !weld.cut && !weld.expected && weld.joints == 0) testShake(weld, whole);
+    }
+  }
+}
+
+void WeldTest::testShake(Weld& weld, const VelocityField& whole) {
+  const Turning now = relativeMotion(weld, {0.0, 0.0});
+  const double motion = std::abs(now.fastest);
+  const double threshold = state_.settings.unmerging.velocity * caution(weld);
+  const bool parts = motion > threshold && now.nearest > noise();
+  if (!parts && motion <= kGives * threshold) return;
+  const double sway = swayAgainst(whole, weld), most = kCarriedOff * threshold;
+  if (!parts && sway <= most) return;
+  note(weld, [&] {
+    return Decision{.criterion = parts ? "relative-motion" : "carried-off",
+                    .equation = "(17)",
+                    .value = parts ? motion : sway,
+                    .threshold = parts ? threshold : most,
+                    .count = 1,
+                    .verdict = "unmerge",
+                    .caution = caution(weld)};
+  });
+  cutWeld(weld, EventReason::RelativeMotion);
+}
+
+double WeldTest::swayAgainst(const VelocityField& whole, const Weld& weld) const {
+  double fastest = 0.0;
+  for (const BodyId id : {weld.a, weld.b}) {
+    if (state_[id].rigid != c_.rigid) continue;
+    const SolverVelocity& u = velocity(id);
+    const Vec2 v = whole.at(state_.pose(id).position);
+    fastest = std::max(fastest, (Vec2(u.vx, u.vy) - v).norm());
+  }
+  return fastest;
+}
+
+}  // namespace merge2d
