@@ -34,9 +34,9 @@ void WeldTest::testShaken() {
 }
 
 void WeldTest::testShake(Weld& weld, const VelocityField& whole) {
-  const Turning now = relativeMotion(weld, {0.0, 0.0});
-  const double motion = std::abs(now.fastest);
   const double threshold = state_.settings.unmerging.velocity * caution(weld);
+  const Turning now = relativeMotion(weld, {0.0, kGives * threshold});
+  const double motion = std::abs(now.fastest);
   const bool parts = motion > threshold && now.nearest > noise();
   if (!parts && motion <= kGives * threshold) return;
   const double sway = swayAgainst(whole, weld), most = kCarriedOff * threshold;
