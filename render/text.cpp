@@ -142,14 +142,14 @@ Text::Glyph Text::rasterise(char32_t code, Font font) {
 
 /// Finds room on the current shelf, or starts a new one below it.
 void Text::place(Glyph& glyph) {
-  constexpr int kGap = 1;
+  constexpr int kApart = 1;  // [px]
   if (shelf_x_ + glyph.width > GlyphAtlas::kWidth) {
-    shelf_y_ += shelf_height_ + kGap;
+    shelf_y_ += shelf_height_ + kApart;
     shelf_x_ = shelf_height_ = 0;
   }
   glyph.u = shelf_x_;
   glyph.v = shelf_y_;
-  shelf_x_ += glyph.width + kGap;
+  shelf_x_ += glyph.width + kApart;
   shelf_height_ = std::max(shelf_height_, glyph.height);
   if (shelf_y_ + shelf_height_ > atlas_.height) {
     atlas_.height = std::max(shelf_y_ + shelf_height_, atlas_.height + 128);

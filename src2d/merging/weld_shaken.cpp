@@ -12,7 +12,8 @@ namespace {
 
 /// Deviation: what a blow moves by as much as this against the whole does not stay with it, though
 /// each single weld of it gives too little to part: of the unmerging velocity, what it moves by,
-/// and what its weld must give for that. Guarded by TowerImpulseHeavy.FreesWhatMoves.
+/// and what its weld must give for that. Guarded by
+/// Blow.CarriesOffWhatManyJointsThatGiveLittleWouldHold.
 constexpr double kCarriedOff = 1.5, kGives = 0.1;
 
 }  // namespace

@@ -151,28 +151,19 @@ TEST(TowerImpulse, WithOrderingItComesCloseToTheReferenceAndWithoutItDoesNot) {
 
 /// At a mass ratio of 100 the scene's own reference sways, as its contacts are soft and its steps
 /// long. One that is harder, has converged, and takes shorter steps tells what moves.
-std::vector<Reaction> heavyBlow() {
-  return disturb(
-      "tower-impulse-heavy", 1.49, 1.0,
-      {{"step", "0.0025"}, {"solver.iterations", "2000"}, {"solver.compliance", "2e-6"}});
-}
-
-TEST(TowerImpulseHeavy, FreesWhatMovesClearlyAndNotWhatStands) {
-  const std::vector<Reaction> seen = heavyBlow();
-  const auto [moved, moved_freed] = movedAndFreed(seen, 0.02);
-  EXPECT_GE(moved, 15);
+TEST(TowerImpulseHeavy, FreesWhatMovesAndNotWhatStands) {
+  const std::vector<Reaction> seen =
+      disturb("tower-impulse-heavy", 1.49, 1.0,
+              {{"step", "0.0025"}, {"solver.iterations", "2000"}, {"solver.compliance", "2e-6"}});
+  const auto [moved, moved_freed] = movedAndFreed(seen, 0.01);
+  EXPECT_GE(moved, 20);
   EXPECT_EQ(moved_freed, moved);
+  const auto [others, others_freed] = movedAndFreed(seen, -1.0, 0.01);
+  EXPECT_GE(others, 20);
+  EXPECT_LE(others_freed, 0.1 * others);
   const auto [stood, stood_freed] = movedAndFreed(seen, -1.0, 0.005);
   EXPECT_GE(stood, 20);
   EXPECT_LE(stood_freed, 0.1 * stood);
-}
-
-TEST(TowerImpulseHeavy, FreesWhatMoves) {
-  const std::vector<Reaction> seen = heavyBlow();
-  const auto [moved, moved_freed] = movedAndFreed(seen, 0.01);
-  EXPECT_EQ(moved_freed, moved);
-  const auto [others, others_freed] = movedAndFreed(seen, -1.0, 0.01);
-  EXPECT_LE(others_freed, 0.1 * others);
 }
 
 TEST(TowerLift, TheWholeTowerLearnsOfTheBlow) {
