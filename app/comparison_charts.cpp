@@ -161,7 +161,7 @@ Chart eventChart(const Comparison& comparison) {
       emptyChart(comparison, "Merges and unmerges in merge+sleep",
                  bins.stepsPerBin() == 1 ? "events in a step"
                                          : fmt::format("events in {} steps", bins.stepsPerBin()));
-  chart.stacked = true;
+  chart.stacked = chart.whole = true;
   const std::vector<StepRow>& rows = comparison.runs().back().steps;
   chart.series = {bins.sums("unmerges", rows, &StepRow::unmerges),
                   bins.sums("merges", rows, &StepRow::merges)};

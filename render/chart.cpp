@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "render/camera.h"
 #include "render/chart_marks.h"
 #include "render/painter.h"
+#include "render/ticks.h"
 #include "src2d/core/assert.h"
 
 namespace merge2d {
@@ -31,6 +31,16 @@ struct Range {
   }
 };
 
+/// What stands beside a chart: the numbers at its axis, and the names of its series.
+struct Margins {
+  float numbers = 0.0F, names = 0.0F;
+
+  void include(const Margins& other) {
+    numbers = std::max(numbers, other.numbers);
+    names = std::max(names, other.names);
+  }
+};
+
 /// Draws one chart.
 class ChartPainter {
  public:
@@ -40,10 +50,21 @@ class ChartPainter {
       : painter_(painter), chart_(chart), theme_(theme), panel_(panel), unit_(unit) {
     font_ = {std::max(10, static_cast<int>(std::lround(13.0F * unit_))), Weight::Regular};
     findRanges();
-    findArea();
   }
 
-  void draw() {
+  Margins margins() const {
+    Margins widest;
+    for (const Series& series : chart_.series) {
+      widest.names = std::max(widest.names, painter_.text().width(series.name, font_));
+    }
+    for (const double y : yTicks()) {
+      widest.numbers = std::max(widest.numbers, painter_.text().width(yText(y), font_));
+    }
+    return widest;
+  }
+
+  void draw(const Margins& margins) {
+    findArea(margins);
     const Font title{std::max(11, static_cast<int>(std::lround(17.0F * unit_))), Weight::Bold};
     const float left = std::round(panel_.x + px(20.0F));
     painter_.write(chart_.title, title, {left, std::round(panel_.y + px(30.0F))}, theme_.ink);
@@ -123,16 +144,9 @@ class ChartPainter {
     return sum;
   }
 
-  void findArea() {
-    float names = 0.0F, numbers = 0.0F;
-    for (const Series& series : chart_.series) {
-      names = std::max(names, painter_.text().width(series.name, font_));
-    }
-    for (const double y : yTicks()) {
-      numbers = std::max(numbers, painter_.text().width(yText(y), font_));
-    }
-    const float left = std::round(panel_.x + px(30.0F) + numbers);
-    const float right = std::round(panel_.right() - px(50.0F) - names);
+  void findArea(const Margins& margins) {
+    const float left = std::round(panel_.x + px(30.0F) + margins.numbers);
+    const float right = std::round(panel_.right() - px(50.0F) - margins.names);
     area_ = {left, 0.0F, std::max(1.0F, right - left), 1.0F};
     placeMarks();
     const float top = std::round(panel_.y + px(70.0F + kMarkRow * static_cast<float>(mark_rows_)));
@@ -164,7 +178,11 @@ class ChartPainter {
   }
 
   std::vector<double> yTicks() const {
-    if (!chart_.log_y) return ticks(y_.low, y_.high, 5);
+    if (!chart_.log_y) {
+      std::vector<double> round = ticks(y_.low, y_.high, 5);
+      if (chart_.whole) std::erase_if(round, [](double y) { return y != std::floor(y); });
+      return round;
+    }
     std::vector<double> decades;
     for (double y = y_.low; y <= 1.001 * y_.high; y *= 10.0) decades.push_back(y);
     return decades;
@@ -340,16 +358,6 @@ class ChartPainter {
 
 }  // namespace
 
-std::vector<double> ticks(double low, double high, int wanted) {
-  std::vector<double> out;
-  const double step = roundLength((high - low) / std::max(1, wanted) * 1.5);
-  const double slack = 1e-9 * (high - low);
-  for (double k = std::ceil((low - slack) / step); k * step <= high + slack; k += 1.0) {
-    out.push_back(k * step == 0.0 ? 0.0 : k * step);
-  }
-  return out;
-}
-
 LineStyle lineStyle(const Theme& theme, std::size_t i, std::size_t count) {
   constexpr std::array<float, 4> kWidth = {1.5F, 4.0F, 5.8F, 7.4F};
   constexpr std::array<double, 4> kPale = {0.0, 0.3, 0.4, 0.5};
@@ -372,12 +380,16 @@ Picture drawCharts(Canvas& canvas, std::span<const Chart> charts, int columns, c
   const float width = static_cast<float>(canvas.width()) / static_cast<float>(columns);
   const float height = static_cast<float>(canvas.height()) / static_cast<float>(std::max(1, rows));
   const float unit = std::clamp(std::min(width / 960.0F, height / 240.0F), 0.6F, 6.0F);
+  std::vector<ChartPainter> painters;
+  std::vector<Margins> margins(static_cast<std::size_t>(columns));  // one per column: axes in line
   for (std::size_t i = 0; i < charts.size(); ++i) {
     const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
     const PixelBox panel{static_cast<float>(column) * width, static_cast<float>(row) * height,
                          width, height};
-    ChartPainter(painter, charts[i], theme, panel, unit).draw();
+    painters.emplace_back(painter, charts[i], theme, panel, unit);
+    margins[static_cast<std::size_t>(column)].include(painters.back().margins());
   }
+  for (std::size_t i = 0; i < charts.size(); ++i) painters[i].draw(margins[i % margins.size()]);
   return canvas.draw(drawing);
 }
 

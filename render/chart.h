@@ -27,6 +27,7 @@ struct Chart {
   std::string title;
   std::string x_label{}, y_label{};  ///< with their units: "time [s]"
   bool log_y = false;                ///< values that are not positive are left out
+  bool whole = false;    ///< values are counts: no marks at the axis between whole numbers
   bool stacked = false;  ///< areas that add up, the first at the bottom; all share one x
   std::optional<double> x_low{}, x_high{};  ///< of the axis; default: what the series cover
   /// The axis ends here, and what is higher is cut off; stacks that go on have a tip on top.
@@ -37,10 +38,6 @@ struct Chart {
   std::vector<Series> series{};
   std::vector<ChartMark> marks{};
 };
-
-/// Round numbers with equal steps (1, 2 or 5 times a power of ten) that lie in [low, high], about
-/// `wanted` of them.
-std::vector<double> ticks(double low, double high, int wanted);
 
 /// How the i-th of `count` lines is drawn: those below are wider and paler, so that one can see
 /// where lines lie on top of each other.
@@ -55,7 +52,8 @@ LineStyle lineStyle(const Theme& theme, std::size_t i, std::size_t count);
 /// large as the canvas is wide: in pictures that are shown at one width it has one size.
 Picture drawChart(Canvas& canvas, const Chart& chart, const Theme& theme = lightTheme());
 
-/// Several charts of one size in one picture, row by row.
+/// Several charts of one size in one picture, row by row. Those of one column share their margins,
+/// so that one time is at one place in all of them.
 Picture drawCharts(Canvas& canvas, std::span<const Chart> charts, int columns,
                    const Theme& theme = lightTheme());
 

@@ -100,6 +100,17 @@ TEST_F(WordsTest, TellsOverHowManyStepsAPivotGatheredSpeed) {
             "Eq. 17)");
 }
 
+TEST_F(WordsTest, TellsOfABodyThatABlowCarriesOff) {
+  EXPECT_EQ(said({.stage = "Unmerge",
+                  .criterion = "carried-off",
+                  .equation = "(17)",
+                  .value = 0.19,
+                  .threshold = 0.03,
+                  .count = 1}),
+            "the motion of one of them against the whole 0.19 m/s is above 0.030 m/s (6.3 times; "
+            "Eq. 17)");
+}
+
 TEST_F(WordsTest, TellsHowLongAPairThatPartedMustWait) {
   EXPECT_EQ(said({.stage = "AccumulateRelativeMotion", .criterion = "patience", .value = 7.0}),
             "their last weld broke too early, or turned slowly: 7 steps to wait");

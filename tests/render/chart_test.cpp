@@ -3,21 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace merge2d {
 namespace {
-
-TEST(Ticks, AreRoundNumbersInTheRange) {
-  EXPECT_EQ(ticks(0.0, 10.0, 5), (std::vector<double>{0.0, 2.0, 4.0, 6.0, 8.0, 10.0}));
-  const std::vector<double> small = ticks(0.0, 0.043, 4);
-  EXPECT_GE(small.size(), 3U);
-  EXPECT_LE(small.back(), 0.043);
-  EXPECT_EQ(ticks(-1.0, 1.0, 2).front(), -1.0);
-}
 
 Chart sample() {
   Chart chart{.title = "Time per step", .x_label = "time [s]", .y_label = "ms", .series = {}};
@@ -221,6 +215,42 @@ TEST(Charts, StandInRowsAndColumns) {
   EXPECT_EQ(picture.at(420, 330), first);
   EXPECT_EQ(picture.at(100, 730), first);
   EXPECT_EQ(picture.at(420, 730), lightTheme().background) << "there are only three";
+}
+
+/// Where the axis at the foot of a chart begins and ends.
+std::pair<int, int> axisOf(const Picture& picture, int from, int to) {
+  std::pair<int, int> longest{0, 0};
+  for (int y = from; y < to; ++y) {
+    int begin = 0;
+    for (int x = 0; x < picture.width; ++x) {
+      if (picture.at(x, y) != lightTheme().ink) begin = x + 1;
+      if (x - begin > longest.second - longest.first) longest = {begin, x};
+    }
+  }
+  return longest;
+}
+
+TEST(Charts, OfOneColumnHaveTheirAxesInLine) {
+  Canvas canvas(640, 800);
+  Chart wide = sample(), narrow = sample();
+  wide.y_text = [](double y) { return std::to_string(y) + " of a long unit"; };
+  for (Series& series : narrow.series) series.name.resize(1);
+  const std::array charts{wide, narrow};
+  const Picture picture = drawCharts(canvas, charts, 1);
+  EXPECT_EQ(axisOf(picture, 0, 400), axisOf(picture, 400, 800));
+  const Picture alone = drawChart(canvas, narrow);
+  EXPECT_LT(axisOf(alone, 0, 800).first, axisOf(picture, 400, 800).first);
+}
+
+TEST(Chart, OfCountsHasNoMarksBetweenWholeNumbers) {
+  const Color grid = mix(lightTheme().background, lightTheme().ink, 0.12);
+  Canvas canvas(640, 400);
+  Chart chart{.title = "Events", .stacked = true, .series = {{"merges", {0, 1, 2}, {2, 0, 1}}}};
+  const int all = rowsWith(drawChart(canvas, chart), grid);
+  chart.whole = true;
+  const int whole = rowsWith(drawChart(canvas, chart), grid);
+  EXPECT_EQ(all, 4) << "0.5, 1, 1.5 and 2; the foot is the axis";
+  EXPECT_EQ(whole, 2) << "1 and 2";
 }
 
 TEST(Chart, DoesWithoutData) {

@@ -177,7 +177,7 @@ TEST(TowerLift, LandsWhereItLandsInTheReference) {
   EXPECT_NEAR(run.body("slab").x.y(), reference.body("slab").x.y(), 0.02);
   EXPECT_NEAR(run.body("brick[1,25]").x.y(), reference.body("brick[1,25]").x.y(), 0.02);
   run.until(3.5), reference.until(3.5);
-  EXPECT_LT(farthest(run, reference), 0.05);
+  EXPECT_LT(farthest(run, reference), 0.02);
   run.until(6.0);
   EXPECT_EQ(run.now().stats.asleep, 79);
   EXPECT_EQ(run.eventsAfter(500), 0);
