@@ -5,17 +5,18 @@
 
 namespace merge2d {
 
+VelocityField sweptField(const State& state, const Scratch& scratch, const Collection& c) {
+  return fieldOf(state, c,
+                 [&](BodyId b) -> const SolverVelocity& { return scratch.sweep_u[index(b)]; });
+}
+
 double sway(const State& state, const Scratch& scratch, const Collection& c) {
-  const auto velocityOf = [&](BodyId b) -> const SolverVelocity& {
-    return scratch.sweep_u[index(b)];
-  };
-  const VelocityField field = fieldOf(state, c, velocityOf);
+  const VelocityField field = sweptField(state, scratch, c);
   const Pose frame = state[c.rigid].frame();
   double fastest = 0.0;
   for (const BodyId b : c.members) {
-    const SolverVelocity& u = velocityOf(b);
-    const Vec2 v = field.at(frame * state[b].local);
-    fastest = std::max(fastest, (Vec2(u.vx, u.vy) - v).squaredNorm());
+    const Vec2 x = frame * state[b].local;
+    fastest = std::max(fastest, swaySquared(field, x, scratch.sweep_u[index(b)]));
   }
   return std::sqrt(fastest);
 }

@@ -21,8 +21,7 @@ constexpr double kCarriedOff = 1.5, kGives = 0.1;
 bool WeldTest::isStruck() const { return c_.struck == kFollowed && rule() == Rule::Default; }
 
 void WeldTest::testShaken() {
-  const VelocityField whole =
-      fieldOf(state_, c_, [&](BodyId b) -> const SolverVelocity& { return velocity(b); });
+  const VelocityField whole = sweptField(state_, scratch_, c_);
   for (const BodyId member : c_.members) {
     if (!scratch_.shaken[index(member)]) continue;
     const std::uint32_t node = state_[rigidOf(member)].member;
@@ -58,11 +57,9 @@ double WeldTest::swayAgainst(const VelocityField& whole, const Weld& weld) const
   double fastest = 0.0;
   for (const BodyId id : {weld.a, weld.b}) {
     if (state_[id].rigid != c_.rigid) continue;
-    const SolverVelocity& u = velocity(id);
-    const Vec2 v = whole.at(state_.pose(id).position);
-    fastest = std::max(fastest, (Vec2(u.vx, u.vy) - v).norm());
+    fastest = std::max(fastest, swaySquared(whole, state_.pose(id).position, velocity(id)));
   }
-  return fastest;
+  return std::sqrt(fastest);
 }
 
 }  // namespace merge2d

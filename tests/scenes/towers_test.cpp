@@ -158,6 +158,7 @@ TEST(TowerImpulseHeavy, FreesWhatMovesAndNotWhatStands) {
   const auto [moved, moved_freed] = movedAndFreed(seen, 0.01);
   EXPECT_GE(moved, 20);
   EXPECT_EQ(moved_freed, moved);
+  EXPECT_GE(movedAndFreed(seen, 0.02).first, 15) << "clearly";
   const auto [others, others_freed] = movedAndFreed(seen, -1.0, 0.01);
   EXPECT_GE(others, 20);
   EXPECT_LE(others_freed, 0.1 * others);
