@@ -44,6 +44,17 @@ TEST(Pages, EveryTestExists) {
   EXPECT_GT(tests, 80);
 }
 
+/// What `./check` leaves out by name: a test that is called otherwise by now would be run again.
+TEST(Check, LeavesOutTestsThatExist) {
+  for (const char* list : {"tests/open_targets.txt", "tests/measurements.txt"}) {
+    for (const std::string& name : matches(read(kRoot / list), R"(([^\n]+)\n)")) {
+      const std::string test = name.substr(0, name.find('/', name.find('.')));  // no parameter
+      EXPECT_TRUE(allTests().contains(test.substr(test.find('/') + 1)))
+          << list << ": there is no test " << name;
+    }
+  }
+}
+
 TEST(Pages, TellOfOpenTargetsThatAreOpen) {
   const std::string open = read(kRoot / "tests/open_targets.txt");
   for (const fs::path& page : pages()) {
