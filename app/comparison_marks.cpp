@@ -43,8 +43,10 @@ std::vector<Hit> markedHits(const Comparison& comparison) {
 std::vector<ChartMark> marksOf(const Comparison& comparison) {
   std::vector<ChartMark> marks = scheduled(comparison.scene());
   for (const Hit& hit : markedHits(comparison)) {
-    marks.push_back({hit.time, fmt::format("{} hits {}", comparison.nameOf(hit.striker),
-                                           comparison.nameOf(hit.struck))});
+    const std::string &one = comparison.nameOf(hit.striker), &other = comparison.nameOf(hit.struck);
+    marks.push_back(
+        {hit.time,
+         fmt::format(fmt::runtime(hit.both_moved ? "{} and {} meet" : "{} hits {}"), one, other)});
   }
   std::ranges::stable_sort(marks, {}, &ChartMark::x);
   const auto at_once = [](const ChartMark& a, const ChartMark& b) { return a.x == b.x; };

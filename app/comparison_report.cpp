@@ -88,6 +88,7 @@ Json hitsJson(const Comparison& comparison) {
     out.push_back({{"time", hit.time},
                    {"striker", comparison.nameOf(hit.striker)},
                    {"struck", comparison.nameOf(hit.struck)},
+                   {"both_moved", hit.both_moved},
                    {"energy", hit.energy}});
   }
   return out;

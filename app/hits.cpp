@@ -8,6 +8,8 @@
 namespace merge2d {
 namespace {
 
+constexpr double kStill = 0.1;  // of the speed of what hits it
+
 /// Null for a body that was not there yet.
 const BodyState* find(const Snapshot& seen, BodyId id) {
   const auto at = std::ranges::lower_bound(seen.bodies, id, {}, &BodyState::id);
@@ -48,7 +50,7 @@ void appendHits(const Snapshot& before, const Snapshot& now, const std::vector<B
       energy = std::max(energy, approachEnergy(*a, *b, contact, bodies));
     }
     if (b->v.squaredNorm() > a->v.squaredNorm()) std::swap(a, b);
-    hits.push_back({now.time, a->id, b->id, energy});
+    hits.push_back({now.time, a->id, b->id, b->v.norm() > kStill * a->v.norm(), energy});
   }
 }
 

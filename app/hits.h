@@ -10,7 +10,8 @@ namespace merge2d {
 /// Two bodies that meet: an event of type Impact.
 struct Hit {
   double time = 0.0;           ///< [s]
-  BodyId striker{}, struck{};  ///< the first was the faster of the two
+  BodyId striker{}, struck{};  ///< the first was the faster of the two, in the world
+  bool both_moved = false;     ///< and the other had more than a tenth of its speed: no telling
   double energy = 0.0;         ///< of the approach, along the normal of the contact [J]
 };
 

@@ -36,8 +36,9 @@ void loseTouch(Contact& contact) {
   contact.quiet_steps = 0;
 }
 
-/// Hands on what is remembered of a point, or marks it as new.
-void inherit(ContactPoint& point, const Contact& old) {
+/// Hands on what is remembered of a point, or marks it as new. `inv_mass` is the larger of the two.
+void inherit(ContactPoint& point, const Contact& old, double inv_mass) {
+  constexpr double kRounding = 1e-9;  // m/s: the body came as near as this in its last free step
   for (int j = 0; j < old.count; ++j) {
     const ContactPoint& before = old.points[static_cast<std::size_t>(j)];
     if (before.feature != point.feature) continue;
@@ -47,7 +48,7 @@ void inherit(ContactPoint& point, const Contact& old) {
     point.w_n = before.w_n;
     point.w_t = before.w_t;
     point.approach = before.approach;
-    point.fresh = before.lambda_n == 0.0;
+    point.fresh = before.lambda_n * inv_mass <= kRounding;
     return;
   }
   point.fresh = true;
@@ -132,6 +133,8 @@ void updateManifold(const State& state, Contact& contact, double ahead) {
   const Collider& b = state.collider(contact.key.shape_b);
   const Manifold manifold = collide(a, b, b_in_a, margin);
   const Contact old = contact;
+  const double inv_mass =
+      std::max(state.rigid(contact.key.a).inv_mass, state.rigid(contact.key.b).inv_mass);
   contact.count = static_cast<std::int16_t>(manifold.count);
   contact.normal = manifold.normal;
   for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
@@ -139,7 +142,7 @@ void updateManifold(const State& state, Contact& contact, double ahead) {
     point.position = manifold.points[i].position;
     point.gap = manifold.points[i].gap;
     point.feature = manifold.points[i].feature;
-    inherit(point, old);
+    inherit(point, old, inv_mass);
     contact.points[i] = point;
   }
   dropInternalEdges(state, b_in_a, contact);

@@ -1,5 +1,6 @@
 /// Which hits `compare` points out.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -73,6 +74,35 @@ TEST_F(CompareHits, PointsOutEveryHitWhereThereAreFew) {
   EXPECT_EQ(hits[1]["striker"], "ball");
   write("stack.toml", kStack);
   EXPECT_THAT(hitsOf("stack.toml"), IsEmpty());
+}
+
+/// In the world the first is faster only because of the truck on which both ride, say.
+TEST_F(CompareHits, SaysWhereBothMoved) {
+  const auto hitsAt = [&](double speed) {
+    write("meet.toml", fmt::format(R"(
+format = 1
+gravity = [0, 0]
+duration = 1.0
+[[body]]
+name = "first"
+at = [0, 0]
+circle = 0.5
+velocity = [4, 0]
+[[body]]
+name = "second"
+at = [2, 0]
+circle = 0.5
+velocity = [{}, 0]
+)",
+                                   speed));
+    return hitsOf("meet.toml");
+  };
+  for (const auto& [speed, both] : {std::pair(0.0, false), {-0.3, false}, {1.0, true}}) {
+    const Json hits = hitsAt(speed);
+    ASSERT_THAT(hits, SizeIs(1)) << speed;
+    EXPECT_EQ(hits[0]["striker"], "first") << speed;
+    EXPECT_EQ(hits[0]["both_moved"], both) << speed;
+  }
 }
 
 }  // namespace
