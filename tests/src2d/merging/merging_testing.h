@@ -64,6 +64,13 @@ class Simulation {
   BodyState body(const std::string& name) const { return now().bodies[index(id(name))]; }
   CollectionId collectionOf(const std::string& name) const { return body(name).collection; }
   bool merged(const std::string& name) const { return collectionOf(name) != kNoCollection; }
+  /// Whether it is welded to what is pinned or scripted.
+  bool anchored(const std::string& name) const {
+    const Snapshot seen = now();
+    const CollectionId own = seen.bodies[index(id(name))].collection;
+    const auto at = std::ranges::find(seen.collections, own, &CollectionView::id);
+    return at != seen.collections.end() && at->anchored;
+  }
 
   void kick(const std::string& name, const Vec2& impulse, const Vec2& offset = Vec2::Zero()) {
     world_.applyImpulse(id(name), body(name).x + offset, impulse);
