@@ -187,6 +187,119 @@ TEST(Seesaw, LoadedOnABluntPivotTipsAsInTheReference) {
   }
 }
 
+/// In balance on a blunt wedge that stands loose on the ground, and beside it three boxes that have
+/// no part in what happens. It begins to move at 2 s.
+constexpr double kTips = 2.0;  // s
+std::string looseSeesaw(double half, double beyond) {
+  std::string toml = loadedSeesaw(half, beyond, 0.0) + R"(
+[[body]]
+name = "post"
+at = [3, 0.3]
+box = [0.6, 0.6]
+repeat = { count = [1, 3], spacing = [1, 0.6] }
+)";
+  const std::string pinned = "motion = \"pinned\"\npolygon";
+  return toml.replace(toml.find(pinned), pinned.size(), "mass = 5\npolygon");
+}
+
+/// Held until then.
+std::string letGo(double half, double beyond) {
+  std::string toml = looseSeesaw(half, beyond);
+  const std::string beam = "name = \"beam\"\n";
+  return toml.insert(toml.find(beam) + beam.size(), fmt::format("pinned_until = {}\n", kTips));
+}
+
+/// Its left end is pushed down with so much more than it bears [N].
+std::string pushed(double half, double force) {
+  constexpr double kWeight = 9.81 * (0.7 + 2 * 0.36), kArm = 1.7;  // N, m
+  return looseSeesaw(half, -half) +
+         fmt::format("[[force]]\nbody = \"beam\"\nat = [{}, 0]\nforce = [0, {}]\nfrom = {}\n",
+                     -kArm, -(kWeight * half / kArm + force), kTips);
+}
+
+/// What a body does when the see-saw begins to tip, in its sizes.
+struct Tipping {
+  double way = 0.0;    ///< the farthest that an end gets in the reference within half a second
+  bool freed = false;  ///< left the ground in that time
+  double off = 0.0;    ///< how far it is from where it is in the reference, after two seconds
+};
+
+std::map<std::string, Tipping> tippingOf(const std::string& toml, Mode mode) {
+  const Scene scene = parseScene(toml, "seesaw.toml");
+  SceneRun reference(scene, Mode::Reference), merged(scene, mode);
+  reference.until(kTips), merged.until(kTips);
+  for (const char* name : {"wedge", "left", "right"}) EXPECT_TRUE(merged.anchored(name)) << name;
+  const Snapshot start = reference.now();
+  const auto sizeOf = [&](const BodyState& b) {
+    const std::string& name = reference.nameOf(b.id);
+    return name == "beam" ? 3.5 : name == "wedge" ? 1.2 : 0.6;
+  };
+  std::map<std::string, Tipping> seen;
+  for (int step = 0; step < 50; ++step) {
+    reference.steps(1), merged.steps(1);
+    for (const BodyState& b : reference.now().bodies) {
+      if (!reference.dynamic(b.id)) continue;
+      const BodyState& first = start.bodies[index(b.id)];
+      const double turned = 0.5 * sizeOf(b) * std::abs(b.angle - first.angle);
+      Tipping& body = seen[reference.nameOf(b.id)];
+      body.way = std::max(body.way, ((b.x - first.x).norm() + turned) / sizeOf(b));
+      body.freed |= !merged.anchored(reference.nameOf(b.id));
+    }
+  }
+  reference.until(kTips + 2.0), merged.until(kTips + 2.0);
+  for (auto& [name, body] : seen) {
+    const BodyState& b = reference.body(name);
+    body.off = (merged.body(name).x - b.x).norm() / sizeOf(b);
+  }
+  return seen;
+}
+
+/// The beam and its load come free, wedge and post do not.
+void expectFreesWhatTips(const std::map<std::string, Tipping>& seen, double off) {
+  int moved = 0, stood = 0;
+  for (const auto& [name, body] : seen) {
+    moved += body.way > 0.01;
+    stood += body.way < 0.001;
+    EXPECT_TRUE(body.freed || body.way <= 0.01) << name << " moves by " << body.way;
+    EXPECT_TRUE(!body.freed || body.way >= 0.001) << name << " stands";
+    EXPECT_LT(body.off, off) << name;
+  }
+  EXPECT_GE(moved, 2);
+  EXPECT_EQ(stood, 4);
+}
+
+TEST(Seesaw, BarelyOutOfBalanceAndLetGoMovesAsInTheReference) {
+  for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+    for (const double half : {0.02, 0.1}) {
+      for (const double beyond : {0.002, 0.01, 0.04}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", half, beyond, name(mode)));
+        expectFreesWhatTips(tippingOf(letGo(half, beyond), mode), 0.05);
+      }
+    }
+  }
+}
+
+/// The fainter the push, the later it is noticed: within half a second, but what tips is behind by
+/// then.
+TEST(Seesaw, AGentlePushFreesWhatTipsAndNothingElse) {
+  for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+    for (const double half : {0.02, 0.05, 0.1}) {
+      for (const double force : {0.1, 0.2, 0.4, 0.8}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", half, force, name(mode)));
+        expectFreesWhatTips(tippingOf(pushed(half, force), mode), force < 0.3 ? 0.25 : 0.05);
+      }
+    }
+  }
+}
+TEST(Seesaw, AFaintPushIsNoticedInTime) {
+  for (const double half : {0.02, 0.05, 0.1}) {
+    for (const double force : {0.1, 0.2}) {
+      SCOPED_TRACE(fmt::format("{} {}", half, force));
+      expectFreesWhatTips(tippingOf(pushed(half, force), Mode::Merge), 0.05);
+    }
+  }
+}
+
 TEST(TrussArch, ThreeHingesHoldAndFourFall) {
   SceneRun run("truss-arch", Mode::Merge);
   run.until(1.0);
