@@ -130,8 +130,10 @@ TEST(SpaceStation, EachStackMergesWithTheTurningFloor) {
   EXPECT_EQ(run.eventsAfter(800), 0);
 }
 
-TEST(LongSpaceStation, NothingHappensInAHundredThousandSteps) {
-  SceneRun run("space-station");
+class LongSpaceStation : public testing::TestWithParam<Mode> {};
+
+TEST_P(LongSpaceStation, NothingHappensInAHundredThousandSteps) {
+  SceneRun run("space-station", GetParam());
   run.until(2.0);
   const Vec2 place = run.seenFrom("station", "globe-box");
   const std::size_t memory = run.world().memoryBytes();
@@ -141,6 +143,7 @@ TEST(LongSpaceStation, NothingHappensInAHundredThousandSteps) {
   EXPECT_LT((run.seenFrom("station", "globe-box") - place).norm(), 1e-9);
   EXPECT_LE(run.world().memoryBytes(), memory);
 }
+INSTANTIATE_TEST_SUITE_P(Long, LongSpaceStation, testing::Values(Mode::Merge, Mode::MergeSleep));
 
 /// The tilt [degrees] at which the block has slid by a millimetre, for which it needs a third of a
 /// second; 36 when it never does.

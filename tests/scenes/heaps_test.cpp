@@ -164,8 +164,10 @@ TEST(LongFunnel, HangsFreeAllTheTime) {
   expectInTheTray(run);
 }
 
-TEST(LongFunnel, RunsForFortyFiveThousandSteps) {
-  SceneRun run("funnel");
+class LongFunnelIn : public testing::TestWithParam<Mode> {};
+
+TEST_P(LongFunnelIn, RunsForFortyFiveThousandSteps) {
+  SceneRun run("funnel", GetParam());
   run.until(225.0);
   const std::size_t memory = run.world().memoryBytes();
   const double per_body = static_cast<double>(memory) / run.now().stats.bodies;
@@ -178,6 +180,7 @@ TEST(LongFunnel, RunsForFortyFiveThousandSteps) {
   EXPECT_LT(static_cast<double>(run.world().memoryBytes()), per_body * stats.bodies);
   expectInTheTray(run);
 }
+INSTANTIATE_TEST_SUITE_P(Long, LongFunnelIn, testing::Values(Mode::Merge, Mode::MergeSleep));
 
 }  // namespace
 }  // namespace merge2d
