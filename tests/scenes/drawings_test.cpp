@@ -1,5 +1,5 @@
 /// Drawn scenes: those of a folder `drawings` beside the project, or where MERGE2D_DRAWINGS says.
-/// Without such a folder they have no tests.
+/// Without such a folder they have no tests but one, which says so.
 
 #include <cstdlib>
 #include <filesystem>
@@ -24,6 +24,13 @@ std::vector<fs::path> allDrawings() {
   }
   std::ranges::sort(found);
   return found;
+}
+
+TEST(DrawingsFolder, HasDrawings) {
+  if (!allDrawings().empty()) return;
+  ASSERT_EQ(std::getenv("MERGE2D_DRAWINGS"), nullptr) << "there are none in " << drawings();
+  GTEST_SKIP() << "There is no folder of drawings beside the project, so none were run: name one "
+                  "in MERGE2D_DRAWINGS, and build again.";
 }
 
 /// A test for each: without drawings there is none.
