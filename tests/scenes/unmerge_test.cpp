@@ -280,7 +280,8 @@ TEST(Seesaw, BarelyOutOfBalanceAndLetGoMovesAsInTheReference) {
 }
 
 /// The fainter the push, the later it is noticed: within half a second, but what tips is behind by
-/// then.
+/// then. Half of that distance is the reference's: as its contacts are soft it tips earlier than a
+/// hard one.
 TEST(Seesaw, AGentlePushFreesWhatTipsAndNothingElse) {
   for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
     for (const double half : {0.02, 0.05, 0.1}) {
