@@ -40,13 +40,17 @@ std::vector<Hit> markedHits(const Comparison& comparison) {
   return outstandingHits(comparison.runs()[0].hits, kApart * run);
 }
 
+std::string labelOf(const Comparison& comparison, const Hit& hit) {
+  const std::string& striker = comparison.nameOf(hit.striker);
+  const std::string& struck = comparison.nameOf(hit.struck);
+  return hit.both_moved ? fmt::format("{} and {} meet", striker, struck)
+                        : fmt::format("{} hits {}", striker, struck);
+}
+
 std::vector<ChartMark> marksOf(const Comparison& comparison) {
   std::vector<ChartMark> marks = scheduled(comparison.scene());
   for (const Hit& hit : markedHits(comparison)) {
-    const std::string &one = comparison.nameOf(hit.striker), &other = comparison.nameOf(hit.struck);
-    marks.push_back(
-        {hit.time,
-         fmt::format(fmt::runtime(hit.both_moved ? "{} and {} meet" : "{} hits {}"), one, other)});
+    marks.push_back({hit.time, labelOf(comparison, hit)});
   }
   std::ranges::stable_sort(marks, {}, &ChartMark::x);
   const auto at_once = [](const ChartMark& a, const ChartMark& b) { return a.x == b.x; };

@@ -1,6 +1,7 @@
 #pragma once
 /// What the charts of a comparison point out.
 
+#include <string>
 #include <vector>
 
 #include "app/comparison.h"
@@ -11,8 +12,10 @@ namespace merge2d {
 /// The hits of the reference that stand out.
 std::vector<Hit> markedHits(const Comparison& comparison);
 
-/// What the scene itself makes happen, and those hits ("ball hits brick[0,20]"); in the order of
-/// time, one at a time.
+/// "ball hits brick[0,20]", or "bookcase and wagon meet" where both moved.
+std::string labelOf(const Comparison& comparison, const Hit& hit);
+
+/// What the scene itself makes happen, and those hits; in the order of time, one at a time.
 std::vector<ChartMark> marksOf(const Comparison& comparison);
 
 }  // namespace merge2d

@@ -89,6 +89,7 @@ Json hitsJson(const Comparison& comparison) {
                    {"striker", comparison.nameOf(hit.striker)},
                    {"struck", comparison.nameOf(hit.struck)},
                    {"both_moved", hit.both_moved},
+                   {"label", labelOf(comparison, hit)},
                    {"energy", hit.energy}});
   }
   return out;

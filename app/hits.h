@@ -11,7 +11,7 @@ namespace merge2d {
 struct Hit {
   double time = 0.0;           ///< [s]
   BodyId striker{}, struck{};  ///< the first was the faster of the two, in the world
-  bool both_moved = false;     ///< and the other had more than a tenth of its speed: no telling
+  bool both_moved = false;     ///< the other had more than a tenth of its speed: which hit which?
   double energy = 0.0;         ///< of the approach, along the normal of the contact [J]
 };
 

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # What the scripts beside it share that write parts of a page: they say which $page, and where $results may lie.
 
 # For jq: numbers with three digits.

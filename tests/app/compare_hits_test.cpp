@@ -102,6 +102,7 @@ velocity = [{}, 0]
     ASSERT_THAT(hits, SizeIs(1)) << speed;
     EXPECT_EQ(hits[0]["striker"], "first") << speed;
     EXPECT_EQ(hits[0]["both_moved"], both) << speed;
+    EXPECT_EQ(hits[0]["label"], both ? "first and second meet" : "first hits second");
   }
 }
 

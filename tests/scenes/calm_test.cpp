@@ -78,6 +78,7 @@ INSTANTIATE_TEST_SUITE_P(AtRest, Calm, calmCases(kCalmAtRest), nameOfCalm);
 const std::vector<CalmCase> kCalmSteady = {
     {"books", "sequel", {{1.4, 5.0}}},
     {"seesaw", "beam", {{0.4, 5.5}}},
+    {"ferry", "car", {{0.5, 600.0}}},
     {"slope", "block", {{0.4, 30.4}}},
     {"spinner", "disc-1", {{7.0, 10.0}}},
     {"swing", "box-1", {{0.6, 30.0}}},
@@ -86,9 +87,8 @@ const std::vector<CalmCase> kCalmSteady = {
 };
 INSTANTIATE_TEST_SUITE_P(Steady, Calm, calmCases(kCalmSteady), nameOfCalm);
 
-const std::vector<CalmCase> kLongCalm = {
+const std::vector<CalmCase> kCalmInBetween = {
     {"dominoes-platforms", "first[0,0]", {{0.3, 0.99}, {16.0, 20.0}}},
-    {"ferry", "car", {{0.5, 600.0}}},
     {"pile", "plank[0]", {{16.5, 20.0}}},
     {"ship-crane",
      "ship",
@@ -101,10 +101,12 @@ const std::vector<CalmCase> kLongCalm = {
       {60.1, 68.7},
       {70.4, 79.4},
       {80.6, 88.0}}},
-    {"space-station", "sofa", {{0.5, 250.0}}},
     {"tower-impulse-heavy", "light[1,0]", {{0.8, 1.49}, {7.0, 8.0}}},
 };
-INSTANTIATE_TEST_SUITE_P(Long, LongCalm, calmCases(kLongCalm), nameOfCalm);
+INSTANTIATE_TEST_SUITE_P(InBetween, Calm, calmCases(kCalmInBetween), nameOfCalm);
+
+const std::vector<CalmCase> kCalmForLong = {{"space-station", "sofa", {{0.5, 250.0}}}};
+INSTANTIATE_TEST_SUITE_P(Long, LongCalm, calmCases(kCalmForLong), nameOfCalm);
 
 }  // namespace
 }  // namespace merge2d

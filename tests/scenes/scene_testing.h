@@ -13,6 +13,7 @@
 
 #include "src2d/scene/load.h"
 #include "src2d/world.h"
+#include "tests/support/anchored.h"
 
 namespace merge2d {
 
@@ -68,10 +69,7 @@ class SceneRun {
     return merged(a) && body(a).collection == body(b).collection;
   }
   /// Whether it is welded to what is pinned or scripted.
-  bool anchored(const std::string& name) const {
-    const auto at = std::ranges::find(now_.collections, body(name).collection, &CollectionView::id);
-    return at != now_.collections.end() && at->anchored;
-  }
+  bool anchored(const std::string& name) const { return isAnchored(now_, body(name)); }
   /// The place of one body in the frame of another.
   Vec2 seenFrom(const std::string& frame, const std::string& name) const {
     const BodyState& f = body(frame);

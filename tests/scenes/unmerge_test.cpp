@@ -220,7 +220,7 @@ std::string pushed(double half, double force) {
 /// What a body does when the see-saw begins to tip, in its sizes.
 struct Tipping {
   double way = 0.0;    ///< the farthest that an end gets in the reference within half a second
-  bool freed = false;  ///< left the ground in that time
+  bool freed = false;  ///< left what is pinned in that time
   double off = 0.0;    ///< how far it is from where it is in the reference, after two seconds
 };
 

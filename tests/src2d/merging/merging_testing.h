@@ -16,6 +16,7 @@
 #include "src2d/dynamics/state.h"
 #include "src2d/scene/load.h"
 #include "src2d/world.h"
+#include "tests/support/anchored.h"
 #include "tests/support/scenes.h"
 
 namespace merge2d {
@@ -67,9 +68,7 @@ class Simulation {
   /// Whether it is welded to what is pinned or scripted.
   bool anchored(const std::string& name) const {
     const Snapshot seen = now();
-    const CollectionId own = seen.bodies[index(id(name))].collection;
-    const auto at = std::ranges::find(seen.collections, own, &CollectionView::id);
-    return at != seen.collections.end() && at->anchored;
+    return isAnchored(seen, seen.bodies[index(id(name))]);
   }
 
   void kick(const std::string& name, const Vec2& impulse, const Vec2& offset = Vec2::Zero()) {

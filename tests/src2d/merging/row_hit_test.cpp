@@ -118,8 +118,11 @@ TEST(RowHit, FreesWhatMovesAndLittleElseAndStaysCloseToTheReference) {
   }
 }
 
-/// The blow dies out in the row: the last boxes move by hundredths of a millimetre, if at all.
-void expectFreesOnlyWhatItMoves(int count, double impulse, int iterations, Mode mode) {
+/// A gentle blow moves the boxes of a long row ever less, or dies out in it. What it moves is free
+/// to move, be it by less than the 1% of a box that others ask for; what stands stays on the
+/// ground. Returns how many stand.
+int expectFreesOnlyWhatItMoves(int count, double impulse, int iterations, Mode mode) {
+  constexpr double kStands = 1e-5;  // m
   SCOPED_TRACE(
       fmt::format("{} boxes, {} N s, {} iterations, {}", count, impulse, iterations, name(mode)));
   const double close = count == 20 && iterations == 10 ? 0.01 : 0.005;  // of a box
@@ -127,17 +130,19 @@ void expectFreesOnlyWhatItMoves(int count, double impulse, int iterations, Mode 
   EXPECT_TRUE(boxes.front().left);
   for (const Struck& box : boxes) {
     EXPECT_TRUE(box.left || box.way < 0.01 * kSize) << box.way << " m";
-    EXPECT_TRUE(!box.left || box.way > 2e-6) << box.way << " m";
+    EXPECT_TRUE(!box.left || box.way > kStands) << box.way << " m";
     EXPECT_LT(box.off, close * kSize);
   }
+  return static_cast<int>(
+      std::ranges::count_if(boxes, [](const Struck& box) { return box.way <= kStands; }));
 }
 
 TEST(RowHit, AGentleBlowFreesOnlyWhatItMoves) {
-  for (const double impulse : {0.15, 0.5, 1.5}) {
-    expectFreesOnlyWhatItMoves(3, impulse, 10, Mode::Merge);
-    expectFreesOnlyWhatItMoves(10, impulse, 10, Mode::Merge);
-    expectFreesOnlyWhatItMoves(20, impulse, 30, Mode::Merge);
-  }
+  EXPECT_EQ(expectFreesOnlyWhatItMoves(3, 0.15, 10, Mode::Merge), 0);
+  EXPECT_EQ(expectFreesOnlyWhatItMoves(10, 0.5, 10, Mode::Merge), 0);
+  EXPECT_GT(expectFreesOnlyWhatItMoves(20, 0.15, 30, Mode::Merge), 5);
+  EXPECT_GT(expectFreesOnlyWhatItMoves(20, 0.25, 10, Mode::Merge), 5);
+  EXPECT_GT(expectFreesOnlyWhatItMoves(20, 0.5, 10, Mode::Merge), 0);
 }
 
 TEST(LongRowHit, AGentleBlowFreesOnlyWhatItMoves) {
