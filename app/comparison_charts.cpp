@@ -157,10 +157,11 @@ Chart numberChart(const Comparison& comparison, const char* title, const char* l
 
 Chart eventChart(const Comparison& comparison) {
   const Bins bins(comparison);
-  Chart chart =
-      emptyChart(comparison, "Merges and unmerges in merge+sleep",
-                 bins.stepsPerBin() == 1 ? "events in a step"
-                                         : fmt::format("events in {} steps", bins.stepsPerBin()));
+  Chart chart = emptyChart(
+      comparison, "Merges and unmerges in merge+sleep",
+      bins.stepsPerBin() == 1
+          ? "events in a step, one kind on the other"
+          : fmt::format("events in {} steps, one kind on the other", bins.stepsPerBin()));
   chart.stacked = chart.whole = true;
   const std::vector<StepRow>& rows = comparison.runs().back().steps;
   chart.series = {bins.sums("unmerges", rows, &StepRow::unmerges),

@@ -242,7 +242,7 @@ std::map<std::string, Vec2> placesIn(const SceneRun& run, const std::string& fra
 }
 
 /// A box of four compartments on a pivot, with a loose thing in each. Without gravity it goes on
-/// turning, and each thing comes to rest in an outer corner.
+/// turning, and each thing comes to rest at an outer wall.
 TEST(Drawn, ASpinnerMergesWithWhatIsInIt) {
   Scene scene = drawn("spinner", rowsOf(R"(
 #########################
@@ -292,6 +292,8 @@ TEST(Drawn, ASpinnerMergesWithWhatIsInIt) {
     }
     for (const auto& [who, place] : placesIn(run, tray)) {
       EXPECT_LT((place - reference.at(who)).norm(), 0.1) << who;
+      if (who == tray) continue;
+      EXPECT_GT(place.cwiseAbs().maxCoeff(), 0.9) << who << " is at an outer wall";
     }
     EXPECT_NEAR(run.body(tray).omega, 0.75, 0.01) << "it has set all in motion";
     EXPECT_EQ(run.now().stats.asleep, 0);

@@ -46,7 +46,7 @@ TEST(Pile, NoPairMergesAndPartsOverAndOver) {
 
 class LongPile : public testing::TestWithParam<int> {};
 
-TEST_P(LongPile, FallsAsleepWithAnySeed) {
+TEST_P(LongPile, FallsAsleepInHalfAMinute) {
   SceneRun run("pile", Mode::MergeSleep, {{"seed", std::to_string(GetParam())}});
   run.until(30.0);
   EXPECT_GE(run.now().stats.asleep, 178);
