@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/png.h"
-#include "tests/render/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace merge2d {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "render/png_chunks.h"
 #include "src2d/core/error.h"
-#include "tests/render/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace merge2d {
 namespace {

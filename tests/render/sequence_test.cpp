@@ -9,7 +9,7 @@
 #include "render/png.h"
 #include "src2d/core/error.h"
 #include "tests/render/samples.h"
-#include "tests/render/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace merge2d {
 namespace {
