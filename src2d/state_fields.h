@@ -168,13 +168,13 @@ void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
          cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds,
          weld_at, weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up,
-         struck, refusals, patience, hastened_in, hastened_every, lingering, residual, settled,
-         rested, refuted, jolted] = c;
+         struck, loaded, refusals, patience, hastened_in, hastened_every, lingering, residual,
+         settled, rested, refuted, jolted] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
      cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
      weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up, struck,
-     refusals, patience, hastened_in, hastened_every, lingering, residual, settled, rested, refuted,
-     jolted);
+     loaded, refusals, patience, hastened_in, hastened_every, lingering, residual, settled, rested,
+     refuted, jolted);
 }
 
 template <class Ar>

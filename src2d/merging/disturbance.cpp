@@ -152,25 +152,27 @@ void orderContacts(State& state, Scratch& scratch) {
   scratch.disturbed.assign(state.collections.size(), 0);
   ageJolts(state);
   if (!state.settings.unmerging.ordering) return;
-  enum class Blow { None, Soft, Hard };
+  enum class Blow { Load, Soft, Hard };
   const auto seed = [&](BodyId b, Blow blow) {
     scratch.seeds.push_back(static_cast<std::uint32_t>(b));
     const RigidId id = state[b].rigid;
     if (!state.isCollection(id)) return;
     scratch.disturbed[index(id) - state.bodies.size()] = 1;
     jolt(state, b);
-    std::int16_t& struck = state.collection(id).struck;
-    if (blow != Blow::None) struck = std::max<std::int16_t>(struck, kFollowed - 1);
-    if (blow == Blow::Hard) struck = kFollowed;
+    Collection& c = state.collection(id);
+    if (blow == Blow::Load) c.loaded = kFollowed;
+    if (blow == Blow::Soft) c.struck = std::max<std::int16_t>(c.struck, kFollowed - 1);
+    if (blow == Blow::Hard) c.struck = kFollowed;
   };
   for (Collection& c : state.collections) {
     if (c.struck > 0) --c.struck;
+    if (c.loaded > 0) --c.loaded;
     if (isSwept(state, c) && frameJumps(state, c)) {
       scratch.disturbed[index(c.rigid) - state.bodies.size()] = 1;
     }
   }
   for (const Kick& kick : scratch.kicks) seed(kick.body, Blow::Hard);
-  for (const BodyId b : scratch.stirred) seed(b, Blow::None);
+  for (const BodyId b : scratch.stirred) seed(b, Blow::Load);
   forEachPairThatMeets(scratch, [&](const BodyPair& pair, double speed) {
     const Blow blow = speed > impactSpeed(state) ? Blow::Hard : Blow::Soft;
     for (const BodyId b : {pair.a, pair.b}) seed(b, blow);

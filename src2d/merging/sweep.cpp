@@ -167,8 +167,9 @@ bool rests(const State& state, const Scratch& scratch, Collection& c) {
   return left <= kNothing * most || (left <= most && c.residual <= kInVain * left);
 }
 
-/// Sweeps one collection once; one that could sleep but for its inner forces a few times more, so
-/// that it soon can. Returns the largest change [m/s].
+/// Sweeps one collection once; a few times more one that could sleep but for its inner forces, so
+/// that it soon can, and one on which a load has set in, however faint: what can't bear it is not
+/// to wait. Returns the largest change [m/s].
 double sweepOnce(State& state, Collection& c, Scratch& scratch) {
   constexpr double kSettled = 0.02;  // of what a sweep may leave
   const UnmergingSettings& settings = state.settings.unmerging;
@@ -176,7 +177,8 @@ double sweepOnce(State& state, Collection& c, Scratch& scratch) {
     follow(state, c, scratch, 0.0);
     return 0.0;
   }
-  if (awaitsInnerForces(state, scratch, c.rigid)) {
+  const bool loaded = refines(settings) && c.loaded > 0;
+  if (loaded || awaitsInnerForces(state, scratch, c.rigid)) {
     sweepInside(state, c, scratch, settings.disturbed_sweeps);
   }
   double change = sweepInside(state, c, scratch, settings.sweeps);

@@ -254,19 +254,22 @@ bool WeldTest::turns(Weld& weld, const Turning& now, const Least& least) {
   const double enough = tipsFor(weld) ? 0.0 : settings.velocity * caution(weld);
   const bool at_once = isStruck() || (mustTip(weld) && c_.struck > 0);  // as the blow is over
   const int steps = at_once ? 1 : settings.steps;
-  return weigh(weld.turning, now.fastest, enough, least.noise).exceeds &&
-         weld.turning.steps >= steps;
+  const bool exceeds = weigh(weld.turning, now.fastest, enough, least.noise).exceeds;
+  const bool cut = exceeds && weld.turning.steps >= steps;
+  growing_ |= exceeds && !cut;
+  return cut;
 }
 
 bool WeldTest::tipsFor(const Weld& weld) const {
   constexpr int kSure = 10;  // steps
-  return mustTip(weld) && weld.turning.steps + 1 >= kSure;
+  return mustTip(weld) && (c_.loaded > 0 || weld.turning.steps + 1 >= kSure);
 }
 
 bool WeldTest::mustTip(const Weld& weld) const {
   const auto frame = static_cast<std::uint32_t>(c_.members.size());
   const bool on_frame = weld.node_a == frame || weld.node_b == frame;
-  return on_frame && weld.bridge && weld.vain == 0 && rule() == Rule::Default;
+  const bool pushed = c_.loaded > 0 && !state_[c_.rigid].floating();
+  return (on_frame || pushed) && weld.bridge && weld.vain == 0 && rule() == Rule::Default;
 }
 
 double WeldTest::noiseAt(const Weld& weld) const {

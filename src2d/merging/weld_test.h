@@ -113,10 +113,11 @@ class WeldTest {
   bool turns(Weld& weld, const Turning& now, const Least& least);
 
   /// What nothing else holds turns on however slowly it begins: then it need not be fast, but be
-  /// seen for some steps.
+  /// seen for some steps; for fewer where a load has just set in, which may be what tips it.
   bool tipsFor(const Weld& weld) const;
   /// Nothing else holds against the frame, and it was not cut in vain before. In a heap more than a
-  /// weld's own rows would hold: what barely tips soon leans on its neighbours.
+  /// weld's own rows would hold: what barely tips there soon leans on its neighbours, but for what
+  /// a new load tips.
   bool mustTip(const Weld& weld) const;
   /// Where nothing else holds, what is left of a sweep is all that could be wrong [m/s].
   double noiseAt(const Weld& weld) const;
