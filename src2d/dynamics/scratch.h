@@ -128,7 +128,8 @@ struct RigidParts {
   };
   std::vector<std::uint32_t> of;       ///< per node of the collection: its part
   std::vector<Part> parts;             ///< then the frame, then bodies outside that touch some
-  std::vector<SolverVelocity> u;       ///< the same; only the parts respond
+  std::vector<SolverVelocity> u;       ///< the same
+  std::vector<RigidId> outside;        ///< those beyond the parts: the frame, and others
   std::vector<ContactBlock> rows;      ///< contacts between them
   std::vector<std::uint32_t> weld_of;  ///< per row at a weld, which come first: its weld
   NncgBuffers nncg;

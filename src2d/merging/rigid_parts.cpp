@@ -70,12 +70,31 @@ VelocityField fieldAt(const State& state, const Scratch& scratch, BodyId b) {
   return {state.pose(b).position, {u.vx, u.vy}, u.omega};
 }
 
-/// A body that does not respond, as a further part. Returns its number.
-std::uint32_t addGround(const State& state, const Scratch& scratch, RigidParts& p, BodyId b) {
-  const VelocityField field = fieldAt(state, scratch, b);
+/// Something beside the parts, as a further one. Returns its number.
+std::uint32_t addOutside(RigidParts& p, RigidId id, const VelocityField& field, double inv_mass,
+                         double inv_inertia) {
   p.parts.emplace_back().x = field.x;
-  p.u.push_back({field.v.x(), field.v.y(), field.omega, 0.0, 0.0});
+  p.outside.push_back(id);
+  p.u.push_back({field.v.x(), field.v.y(), field.omega, inv_mass, inv_inertia});
   return static_cast<std::uint32_t>(p.u.size() - 1);
+}
+
+/// What rests on the collection, or it on that, may bear any load: it moves with the whole, and
+/// does not respond. What moves against it only pushes, with no more than its own mass.
+std::uint32_t outsidePart(const State& state, const Scratch& scratch, RigidParts& p, BodyId b,
+                          const VelocityField& whole) {
+  const RigidId id = state[b].rigid;
+  const auto known = std::ranges::find(p.outside, id);
+  if (known != p.outside.end()) {
+    return p.of.back() + static_cast<std::uint32_t>(known - p.outside.begin());
+  }
+  const Rigid& r = state[id];
+  const VelocityField field = fieldAt(state, scratch, b);
+  OrientedBox box = state.extent(id).box;
+  box.frame = r.frame() * box.frame;
+  const bool rests = fastestCorner(box, field, whole) <= state.settings.unmerging.velocity;
+  if (rests) return addOutside(p, id, whole, 0.0, 0.0);
+  return addOutside(p, id, field, r.inv_mass, r.inv_inertia);
 }
 
 /// One contact as it acts on the parts `a` and `b`; `model` has all that does not depend on them.
@@ -129,20 +148,21 @@ bool listWelds(const State& state, const Collection& c, RigidParts& p) {
 /// What leans on members, or they on it. False when there are too many.
 bool listOuterContacts(const State& state, const Scratch& scratch, const Collection& c,
                        RigidParts& p) {
+  const VelocityField whole = sweptField(state, scratch, c);
   for (const SweepContact& outer : scratch.sweep_contacts) {
     const Contact& contact = state.contacts.slots[outer.slot];
     const auto [a, b] = std::pair(contact.key.a, contact.key.b);
     const bool a_in = state[a].rigid == c.rigid, b_in = state[b].rigid == c.rigid;
     if (a_in == b_in) continue;
     if (p.rows.size() == kMostRows) return false;
-    const std::uint32_t ground = addGround(state, scratch, p, a_in ? b : a);
+    const std::uint32_t other = outsidePart(state, scratch, p, a_in ? b : a, whole);
     const std::uint32_t part = p.of[state[rigidOf(a_in ? a : b)].member];
     const Pose pose = state.pose(a);
     BlockGeometry g;
     g.normal = Vec2(outer.block.nx, outer.block.ny);
     addRow(p, outer.block, g,
            {pose * contact.points[0].position, pose * contact.points[1].position},
-           a_in ? part : ground, a_in ? ground : part);
+           a_in ? part : other, a_in ? other : part);
   }
   return true;
 }
@@ -180,7 +200,10 @@ bool makeParts(const State& state, Scratch& scratch, const Collection& c) {
   numberParts(c, scratch.sets, p);
   if (p.of.back() > kMostParts) return false;
   gatherParts(state, scratch, c, p);
-  if (!state[c.rigid].floating()) addGround(state, scratch, p, c.anchor);
+  p.outside.clear();
+  if (!state[c.rigid].floating()) {
+    addOutside(p, state[c.anchor].rigid, fieldAt(state, scratch, c.anchor), 0.0, 0.0);
+  }
   p.rows.clear();
   p.weld_of.clear();
   return listWelds(state, c, p) && listOuterContacts(state, scratch, c, p);
@@ -195,7 +218,7 @@ double settleParts(const State& state, Scratch& scratch, const Collection& c, do
   for (int done = 0; done < kMost;) {
     const int sweeps = done == 0 ? kFirst : kRound;  // most stay at once
     Nncg iteration(
-        p.rows.size(), [&](std::size_t i) -> Impulses& { return p.rows[i].lambda; }, p.of.back(),
+        p.rows.size(), [&](std::size_t i) -> Impulses& { return p.rows[i].lambda; }, p.u.size(),
         [&](std::size_t i) -> SolverVelocity& { return p.u[i]; },
         [&] {
           for (ContactBlock& k : p.rows) sweepBlock(k, Rotation{}, p.u, method);

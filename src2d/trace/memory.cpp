@@ -35,7 +35,7 @@ std::size_t bytesOfBuffers(const NncgBuffers& m) {
 }
 
 std::size_t bytesOfParts(const RigidParts& p) {
-  return bytesOf(p.of, p.parts, p.u, p.rows, p.weld_of) + bytesOfBuffers(p.nncg);
+  return bytesOf(p.of, p.parts, p.u, p.outside, p.rows, p.weld_of) + bytesOfBuffers(p.nncg);
 }
 
 std::size_t bytesOfScratch(const Scratch& s) {

@@ -101,7 +101,7 @@ const std::vector<CalmCase> kCalmInBetween = {
       {60.1, 68.7},
       {70.4, 79.4},
       {80.6, 88.0}}},
-    {"tower-impulse-heavy", "light[1,0]", {{0.8, 1.49}, {7.0, 8.0}}},
+    {"tower-impulse-heavy", "light[1,0]", {{0.8, 1.49}, {4.0, 6.0}}},
 };
 INSTANTIATE_TEST_SUITE_P(InBetween, Calm, calmCases(kCalmInBetween), nameOfCalm);
 

@@ -106,17 +106,25 @@ inline std::string cell(const std::string& name, int column, int row) {
   return name + "[" + std::to_string(column) + "," + std::to_string(row) + "]";
 }
 
+/// The largest distance of a body from where it is in the reference [m].
+inline double farthest(const SceneRun& run, const SceneRun& reference) {
+  double distance = 0.0;
+  for (std::size_t i = 0; i < run.now().bodies.size(); ++i) {
+    distance = std::max(distance, (run.now().bodies[i].x - reference.now().bodies[i].x).norm());
+  }
+  return distance;
+}
+
 /// What a disturbance does to a body.
 struct Reaction {
   double way = 0.0;    ///< the farthest it gets in the reference within half a second, in sizes
   bool freed = false;  ///< in mode merge: left the collection that it had been in, or the ground
 };
 
-/// Runs a scene up to `time` [s], and looks at what moves and what comes free within half a second
-/// of it. `finer` changes the reference alone.
-inline std::vector<Reaction> disturb(const std::string& scene, double time, double size,
-                                     const Overrides& finer = {}) {
-  SceneRun reference(scene, Mode::Reference, finer), merged(scene, Mode::Merge);
+/// Runs a scene up to `time` [s], and looks at what moves in the reference and what comes free in
+/// the other within half a second of it.
+inline std::vector<Reaction> disturb(SceneRun& reference, SceneRun& merged, double time,
+                                     double size) {
   reference.until(time), merged.until(time);
   std::map<BodyId, Vec2> before;
   std::map<BodyId, std::pair<CollectionId, bool>> belonged;
