@@ -168,12 +168,12 @@ void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
          cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds,
          weld_at, weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up,
-         struck, loaded, refusals, patience, hastened_in, hastened_every, lingering, residual,
+         struck, stirred, refusals, patience, hastened_in, hastened_every, lingering, residual,
          settled, rested, refuted, jolted] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
      cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
      weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up, struck,
-     loaded, refusals, patience, hastened_in, hastened_every, lingering, residual, settled, rested,
+     stirred, refusals, patience, hastened_in, hastened_every, lingering, residual, settled, rested,
      refuted, jolted);
 }
 

@@ -174,7 +174,7 @@ struct Collection {
   std::int16_t frame_known = 0;                            ///< steps since it was formed, up to 2
   std::int16_t follow_up = 0;  ///< steps for which a disturbance is still followed
   std::int16_t struck = 0;     ///< the same, since something hit it: kFollowed now
-  std::int16_t loaded = 0;     ///< the same, since a load on it set in or ended
+  std::int16_t stirred = 0;    ///< the same, since something else was new: Scratch::stirred
   std::int8_t refusals = 0;  ///< times in a row that nothing which seemed to part would have moved
   std::int8_t patience = 0;  ///< steps before that is asked again
   std::int16_t hastened_in = 0;     ///< steps before slow sweeps are hastened (slow_sweep.h)

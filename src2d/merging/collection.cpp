@@ -64,6 +64,7 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   target.members.insert(target.members.end(), source.members.begin(), source.members.end());
   std::inplace_merge(target.members.begin(), target.members.begin() + middle, target.members.end());
   target.jolted = std::max(target.jolted, source.jolted);
+  target.stirred = std::max(target.stirred, source.stirred);
   state.extents[state[to].extent].bounds.include(placed(relative, state.extent(from).bounds));
   state[to].resized = true;
   target.stale = true;

@@ -152,30 +152,30 @@ void orderContacts(State& state, Scratch& scratch) {
   scratch.disturbed.assign(state.collections.size(), 0);
   ageJolts(state);
   if (!state.settings.unmerging.ordering) return;
-  enum class Blow { Load, Soft, Hard };
-  const auto seed = [&](BodyId b, Blow blow) {
+  enum class Entry { Stir, Touch, Hit };
+  const auto seed = [&](BodyId b, Entry entry) {
     scratch.seeds.push_back(static_cast<std::uint32_t>(b));
     const RigidId id = state[b].rigid;
     if (!state.isCollection(id)) return;
     scratch.disturbed[index(id) - state.bodies.size()] = 1;
     jolt(state, b);
     Collection& c = state.collection(id);
-    if (blow == Blow::Load) c.loaded = kFollowed;
-    if (blow == Blow::Soft) c.struck = std::max<std::int16_t>(c.struck, kFollowed - 1);
-    if (blow == Blow::Hard) c.struck = kFollowed;
+    if (entry == Entry::Stir) c.stirred = kFollowed;
+    if (entry == Entry::Touch) c.struck = std::max<std::int16_t>(c.struck, kFollowed - 1);
+    if (entry == Entry::Hit) c.struck = kFollowed;
   };
   for (Collection& c : state.collections) {
     if (c.struck > 0) --c.struck;
-    if (c.loaded > 0) --c.loaded;
+    if (c.stirred > 0) --c.stirred;
     if (isSwept(state, c) && frameJumps(state, c)) {
       scratch.disturbed[index(c.rigid) - state.bodies.size()] = 1;
     }
   }
-  for (const Kick& kick : scratch.kicks) seed(kick.body, Blow::Hard);
-  for (const BodyId b : scratch.stirred) seed(b, Blow::Load);
+  for (const Kick& kick : scratch.kicks) seed(kick.body, Entry::Hit);
+  for (const BodyId b : scratch.stirred) seed(b, Entry::Stir);
   forEachPairThatMeets(scratch, [&](const BodyPair& pair, double speed) {
-    const Blow blow = speed > impactSpeed(state) ? Blow::Hard : Blow::Soft;
-    for (const BodyId b : {pair.a, pair.b}) seed(b, blow);
+    const Entry entry = speed > impactSpeed(state) ? Entry::Hit : Entry::Touch;
+    for (const BodyId b : {pair.a, pair.b}) seed(b, entry);
   });
   trim(scratch.seeds);  // as above
   if (scratch.notes) {

@@ -59,15 +59,16 @@ void gatherParts(const State& state, const Scratch& scratch, const Collection& c
   }
 }
 
-/// How something beside the parts moves: with its collection where that floats.
+/// How a single body moves in this step, or the frame.
 VelocityField fieldAt(const State& state, const Scratch& scratch, BodyId b) {
-  const auto velocityOf = [&](BodyId i) -> const SolverVelocity& {
-    return scratch.sweep_u[index(i)];
-  };
-  const RigidId id = state[b].rigid;
-  if (state.isCollection(id)) return fieldOf(state, state.collection(id), velocityOf);
-  const SolverVelocity& u = velocityOf(b);
+  const SolverVelocity& u = scratch.sweep_u[index(b)];
   return {state.pose(b).position, {u.vx, u.vy}, u.omega};
+}
+
+/// How a collection moves in this step: with its frame, where it does not float.
+VelocityField fieldOfWhole(const State& state, const Scratch& scratch, const Collection& c) {
+  return state[c.rigid].floating() ? sweptField(state, scratch, c)
+                                   : fieldAt(state, scratch, c.anchor);
 }
 
 /// Something beside the parts, as a further one. Returns its number.
@@ -79,22 +80,33 @@ std::uint32_t addOutside(RigidParts& p, RigidId id, const VelocityField& field, 
   return static_cast<std::uint32_t>(p.u.size() - 1);
 }
 
-/// What rests on the collection, or it on that, may bear any load: it moves with the whole, and
-/// does not respond. What moves against it only pushes, with no more than its own mass.
-std::uint32_t outsidePart(const State& state, const Scratch& scratch, RigidParts& p, BodyId b,
-                          const VelocityField& whole) {
+/// True when a thing moves against the collection by no more than a sweep may leave.
+bool restsOn(const State& state, RigidId id, const VelocityField& field, const Collection& c,
+             const VelocityField& whole) {
+  double speed = std::numeric_limits<double>::infinity();
+  for (const RigidId i : {id, c.rigid}) {
+    OrientedBox box = state.extent(i).box;
+    box.frame = state[i].frame() * box.frame;
+    speed = std::min(speed, fastestCorner(box, field, whole));
+  }
+  return speed <= residualVelocity(state);
+}
+
+/// What rests on the collection, or it on that, may bear any load, and is taken not to respond.
+/// What moves against it only pushes, with no more than its own mass; it clamps nothing.
+std::uint32_t outsidePart(const State& state, const Scratch& scratch, const Collection& c,
+                          RigidParts& p, BodyId b, const VelocityField& whole) {
   const RigidId id = state[b].rigid;
   const auto known = std::ranges::find(p.outside, id);
   if (known != p.outside.end()) {
     return p.of.back() + static_cast<std::uint32_t>(known - p.outside.begin());
   }
   const Rigid& r = state[id];
-  const VelocityField field = fieldAt(state, scratch, b);
-  OrientedBox box = state.extent(id).box;
-  box.frame = r.frame() * box.frame;
-  const bool rests = fastestCorner(box, field, whole) <= state.settings.unmerging.velocity;
-  if (rests) return addOutside(p, id, whole, 0.0, 0.0);
-  return addOutside(p, id, field, r.inv_mass, r.inv_inertia);
+  const VelocityField field = state.isCollection(id)
+                                  ? fieldOfWhole(state, scratch, state.collection(id))
+                                  : fieldAt(state, scratch, b);
+  const bool rests = restsOn(state, id, field, c, whole);
+  return addOutside(p, id, field, rests ? 0.0 : r.inv_mass, rests ? 0.0 : r.inv_inertia);
 }
 
 /// One contact as it acts on the parts `a` and `b`; `model` has all that does not depend on them.
@@ -148,14 +160,14 @@ bool listWelds(const State& state, const Collection& c, RigidParts& p) {
 /// What leans on members, or they on it. False when there are too many.
 bool listOuterContacts(const State& state, const Scratch& scratch, const Collection& c,
                        RigidParts& p) {
-  const VelocityField whole = sweptField(state, scratch, c);
+  const VelocityField whole = fieldOfWhole(state, scratch, c);
   for (const SweepContact& outer : scratch.sweep_contacts) {
     const Contact& contact = state.contacts.slots[outer.slot];
     const auto [a, b] = std::pair(contact.key.a, contact.key.b);
     const bool a_in = state[a].rigid == c.rigid, b_in = state[b].rigid == c.rigid;
     if (a_in == b_in) continue;
     if (p.rows.size() == kMostRows) return false;
-    const std::uint32_t other = outsidePart(state, scratch, p, a_in ? b : a, whole);
+    const std::uint32_t other = outsidePart(state, scratch, c, p, a_in ? b : a, whole);
     const std::uint32_t part = p.of[state[rigidOf(a_in ? a : b)].member];
     const Pose pose = state.pose(a);
     BlockGeometry g;

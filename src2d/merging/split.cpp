@@ -241,7 +241,10 @@ class Split {
   RigidId leave(std::size_t p) {
     removeShapes(state_, id_, members_[p]);
     if (isFreeBody(p)) return freeBody(state_, members_[p].front(), whole_);
-    return newPart(state_, members_[p], std::move(kept_[p]), whole_, anchor_, anchored_[p] != 0);
+    const RigidId id =
+        newPart(state_, members_[p], std::move(kept_[p]), whole_, anchor_, anchored_[p] != 0);
+    state_.collection(id).stirred = state_.collection(id_).stirred;
+    return id;
   }
 
   /// The largest part goes on as the collection.

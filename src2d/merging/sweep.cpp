@@ -168,8 +168,8 @@ bool rests(const State& state, const Scratch& scratch, Collection& c) {
 }
 
 /// Sweeps one collection once; a few times more one that could sleep but for its inner forces, so
-/// that it soon can, and one on which a load has set in, however faint: what can't bear it is not
-/// to wait. Returns the largest change [m/s].
+/// that it soon can, and one on which a load has set in: what cannot bear it, however faint, is not
+/// to wait, nor to fall asleep. Returns the largest change [m/s].
 double sweepOnce(State& state, Collection& c, Scratch& scratch) {
   constexpr double kSettled = 0.02;  // of what a sweep may leave
   const UnmergingSettings& settings = state.settings.unmerging;
@@ -177,8 +177,8 @@ double sweepOnce(State& state, Collection& c, Scratch& scratch) {
     follow(state, c, scratch, 0.0);
     return 0.0;
   }
-  const bool loaded = refines(settings) && c.loaded > 0;
-  if (loaded || awaitsInnerForces(state, scratch, c.rigid)) {
+  const bool stirred = refines(settings) && c.stirred > 0;
+  if (stirred || awaitsInnerForces(state, scratch, c.rigid)) {
     sweepInside(state, c, scratch, settings.disturbed_sweeps);
   }
   double change = sweepInside(state, c, scratch, settings.sweeps);
@@ -188,7 +188,7 @@ double sweepOnce(State& state, Collection& c, Scratch& scratch) {
   }
   markRestless(state, c, scratch, change);
   c.residual = static_cast<float>(change);
-  c.settled = change <= kSettled * residualVelocity(state);
+  c.settled = !stirred && change <= kSettled * residualVelocity(state);
   if (refines(settings)) follow(state, c, scratch, change);
   return change;
 }

@@ -262,14 +262,13 @@ bool WeldTest::turns(Weld& weld, const Turning& now, const Least& least) {
 
 bool WeldTest::tipsFor(const Weld& weld) const {
   constexpr int kSure = 10;  // steps
-  return mustTip(weld) && (c_.loaded > 0 || weld.turning.steps + 1 >= kSure);
+  return mustTip(weld) && (c_.stirred > 0 || weld.turning.steps + 1 >= kSure);
 }
 
 bool WeldTest::mustTip(const Weld& weld) const {
   const auto frame = static_cast<std::uint32_t>(c_.members.size());
   const bool on_frame = weld.node_a == frame || weld.node_b == frame;
-  const bool pushed = c_.loaded > 0 && !state_[c_.rigid].floating();
-  return (on_frame || pushed) && weld.bridge && weld.vain == 0 && rule() == Rule::Default;
+  return (on_frame || c_.stirred > 0) && weld.bridge && weld.vain == 0 && rule() == Rule::Default;
 }
 
 double WeldTest::noiseAt(const Weld& weld) const {

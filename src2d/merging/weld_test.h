@@ -113,7 +113,7 @@ class WeldTest {
   bool turns(Weld& weld, const Turning& now, const Least& least);
 
   /// What nothing else holds turns on however slowly it begins: then it need not be fast, but be
-  /// seen for some steps; for fewer where a load has just set in, which may be what tips it.
+  /// seen for some steps; for fewer where a load has just set in, as that may be what tips it.
   bool tipsFor(const Weld& weld) const;
   /// Nothing else holds against the frame, and it was not cut in vain before. In a heap more than a
   /// weld's own rows would hold: what barely tips there soon leans on its neighbours, but for what
@@ -178,7 +178,7 @@ class WeldTest {
   std::vector<std::uint32_t>& leant_;  ///< bridges that leaned in the last step
   double still_ = 0.0;                 ///< least() of a weld that nothing is special about [m/s]
   bool confirming_ = false;
-  bool growing_ = false;    ///< some sum grew in this step, and is not too large yet
+  bool growing_ = false;  ///< some sum grew in this step, and is not too large yet, or not for long
   bool disturbed_ = false;  ///< something new entered in this step: the sweeps have converged
   bool whole_ = false;      ///< dormant contacts were swept too
   Vec2 at_ = Vec2::Zero();  ///< the contact point at hand, for the notes

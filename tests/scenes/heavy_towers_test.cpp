@@ -65,12 +65,12 @@ TEST(TowerImpulseHeavy, UnderThePapersRulesTooFewGo) {
 }
 
 struct Tower {
-  int columns, layers;  ///< of light bricks; one less of heavy ones
-  double blow;          ///< to the first brick [N s]
-  int at;               ///< in this heavy layer
-  double step;          ///< [s]
-  int iterations;
-  double compliance;
+  int columns, layers;   ///< of light bricks; one less of heavy ones
+  double blow;           ///< to the first brick [N s]
+  int at;                ///< in this heavy layer
+  double step = 0.0025;  ///< [s]
+  int iterations = 200;
+  double compliance = 2e-5;
 };
 
 std::string tomlOf(const Tower& t) {
@@ -113,7 +113,8 @@ SceneRun runOf(const Tower& tower, Mode mode, const Overrides& overrides = {}) {
 /// Bricks that slide over the top, or bump into what stands, once drove the whole tower off.
 TEST(HeavyTower, KeepsItsFootOnTheGround) {
   for (const Tower& tower :
-       {Tower{6, 7, 1050, 5, 0.0025, 200, 2e-5}, {8, 7, 650, 4, 0.0025, 300, 2e-5}}) {
+       {Tower{.columns = 6, .layers = 7, .blow = 1050, .at = 5},
+        Tower{.columns = 8, .layers = 7, .blow = 650, .at = 4, .iterations = 300}}) {
     SCOPED_TRACE(tower.blow);
     SceneRun run = runOf(tower, Mode::Merge);
     run.until(1.49);
@@ -128,7 +129,8 @@ TEST(HeavyTower, KeepsItsFootOnTheGround) {
 }
 
 /// Struck so hard, it sways, and bricks fall.
-constexpr Tower kSlender{3, 10, 500, 7, 0.01, 200, 2e-4};
+constexpr Tower kSlender{
+    .columns = 3, .layers = 10, .blow = 500, .at = 7, .step = 0.01, .compliance = 2e-4};
 
 /// The tower's own reference sways down to its foot, as its contacts are soft and its steps long.
 /// One that is harder, has converged, and takes shorter steps tells what moves.

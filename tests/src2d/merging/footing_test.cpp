@@ -268,5 +268,36 @@ TEST(Footing, AColumnStandsInASpaceStation) {
   EXPECT_EQ(run.count(EventType::Unmerge), 0);
 }
 
+/// The column is asked when the cart sets off; a brick that is not merged yet stands beside it.
+TEST(Footing, ALooseBrickBesideAColumnRidesAlong) {
+  const std::string cart =
+      "box = [20, 1]\nscript = { keyframes = [[0, 0, 0, 0], [4, 0, 0, 0], [6, 0.3, 0, 0]] }";
+  Simulation run(on(cart, {1, 8}) +
+                     "[merging]\nsteps = 100\n[[emitter]]\nname = \"side\"\nbox = [1, 0.5]\n"
+                     "at = [1, 0.75]\nevery = 1\ncount = 1\nstart = 3.5\n",
+                 Mode::Merge);
+  run.until(4.3);
+  EXPECT_EQ(run.count(EventType::Unmerge), 0);
+}
+
+/// As slow as what seems to be at rest, but it gives way to nothing.
+TEST(Footing, ASlowRamOverturnsAColumn) {
+  for (const double speed : {0.01, 0.012, 0.015}) {
+    SCOPED_TRACE(speed);
+    const std::string toml = kGround +
+                             "[[body]]\nname = \"brick\"\nat = [0, 0.25]\nbox = [1, 0.5]\n" +
+                             "repeat = { count = [1, 20], spacing = [1, 0.5] }\n" +
+                             fmt::format(
+                                 "[[body]]\nname = \"ram\"\nmotion = \"scripted\"\nbox = [1, 0.4]\n"
+                                 "at = [{}, 7.75]\nscript = {{ velocity = [{}, 0], spin = 0 }}\n",
+                                 -1.0 - 5.0 * speed, speed);
+    Simulation run(toml, Mode::Merge), reference(toml, Mode::Reference);
+    run.until(12.0), reference.until(12.0);
+    const double below = placesOf(reference)[13].x();
+    EXPECT_GT(below, 0.04);
+    EXPECT_NEAR(placesOf(run)[13].x(), below, 0.02);
+  }
+}
+
 }  // namespace
 }  // namespace merge2d

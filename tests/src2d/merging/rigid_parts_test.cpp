@@ -30,18 +30,46 @@ class AfterSweep : public Observer {
   Look look_;
 };
 
-/// A column of boxes of 1 m and 1 kg, merged with the ground.
-void lookAtColumn(int boxes, const AfterSweep::Look& look) {
-  Simulation run(kGround + fmt::format("[[body]]\nname = \"box\"\nat = [0, 0.5]\nbox = [1, 1]\n"
-                                       "repeat = {{ count = [1, {}], spacing = [0, 1] }}\n",
-                                       boxes),
-                 Mode::Merge);
+void lookAt(const std::string& toml, const AfterSweep::Look& look) {
+  Simulation run(toml, Mode::Merge);
   run.steps(400);
   AfterSweep watch(look);
   run.world().observe(&watch);
   run.steps(1);
   run.world().observe(nullptr);
   EXPECT_EQ(watch.seen, 1);
+}
+
+/// A column of boxes of 1 m and 1 kg, merged with the ground.
+void lookAtColumn(int boxes, const AfterSweep::Look& look) {
+  lookAt(kGround + fmt::format("[[body]]\nname = \"box\"\nat = [0, 0.5]\nbox = [1, 1]\n"
+                               "repeat = {{ count = [1, {}], spacing = [0, 1] }}\n",
+                               boxes),
+         look);
+}
+
+/// Two boxes on a slab, merged with the ground, and a plank of 2 kg that was just laid across them.
+void lookUnderPlank(const AfterSweep::Look& look) {
+  lookAt(kGround + R"(
+[[body]]
+name = "slab"
+at = [0, 0.5]
+box = [4, 1]
+[[body]]
+name = "box"
+at = [-0.6, 1.5]
+box = [1, 1]
+repeat = { count = [2, 1], spacing = [1.2, 1] }
+[[emitter]]
+name = "plank"
+at = [0, 2.1]
+box = [2, 0.2]
+mass = 2
+every = 1
+count = 1
+start = 3.98
+)",
+         look);
 }
 
 bool joinsAll(const Weld&) { return true; }
@@ -85,6 +113,33 @@ TEST(RigidParts, AColumnSettlesAndAPushedOneDoesNot) {
     for (const std::uint32_t w : welds) {
       EXPECT_TRUE(c.welds[w].a == c.members[1] || c.welds[w].b == c.members[1]);
     }
+  });
+}
+
+TEST(RigidParts, WhatRestsOnThemBearsAnyLoad) {
+  lookUnderPlank([](const State& state, Scratch& scratch, const Collection& c) {
+    for (SolverVelocity& u : scratch.sweep_u) u.vx = u.vy = u.omega = 0.0;
+    ASSERT_TRUE(formParts(state, scratch, c, joinsAll));
+    const RigidParts& p = scratch.rigid_parts;
+    ASSERT_EQ(p.outside.size(), 2u) << "the frame, and the plank once";
+    EXPECT_EQ(p.rows.size(), 3u);
+    EXPECT_EQ(p.u.back().inv_mass, 0.0);
+  });
+}
+
+TEST(RigidParts, WhatMovesAgainstThemPushesWithItsOwnMass) {
+  lookUnderPlank([](const State& state, Scratch& scratch, const Collection& c) {
+    for (SolverVelocity& u : scratch.sweep_u) u.vx = u.vy = u.omega = 0.0;
+    const std::size_t plank = state.bodies.size() - 1;
+    scratch.sweep_u[plank].vx = 0.01;
+    ASSERT_TRUE(formParts(state, scratch, c, joinsAll));
+    const RigidParts& p = scratch.rigid_parts;
+    ASSERT_EQ(p.outside.size(), 2u);
+    EXPECT_EQ(p.outside.back(), state[BodyId{static_cast<std::uint32_t>(plank)}].rigid);
+    EXPECT_EQ(p.u.back().vx, 0.01);
+    EXPECT_EQ(p.u.back().inv_mass, 0.5);
+    EXPECT_GT(p.u.back().inv_inertia, 0.0);
+    EXPECT_EQ(p.u[p.of.back()].inv_mass, 0.0) << "the frame";
   });
 }
 

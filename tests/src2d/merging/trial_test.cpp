@@ -144,7 +144,7 @@ TEST(Trial, WhatStayedWaitsOnWhileABlowFallsElsewhere) {
   Waiting waiting;
   Simulation run(loadScene("funnel"), Mode::Merge);
   run.world().observe(&waiting);
-  run.steps(12000);
+  run.steps(13000);
   EXPECT_GT(waiting.waited, 400);
   EXPECT_GT(waiting.asked, 20) << "of what the blow jolts";
   EXPECT_GT(waiting.anew, 5) << "as it jolts much of the collection";
