@@ -24,7 +24,7 @@ inline int vainCuts(const Collection& c, const Weld& weld) {
 /// Caution.LastsWhileAPairIsOnlyJostled and Caution.IsLessWhileAJoltStillCounts.
 inline double cautionWith(const State& state, const Collection& c, const Weld& weld) {
   constexpr double kSteps = 200.0;  // of a weld, times the factor, before it is as any other
-  if (weld.vain == 0 || state.settings.unmerging.rule == Rule::Paper) return 1.0;
+  if (weld.vain == 0) return 1.0;
   const double factor = static_cast<double>(1 << vainCuts(c, weld));
   const auto lived = static_cast<double>(state.step - c.contacts[weld.first].since);
   return lived < kSteps * factor ? factor : 1.0;

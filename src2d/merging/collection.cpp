@@ -6,6 +6,7 @@
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
+#include "src2d/merging/rule.h"
 
 namespace merge2d {
 namespace {
@@ -216,22 +217,6 @@ std::optional<RigidId> commonCollection(const State& state, const ContactKey& ke
   return a_in ? ra : rb;
 }
 
-/// Deviation: a point that carries nothing when its pair merges is kept, as it may be needed later.
-/// The paper's rule discards it (Section 6.3); where none carries anything they stay, unswept, so
-/// that the weld is known. Guarded by
-/// Cures.AContactThatCarriedNothingWhenItsPairMergedTakesALoadLater.
-void discardInactive(InternalContact& inner) {
-  if (inner.count < 2 || inner.watch[0].active == inner.watch[1].active) return;
-  if (!inner.watch[0].active) {
-    inner.watch[0] = inner.watch[1];
-    inner.points[0] = inner.points[1];
-    inner.gap[0] = inner.gap[1];
-    inner.feature[0] = inner.feature[1];
-  }
-  inner.watch[1] = {};
-  inner.count = 1;
-}
-
 }  // namespace
 
 void absorbContacts(State& state) {
@@ -260,7 +245,7 @@ void absorbContacts(State& state) {
       inner.feature[i] = p.feature;
       inner.watch[i].active = p.lambda_n > 0.0 || isBilateral(state, contact.key.a, contact.key.b);
     }
-    if (state.settings.unmerging.rule == Rule::Paper) discardInactive(inner);
+    unmergingMethod(state).enter(inner);
     reserveTightly(c.contacts, c.contacts.size() + 1);
     c.contacts.push_back(inner);
     return true;

@@ -5,6 +5,7 @@
 
 #include "src2d/core/memory.h"
 #include "src2d/merging/grip.h"
+#include "src2d/merging/rule.h"
 
 namespace merge2d {
 namespace {
@@ -18,7 +19,7 @@ class DetourSearch {
         frame_(static_cast<std::uint32_t>(c.members.size())),
         resolution_(resolutionOf(state, c)),
         by_two_(state.settings.merging.cycles != CycleCriterion::Triangle),
-        floors_join_(state.settings.merging.rule == Rule::Paper) {}
+        floors_join_(mergingMethod(state).unites_on_floors) {}
 
   bool leadsAround(const Weld& weld) {
     const std::uint32_t a = weld.node_a, b = weld.node_b;

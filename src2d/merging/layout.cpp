@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "src2d/core/memory.h"
-#include "src2d/dynamics/solver.h"
 #include "src2d/merging/bridges.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/detours.h"
 #include "src2d/merging/grip.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/joint_welds.h"
+#include "src2d/merging/rule.h"
 
 namespace merge2d {
 namespace {
@@ -122,18 +122,6 @@ SolverVelocity memberMasses(const State& state, const Collection& c, BodyId b) {
   return u;
 }
 
-/// Zero, unless a point may not have met yet; with the paper's rule that of the full solve.
-double innerBias(const State& state, const InternalContact& contact, std::size_t i) {
-  const double gap = contact.gap[i];
-  const bool bilateral = isBilateral(state, contact.key.a, contact.key.b);
-  const double bias = contactBias(state.settings.solver, state.h, gap, bilateral);
-  if (state.settings.unmerging.rule == Rule::Paper) return bias;
-  return contact.watch[i].active || gap <= 0.0 ? 0.0 : bias;
-}
-
-/// Deviation: contacts inside a collection are rigid rows, without bias and softness: their overlap
-/// is frozen, and would ask for a ghost velocity whenever the load changes.
-/// Guarded by Sweep.HoldsAColumnsWeightExactly.
 ContactBlock makeBlock(const State& state, const Collection& c, const InternalContact& contact) {
   const auto origin = [&](BodyId b) {
     return state[b].rigid == c.rigid ? state[b].local : Vec2(Vec2::Zero());
@@ -143,9 +131,8 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   BlockGeometry g;
   g.normal = contact.normal;
   g.count = contact.count;
-  if (state.settings.unmerging.rule == Rule::Paper) {
-    g.softness = contactSoftness(state.settings.solver, ua.inv_mass, ub.inv_mass);
-  }
+  const InnerRows rows = unmergingMethod(state).innerRows(state, contact, ua, ub);
+  g.softness = rows.softness;
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
     g.arm_a[i] = contact.points[i].position - origin(contact.key.a);
     g.arm_b[i] = contact.points[i].position - origin(contact.key.b);
@@ -158,7 +145,7 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
     k.lambda[i] = contact.points[i].lambda_n;
     k.lambda[i + 2] = contact.points[i].lambda_t;
-    k.bias[i] = innerBias(state, contact, i);
+    k.bias[i] = rows.bias[i];
   }
   prepareBlock(k, g, ua, ub);
   return k;

@@ -11,6 +11,7 @@
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/group_notes.h"
 #include "src2d/merging/ready_pairs.h"
+#include "src2d/merging/rule.h"
 #include "src2d/merging/sweep.h"
 
 namespace merge2d {
@@ -18,8 +19,7 @@ namespace {
 
 /// The pairs to weld: ready, and held in the group that they would form.
 std::vector<BodyPair> pairsToWeld(State& state, Scratch& scratch) {
-  const MergingSettings& m = state.settings.merging;
-  const CycleCriterion criterion = m.rule == Rule::Paper ? CycleCriterion::Off : m.cycles;
+  const CycleCriterion criterion = mergingMethod(state).cycles(state.settings.merging);
   const MergeGraph graph(state);
   listReadyPairs(state, scratch, graph);
   const std::vector<ReadyPair> pairs = pairsToJudge(state, scratch, graph);
@@ -35,9 +35,9 @@ std::vector<BodyPair> pairsToWeld(State& state, Scratch& scratch) {
   return held;
 }
 
-/// What is welded to a body of a frame stays apart from what else is welded to it. Deviation: in
-/// the paper a pinned body is a member like any other, so that two piles on one floor are one
-/// collection. Its rule brings them together. Guarded by Collection.TwoPilesOnOneFloorStayTwo.
+/// Brings together what is welded to one body of a frame, where the rule says so. Deviation: else
+/// it stays apart; in the paper a pinned body is a member like any other, so that two piles on one
+/// floor are one collection. Guarded by Collection.TwoPilesOnOneFloorStayTwo.
 class Floors {
  public:
   explicit Floors(State& state) : state_(state) {
@@ -58,7 +58,7 @@ class Floors {
   }
 
  private:
-  bool shared() const { return state_.settings.merging.rule == Rule::Paper; }
+  bool shared() const { return mergingMethod(state_).unites_on_floors; }
 
   State& state_;
   std::map<BodyId, BodyId> on_;  ///< a member that is welded to each of them

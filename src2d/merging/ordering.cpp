@@ -1,5 +1,7 @@
 #include "src2d/merging/ordering.h"
 
+#include <algorithm>
+
 namespace merge2d {
 
 std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const GraphEdge> edges,
@@ -45,6 +47,26 @@ std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const Gra
     if (!placed[i]) order.push_back(i);
   }
   return order;
+}
+
+std::vector<SweepItem> orderedFromSeeds(const std::vector<SweepItem>& items, const Scratch& scratch,
+                                        std::span<const std::uint8_t> passable) {
+  std::vector<GraphEdge> edges;
+  edges.reserve(items.size());
+  for (const SweepItem& item : items) edges.push_back({item.a(), item.b()});
+  std::vector<std::uint32_t> depth;
+  const auto order = breadthFirst(static_cast<std::uint32_t>(passable.size()), edges, scratch.seeds,
+                                  passable, scratch.notes ? &depth : nullptr);
+  const auto world = static_cast<std::uint32_t>(scratch.sweep_u.size() - 1);
+  std::vector<SweepItem> ordered;
+  ordered.reserve(order.size());
+  for (const std::uint32_t i : order) {
+    ordered.push_back(items[i]);
+    if (!scratch.notes || std::max(edges[i].a, edges[i].b) >= world) continue;
+    scratch.notes->order.push_back(
+        {BodyId{edges[i].a}, BodyId{edges[i].b}, static_cast<int>(depth[i])});
+  }
+  return ordered;
 }
 
 }  // namespace merge2d

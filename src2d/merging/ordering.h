@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "src2d/dynamics/scratch.h"
+
 namespace merge2d {
 
 /// An edge of the contact graph; a body that does not respond to forces is never walked through.
@@ -21,5 +23,9 @@ std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const Gra
                                         std::span<const std::uint32_t> seeds,
                                         std::span<const std::uint8_t> passable,
                                         std::vector<std::uint32_t>* depth = nullptr);
+
+/// The items in breadth-first order from `scratch.seeds`; the order is noted when somebody asks.
+std::vector<SweepItem> orderedFromSeeds(const std::vector<SweepItem>& items, const Scratch& scratch,
+                                        std::span<const std::uint8_t> passable);
 
 }  // namespace merge2d

@@ -5,6 +5,7 @@
 
 #include "src2d/merging/merge.h"
 #include "src2d/merging/metric.h"
+#include "src2d/merging/rule.h"
 
 namespace merge2d {
 namespace {
@@ -83,7 +84,7 @@ bool PairTest::ready() {
   if (!ok) return note("pressed", "Section 5.3", seen.active, 1.0, false);
   const bool loud = seen.fastest_slip >= m.sliding || seen.largest_breath >= m.breathing;
   if (loud && !notes_) return false;  // what takes longer to find out need not be asked
-  if (m.rule == Rule::Default) {
+  if (mergingMethod(state_).refuses_edge) {
     const bool slides = seen.on_edge == seen.active && aboutToSlide(state_, pair_);
     ok &= note("edge", "(20)", seen.on_edge, seen.active, !slides);
   }

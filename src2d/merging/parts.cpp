@@ -6,6 +6,7 @@
 #include "src2d/merging/cycles.h"
 #include "src2d/merging/grip.h"
 #include "src2d/merging/joint_welds.h"
+#include "src2d/merging/rule.h"
 
 namespace merge2d {
 namespace {
@@ -56,18 +57,40 @@ void addPins(const State& state, const Collection& c, const Weld& weld, std::uin
   }
 }
 
-/// With the paper's rule, what one body of the frame holds is one part (see Floors in merge.cpp).
-void uniteOnFloors(const Collection& c, const Nodes& nodes, const Groups& group,
+/// What one body of the frame holds is one part, where the rule says so (see Floors in merge.cpp).
+/// `nodeOf(node)` is the set of a weld's node in `parts`; `held(set)`: the frame holds it.
+template <class NodeOf, class Held>
+void uniteOnFloors(const State& state, const Collection& c, NodeOf&& nodeOf, Held&& held,
                    DisjointSets& parts) {
+  if (!mergingMethod(state).unites_on_floors) return;
   std::map<BodyId, std::uint32_t> on;  // per body of the frame: a node that it holds
   const auto frame = static_cast<std::uint32_t>(c.members.size());
   for (const Weld& weld : c.welds) {
     const bool to_frame = weld.node_a == frame || weld.node_b == frame;
     if (!to_frame || weld.cut || weld.expected) continue;
-    const std::uint32_t node = nodes.of[weld.node_a == frame ? weld.node_b : weld.node_a];
-    if (group[node] != group[0]) continue;
+    const std::uint32_t node = nodeOf(weld.node_a == frame ? weld.node_b : weld.node_a);
+    if (!held(node)) continue;
     parts.unite(node, on.emplace(weld.node_a == frame ? weld.a : weld.b, node).first->second);
   }
+}
+
+/// Numbers the parts in the order of the members.
+template <class NodeOf, class Held>
+Parts numbered(const Collection& c, NodeOf&& nodeOf, Held&& held, std::uint32_t nodes,
+               DisjointSets& parts) {
+  Parts result;
+  std::vector<std::uint32_t> number(nodes, ~0u);
+  for (std::uint32_t m = 0; m < c.members.size(); ++m) {
+    const std::uint32_t node = nodeOf(m);
+    std::uint32_t& p = number[parts.find(node)];
+    if (p == ~0u) {
+      p = static_cast<std::uint32_t>(result.anchored.size());
+      result.anchored.push_back(0);
+    }
+    result.part.push_back(p);
+    if (held(node)) result.anchored[p] = 1;
+  }
+  return result;
 }
 
 }  // namespace
@@ -81,10 +104,7 @@ Parts partsWithoutCuts(const State& state, const Collection& c) {
     const auto a = nodes.of[weld.node_a], b = nodes.of[weld.node_b];
     if (a != b && !weld.cut && !weld.expected) addPins(state, c, weld, a, b, pins);
   }
-  const CycleCriterion criterion = state.settings.unmerging.rule == Rule::Paper
-                                       ? CycleCriterion::Off
-                                       : state.settings.merging.cycles;
-  const Groups group = heldGroups(nodes.count, pins, criterion);
+  const Groups group = heldGroups(nodes.count, pins, state.settings.merging.cycles);
 
   // Bodies of one rigid group that touch each other, not only the frame, stay one part.
   DisjointSets parts;
@@ -92,20 +112,29 @@ Parts partsWithoutCuts(const State& state, const Collection& c) {
   for (const Pin& pin : pins) {
     if (pin.a != 0 && pin.b != 0 && group[pin.a] == group[pin.b]) parts.unite(pin.a, pin.b);
   }
-  if (state.settings.merging.rule == Rule::Paper) uniteOnFloors(c, nodes, group, parts);
-  Parts result;
-  std::vector<std::uint32_t> number(nodes.count, ~0u);
-  for (std::size_t m = 0; m < c.members.size(); ++m) {
-    const std::uint32_t node = nodes.of[m];
-    std::uint32_t& p = number[parts.find(node)];
-    if (p == ~0u) {
-      p = static_cast<std::uint32_t>(result.anchored.size());
-      result.anchored.push_back(0);
+  const auto nodeOf = [&](std::uint32_t member) { return nodes.of[member]; };
+  const auto held = [&](std::uint32_t node) { return group[node] == group[0]; };
+  uniteOnFloors(state, c, nodeOf, held, parts);
+  return numbered(c, nodeOf, held, nodes.count, parts);
+}
+
+Parts connectedParts(const State& state, const Collection& c) {
+  const auto frame = static_cast<std::uint32_t>(c.members.size());
+  DisjointSets parts;
+  parts.reset(frame);
+  std::vector<std::uint8_t> on_frame(frame, 0);
+  for (const Weld& weld : c.welds) {
+    if (weld.cut || weld.expected || activeContacts(c, weld) == 0) continue;
+    if (weld.node_a == frame || weld.node_b == frame) {
+      on_frame[weld.node_a == frame ? weld.node_b : weld.node_a] = 1;
+    } else {
+      parts.unite(weld.node_a, weld.node_b);
     }
-    result.part.push_back(p);
-    if (group[node] == group[0]) result.anchored[p] = 1;
   }
-  return result;
+  const auto nodeOf = [](std::uint32_t member) { return member; };
+  const auto held = [&](std::uint32_t member) { return on_frame[member] != 0; };
+  uniteOnFloors(state, c, nodeOf, held, parts);
+  return numbered(c, nodeOf, held, frame, parts);
 }
 
 bool fallsApart(const State& state, const Collection& c, const Parts& parts) {

@@ -17,6 +17,9 @@ struct Parts {
 /// The parts that the remaining welds hold together under the cycle criterion.
 Parts partsWithoutCuts(const State& state, const Collection& c);
 
+/// The connected components of the remaining welds that have an active contact or a joint.
+Parts connectedParts(const State& state, const Collection& c);
+
 bool fallsApart(const State& state, const Collection& c, const Parts& parts);
 
 }  // namespace merge2d

@@ -9,7 +9,6 @@
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/interleave.h"
 #include "src2d/merging/limits.h"
-#include "src2d/merging/ordering.h"
 
 namespace merge2d {
 namespace {
@@ -274,32 +273,6 @@ class Refinement {
 };
 
 }  // namespace
-
-std::vector<SweepItem> orderedFromSeeds(const State& state, const Scratch& scratch,
-                                        const std::vector<SweepItem>& items,
-                                        std::vector<std::uint32_t>* depth) {
-  std::vector<GraphEdge> edges;
-  edges.reserve(items.size());
-  for (const SweepItem& item : items) edges.push_back({item.a(), item.b()});
-  // Deviation: not through what does not respond to forces, or a floor would pass everything on to
-  // everything at once. The paper's rule does. Guarded by Sweep.TheWalkDoesNotPassTheFloor.
-  const bool literal = state.settings.unmerging.rule == Rule::Paper;
-  std::vector<std::uint8_t> passable(scratch.sweep_u.size());
-  for (std::size_t i = 0; i < passable.size(); ++i) {
-    passable[i] = literal || scratch.sweep_u[i].inv_mass > 0.0;
-  }
-  const auto order = breadthFirst(static_cast<std::uint32_t>(passable.size()), edges, scratch.seeds,
-                                  passable, depth);
-  std::vector<SweepItem> ordered;
-  std::vector<std::uint32_t> depth_in_order;
-  ordered.reserve(order.size());
-  for (const std::uint32_t i : order) {
-    ordered.push_back(items[i]);
-    if (depth) depth_in_order.push_back((*depth)[i]);
-  }
-  if (depth) *depth = std::move(depth_in_order);
-  return ordered;
-}
 
 double residualVelocity(const State& state) {
   constexpr double kPart = 1e-3;

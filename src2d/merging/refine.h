@@ -39,12 +39,6 @@ inline void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, Sol
   solveJoint(*item.joint, item.turn, u[item.joint->a], u[item.joint->b]);
 }
 
-/// The items in breadth-first order from `scratch.seeds` (Section 6.2). `depth`, when given, gets
-/// per item, in that order, what breadthFirst says of it.
-std::vector<SweepItem> orderedFromSeeds(const State& state, const Scratch& scratch,
-                                        const std::vector<SweepItem>& items,
-                                        std::vector<std::uint32_t>* depth = nullptr);
-
 /// Velocities below this are what a sweep leaves for the next one: a thousandth of what gravity
 /// adds in a step [m/s].
 double residualVelocity(const State& state);

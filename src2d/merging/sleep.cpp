@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "src2d/merging/merge.h"
+#include "src2d/merging/rule.h"
 
 namespace merge2d {
 namespace {
-
-bool canSleep(const Rigid& r, const State& state, std::size_t i) {
-  return r.present() && (r.floating() || i >= state.bodies.size());
-}
 
 /// Sum of the loads on each body that has any.
 void sumLoads(State& state, const Scratch& scratch) {
@@ -17,8 +14,15 @@ void sumLoads(State& state, const Scratch& scratch) {
   for (const Load& load : scratch.loads) state[load.body].load += load.force;
 }
 
-/// Rigid things that something keeps or makes awake: kicks, changed loads, moving scripted bodies.
-void markRestless(State& state, Scratch& scratch, std::vector<std::uint8_t>& restless) {
+}  // namespace
+
+bool canSleep(const State& state, RigidId id) {
+  return state[id].present() && (state[id].floating() || state.isCollection(id));
+}
+
+void markRestless(State& state, Scratch& scratch) {
+  sumLoads(state, scratch);
+  auto& restless = scratch.restless;
   restless.assign(state.rigids.size(), 0);
   const auto mark = [&](BodyId b) { restless[index(state[b].rigid)] = 1; };
   for (const Kick& kick : scratch.kicks) mark(kick.body);
@@ -47,14 +51,13 @@ void markRestless(State& state, Scratch& scratch, std::vector<std::uint8_t>& res
   }
 }
 
-void fallAsleep(State& state, Scratch& scratch, std::size_t i) {
-  Rigid& r = state.rigids[i];
+void fallAsleep(State& state, Scratch& scratch, RigidId id) {
+  Rigid& r = state[id];
   r.asleep = true;
   r.v.setZero();
   r.omega = 0.0;
-  const bool collection = i >= state.bodies.size();
-  const Collection* c = collection ? &state.collections[i - state.bodies.size()] : nullptr;
-  const BodyId first = state.firstBody(RigidId{static_cast<std::uint32_t>(i)});
+  const Collection* c = state.isCollection(id) ? &state.collection(id) : nullptr;
+  const BodyId first = state.firstBody(id);
   if (c) {
     for (const BodyId b : c->members) state[b].load_asleep = state[b].load;
   } else {
@@ -64,13 +67,12 @@ void fallAsleep(State& state, Scratch& scratch, std::size_t i) {
       {EventType::Sleep, first, first, c ? c->id : kNoCollection, EventReason::None});
 }
 
-/// Writes down what becomes of a rigid thing, and the one test that decided it.
-void noteSleep(const State& state, Notes* notes, std::size_t i, bool restless, bool stays_awake) {
-  const Rigid& r = state.rigids[i];
+void noteSleep(const State& state, const Scratch& scratch, RigidId id, bool stays_awake) {
+  const Rigid& r = state[id];
+  Notes* notes = scratch.notes;
   if (!notes || (r.asleep && !stays_awake)) return;
-  const bool collection = i >= state.bodies.size();
-  const Collection* c = collection ? &state.collections[i - state.bodies.size()] : nullptr;
-  const BodyId first = state.firstBody(RigidId{static_cast<std::uint32_t>(i)});
+  const Collection* c = state.isCollection(id) ? &state.collection(id) : nullptr;
+  const BodyId first = state.firstBody(id);
   const int needed = state.settings.sleeping.steps;
   Decision d{.a = first,
              .b = first,
@@ -90,7 +92,7 @@ void noteSleep(const State& state, Notes* notes, std::size_t i, bool restless, b
     d.value = 1.0;
     d.threshold = 0.0;
   };
-  if (restless) {
+  if (scratch.restless[index(id)] != 0) {
     because("disturbed");
   } else if (r.asleep) {
     because("neighbours");
@@ -100,23 +102,22 @@ void noteSleep(const State& state, Notes* notes, std::size_t i, bool restless, b
   notes->decisions.push_back(d);
 }
 
+namespace {
+
 /// What keeps an island awake: the strongest reason of its members.
 enum Awake : std::uint8_t { kNothing, kInnerForces, kMotion };
 
-Awake reasonToStay(const State& state, std::size_t i, bool restless) {
-  const Rigid& r = state.rigids[i];
+Awake reasonToStay(const State& state, RigidId id, bool restless) {
+  const Rigid& r = state[id];
   if (restless) return kMotion;
   if (r.asleep) return kNothing;
   if (r.quiet_steps < state.settings.sleeping.steps) return kMotion;
-  const bool collection = i >= state.bodies.size();
-  // The paper does not wait for the forces inside.
-  const bool waits = collection && state.settings.unmerging.rule == Rule::Default;
-  const bool settled = !waits || state.collections[i - state.bodies.size()].settled;
+  const bool settled = !state.isCollection(id) || state.collection(id).settled;
   return settled ? kNothing : kInnerForces;
 }
 
-std::uint8_t& reasonOfIsland(Scratch& scratch, std::size_t i) {
-  return scratch.island_awake[scratch.sets.find(static_cast<std::uint32_t>(i))];
+std::uint8_t& reasonOfIsland(Scratch& scratch, RigidId id) {
+  return scratch.island_awake[scratch.sets.find(static_cast<std::uint32_t>(id))];
 }
 
 /// True while a pair of which one is free counts the steps until it merges, or those before it may
@@ -136,9 +137,8 @@ void awaitMerges(const State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
     if (!isAboutToMerge(state, pair)) continue;
     for (const BodyId b : {pair.a, pair.b}) {
-      const std::size_t i = index(state[b].rigid);
-      if (!canSleep(state.rigids[i], state, i)) continue;
-      reasonOfIsland(scratch, i) = kMotion;
+      const RigidId id = state[b].rigid;
+      if (canSleep(state, id)) reasonOfIsland(scratch, id) = kMotion;
     }
   }
 }
@@ -148,8 +148,8 @@ void uniteIslands(const State& state, Scratch& scratch) {
   auto& sets = scratch.sets;
   sets.reset(state.rigids.size());
   const auto unite = [&](BodyId body_a, BodyId body_b) {
-    const auto a = index(state[body_a].rigid), b = index(state[body_b].rigid);
-    if (!canSleep(state.rigids[a], state, a) || !canSleep(state.rigids[b], state, b)) return;
+    const RigidId a = state[body_a].rigid, b = state[body_b].rigid;
+    if (!canSleep(state, a) || !canSleep(state, b)) return;
     sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
   };
   for (const BodyPair& pair : scratch.pairs) unite(pair.a, pair.b);
@@ -162,10 +162,9 @@ void uniteIslands(const State& state, Scratch& scratch) {
 void findWhatStaysAwake(const State& state, Scratch& scratch) {
   scratch.island_awake.assign(state.rigids.size(), kNothing);
   for (const RigidId id : state.present) {
-    const std::size_t i = index(id);
-    if (!canSleep(state.rigids[i], state, i)) continue;
-    std::uint8_t& island = reasonOfIsland(scratch, i);
-    const std::uint8_t own = reasonToStay(state, i, scratch.restless[i] != 0);
+    if (!canSleep(state, id)) continue;
+    std::uint8_t& island = reasonOfIsland(scratch, id);
+    const std::uint8_t own = reasonToStay(state, id, scratch.restless[index(id)] != 0);
     island = std::max(island, own);
   }
   awaitMerges(state, scratch);
@@ -185,28 +184,30 @@ void wakeUp(State& state, Scratch& scratch, RigidId id) {
 
 bool awaitsInnerForces(const State& state, Scratch& scratch, RigidId id) {
   if (!sleeps(state.mode)) return false;
-  return reasonOfIsland(scratch, index(id)) == kInnerForces;
+  return reasonOfIsland(scratch, id) == kInnerForces;
+}
+
+void sleepByIslands(State& state, Scratch& scratch) {
+  markRestless(state, scratch);
+  uniteIslands(state, scratch);
+  findWhatStaysAwake(state, scratch);
+  for (const RigidId id : state.present) {
+    if (!canSleep(state, id)) continue;
+    const bool stays_awake = reasonOfIsland(scratch, id) != kNothing;
+    noteSleep(state, scratch, id, stays_awake);
+    const bool asleep = state[id].asleep;
+    if (asleep && stays_awake) wakeUp(state, scratch, id);
+    if (!asleep && !stays_awake) fallAsleep(state, scratch, id);
+  }
 }
 
 void sleepAndWake(State& state, Scratch& scratch) {
   if (!sleeps(state.mode)) return;
-  sumLoads(state, scratch);
-  auto& restless = scratch.restless;
-  markRestless(state, scratch, restless);
-  uniteIslands(state, scratch);
-  findWhatStaysAwake(state, scratch);
-  bool any = false;
-  for (const RigidId id : state.present) {
-    const std::size_t i = index(id);
-    if (!canSleep(state.rigids[i], state, i)) continue;
-    const bool stays_awake = reasonOfIsland(scratch, i) != kNothing;
-    noteSleep(state, scratch.notes, i, restless[i] != 0, stays_awake);
-    const bool asleep = state.rigids[i].asleep;
-    if (asleep && stays_awake) wakeUp(state, scratch, id);
-    if (asleep || stays_awake) continue;
-    fallAsleep(state, scratch, i);
-    any = true;
-  }
+  const std::size_t before = scratch.events.size();
+  unmergingMethod(state).sleepAndWake(state, scratch);
+  const bool any =
+      std::any_of(scratch.events.begin() + static_cast<std::ptrdiff_t>(before),
+                  scratch.events.end(), [](const Event& e) { return e.type == EventType::Sleep; });
   if (any) releaseRows(state, scratch);
 }
 

@@ -1,15 +1,30 @@
 #pragma once
-/// SleepAndWake (Section 7), per island of rigid things that touch.
-///
-/// Deviation: the paper lets each body of B sleep by itself. Here an island sleeps when all of it
-/// is at rest and the forces inside its collections have settled, and wakes as a whole: a sleeper
-/// is never left hanging when its support wakes. Guarded by tests/src2d/merging/sleep_test.cpp.
+/// SleepAndWake (Section 7). Which things sleep and wake together is a matter of the rule (rule.h).
 
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
 
 void sleepAndWake(State& state, Scratch& scratch);
+
+/// Per island of rigid things that touch. Deviation: the paper lets each body of B sleep by itself.
+/// Here an island sleeps when all of it is at rest and the forces inside its collections have
+/// settled, and wakes as a whole: a sleeper is never left hanging when its support wakes. Guarded
+/// by tests/src2d/merging/sleep_test.cpp.
+void sleepByIslands(State& state, Scratch& scratch);
+
+/// True for what the stage may put to sleep: it floats, or is a collection.
+bool canSleep(const State& state, RigidId id);
+
+/// Marks in `scratch.restless` what something from outside keeps or makes awake: impulses, changed
+/// loads, moving scripted bodies.
+void markRestless(State& state, Scratch& scratch);
+
+/// Puts one rigid thing to sleep.
+void fallAsleep(State& state, Scratch& scratch, RigidId id);
+
+/// Writes down what becomes of a rigid thing, and the one test that decided it.
+void noteSleep(const State& state, const Scratch& scratch, RigidId id, bool stays_awake);
 
 /// Wakes one rigid thing; its island follows in the stage.
 void wakeUp(State& state, Scratch& scratch, RigidId id);

@@ -7,6 +7,7 @@
 #include "src2d/contact/table.h"
 #include "src2d/merging/caution.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/rule.h"
 
 namespace merge2d {
 namespace {
@@ -103,29 +104,6 @@ const Weld* cutByTest(const Collection& c, const InternalContact& inner) {
   const auto weld = std::ranges::lower_bound(c.welds, pair(inner.key), {}, pair);
   if (weld == c.welds.end() || pair(*weld) != pair(inner.key)) return nullptr;
   return weld->cut && weld->reason != EventReason::User ? &*weld : nullptr;
-}
-
-/// What turns as slowly as this seems to be at rest for so many steps.
-int stepsUntilSeen(const State& state, const Drift& turning) {
-  constexpr double kMost = 200.0;  // steps
-  const double seen = state.settings.merging.velocity * turning.steps;
-  const double sum = std::abs(turning.sum);
-  return std::max(turning.steps, static_cast<int>(std::min(seen / std::max(sum, 1e-12), kMost)));
-}
-
-/// How long a pair that parts has to wait.
-/// Deviation: a weld that broke soon after it had formed waits for the rest of this time before its
-/// contacts are looked at again, or the pair would merge and part in turn while it barely moves.
-/// Guarded by Unmerge.AWeldThatBrokeAtOnceDoesNotFormAtOnce. And one that turned slowly waits for
-/// as long as it would still seem at rest. Guarded by
-/// Seesaw.BarelyOutOfBalanceTipsAsInTheReference.
-int patienceAfter(const State& state, const InternalContact& inner, const Weld* cut) {
-  constexpr std::int64_t kFlicker = 20;  // steps
-  if (state.settings.unmerging.rule == Rule::Paper) return 0;
-  const auto rest =
-      static_cast<int>(std::max(std::int64_t{0}, kFlicker - (state.step - inner.since)));
-  const bool turned = cut && cut->reason == EventReason::RelativeMotion;
-  return turned ? std::max(rest, stepsUntilSeen(state, cut->turning)) : rest;
 }
 
 /// Until its pair gets somewhere, this cut is one in vain.
@@ -232,7 +210,7 @@ class Split {
         continue;
       }
       const Weld* cut = cutByTest(c, inner);
-      released_.push_back({inner, patienceAfter(state_, inner, cut)});
+      released_.push_back({inner, unmergingMethod(state_).waitAfterSplit(state_, inner, cut)});
       if (cut) countVain(released_.back().inner);
     }
     c.contacts.resize(staying);

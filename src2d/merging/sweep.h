@@ -1,21 +1,20 @@
 #pragma once
-/// SingleIterationPGS (Section 6.2): one sweep of PGS over the contacts inside
-/// collections, and those around them, keeps the inner forces alive. Its velocities are only looked
-/// at, by Unmerge; its impulses of contacts outside collections are thrown away, so that the full
-/// solve's warm start is untouched.
+/// SingleIterationPGS (Section 6.2): one sweep of PGS over the contacts inside collections, and
+/// those around them, keeps the inner forces alive. Its velocities are only looked at, by Unmerge;
+/// its impulses of contacts outside collections are thrown away, so that the full solve's warm
+/// start is untouched. What is swept in which order is a matter of the rule (rule.h).
 
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
 
-/// Sweeps the contacts of each collection once, then goes on where something is new or still
-/// changes much (merging/refine.h). `unmerging.rule = "paper"`: everything once, breadth
-/// first from the seeds, and no more.
+/// Updates the impulses inside collections.
 void sweepCollections(State& state, Scratch& scratch);
 
-/// More sweeps in one collection and at the contacts outside, from the bodies in `scratch.doubted`
-/// on, before one of its welds is cut.
-void sweepAgain(State& state, Scratch& scratch, Collection& collection);
+/// Sweeps over the active contacts of a collection. What they change is added to each member's
+/// push. Contacts that they leave at their limits are watched from now on. Returns the largest
+/// change of a member's velocity [m/s]; that of each is left in `scratch.u`, squared.
+double sweepInside(const State& state, Collection& collection, Scratch& scratch, int sweeps);
 
 /// Computes anew what the inner forces do to members, where more sweeps have changed them: once in
 /// a step, and not where all is laid out anew.

@@ -6,6 +6,7 @@
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/joint_sweep.h"
+#include "src2d/merging/rule.h"
 #include "src2d/merging/sweep.h"
 
 namespace merge2d {
@@ -13,13 +14,10 @@ namespace {
 
 bool isMember(const State& state, BodyId b) { return state.isCollection(state[b].rigid); }
 
-/// Velocity of a member before the last position update: Deviation from the start with today's
-/// velocity, which would miss the force that keeps the member on its circle.
-/// The paper's rule has it. Guarded by Sweep.HoldsASpinningMemberOnItsCircle.
+/// The velocity that a member has in its collection, and what acts on it.
 void startMembers(const State& state, const Collection& c, Scratch& scratch) {
   const Rigid& r = state[c.rigid];
-  const bool literal = state.settings.unmerging.rule == Rule::Paper;
-  const Rotation before = literal ? r.rotation : r.previous_rotation;
+  const Rotation before = unmergingMethod(state).startingRotation(r);
   for (std::size_t i = 0; i < c.members.size(); ++i) {
     const Body& body = state[c.members[i]];
     const Vec2 arm = before * (body.local - r.center);
@@ -124,20 +122,20 @@ void applyAsLoad(const State& state, const Contact& contact, std::vector<SolverV
 
 /// Contacts at swept collections, and fresh ones, get rows; the others of the free bodies there
 /// keep pushing with the impulses of the last step. Deviation: in the paper all contacts are swept,
-/// those of free bodies too, which costs a second solve. Its rule does so.
+/// those of free bodies too, which costs a second solve.
 /// Guarded by Sweep.LooksOnlyAtTheContactsOfCollections.
 void warmStartOuter(const State& state, Scratch& scratch) {
   scratch.sweep_contacts.clear();
   auto& near = scratch.near_collection;
   near.assign(state.bodies.size(), 0);
-  const bool literal = state.settings.unmerging.rule == Rule::Paper;
+  const bool all = unmergingMethod(state).sweeps_free_bodies;
   const auto asleep = [&](BodyId b) { return state.rigid(b).asleep; };
   const auto swept = [&](BodyId b) { return isMember(state, b) && !asleep(b); };
   const auto meets = [&](std::uint32_t i) {
     return std::ranges::binary_search(scratch.meetings, i, {}, &Meeting::contact);
   };
   const auto hasRows = [&](const BodyPair& pair, std::uint32_t i) {
-    if (literal) return !asleep(pair.a) && !asleep(pair.b);
+    if (all) return !asleep(pair.a) && !asleep(pair.b);
     return swept(pair.a) || swept(pair.b) || meets(i);
   };
   const auto forEach = [&](auto&& visit) {

@@ -18,7 +18,7 @@ constexpr double kCarriedOff = 1.5, kGives = 0.1;
 
 }  // namespace
 
-bool WeldTest::isStruck() const { return c_.struck == kFollowed && rule() == Rule::Default; }
+bool WeldTest::isStruck() const { return c_.struck == kFollowed; }
 
 void WeldTest::testShaken() {
   const VelocityField whole = sweptField(state_, scratch_, c_);

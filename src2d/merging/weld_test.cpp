@@ -47,11 +47,11 @@ void WeldTest::testContacts(std::uint32_t b) {
     const bool was_lost = point.lost, was_active = point.active;
     if (pressed && inner.since != kExpected) {
       point.active = true;
-      if (rule() == Rule::Default) k.bias[i] = 0.0;
+      k.bias[i] = 0.0;
       point.lost = false;
       point.opening = {};
     }
-    const bool idle = !pressed && point.active && rule() == Rule::Default && carriesNothing(weld);
+    const bool idle = !pressed && point.active && carriesNothing(weld);
     if (!edge && !idle) point.slip = {};
     if (scratch_.notes) {
       at_ = state_[c_.rigid].frame() * inner.point(i).position;
@@ -115,24 +115,19 @@ WeldTest::Evidence WeldTest::weigh(Drift& drift, double w, double threshold, dou
 }
 
 bool WeldTest::testBroken(std::uint32_t weld, Drift& opening, double w_n) {
-  const bool literal = rule() == Rule::Paper;
-  const double threshold = literal ? 0.0 : openingThreshold() * caution(c_.welds[weld]);
+  const double threshold = openingThreshold() * caution(c_.welds[weld]);
   const Evidence found = weigh(opening, std::max(0.0, w_n), threshold);
-  const bool lost = found.exceeds || literal;
   note(c_.welds[weld], [&] {
     return Decision{.criterion = "opening",
                     .equation = "Section 6.3",
                     .value = found.sum,
                     .threshold = threshold,
                     .count = found.steps,
-                    .verdict = !lost     ? "wait"
-                               : literal ? "unmerge"
-                                         : "lost",
+                    .verdict = found.exceeds ? "lost" : "wait",
                     .at = at_,
                     .caution = caution(c_.welds[weld])};
   });
-  if (lost && literal) cutWeld(c_.welds[weld], EventReason::Broken);
-  return lost;
+  return found.exceeds;
 }
 
 void WeldTest::testLost(std::uint32_t weld) {
@@ -155,7 +150,6 @@ double WeldTest::openingThreshold() const {
 
 void WeldTest::testSliding(std::uint32_t weld, Drift& slip, double w_t) {
   const double threshold = state_.settings.unmerging.sliding * caution(c_.welds[weld]);
-  if (rule() == Rule::Paper) slip = {};
   const Evidence found = weigh(slip, w_t, threshold);
   note(c_.welds[weld], [&] {
     return Decision{.criterion = "sliding",
@@ -187,15 +181,13 @@ void WeldTest::testMotion(Weld& weld) {
   const Drift before = weld.turning;
   const Least limits = least(weld);
   const Turning now = relativeMotion(weld, limits);
-  const bool literal = rule() == Rule::Paper;
-  const bool cut = literal ? moveLoudly(weld, now) : turns(weld, now, limits);
+  const bool cut = turns(weld, now, limits);
   note(weld, [&] {
     return Decision{.criterion = "relative-motion",
                     .equation = "(17)",
-                    .value = literal ? std::abs(now.fastest) : std::abs(weld.turning.sum),
-                    .threshold = literal ? settings.velocity : settings.velocity * caution(weld),
+                    .value = std::abs(weld.turning.sum),
+                    .threshold = settings.velocity * caution(weld),
                     .count = weld.turning.steps,
-                    .needed = literal ? settings.steps : 0,
                     .verdict = cut                      ? "unmerge"
                                : weld.turning.steps > 0 ? "wait"
                                                         : "keep",
@@ -225,7 +217,7 @@ bool WeldTest::staysPut(const Pivot& pivot) const {
 }
 
 void WeldTest::leans(std::uint32_t weld) {
-  if (!c_.welds[weld].bridge || rule() == Rule::Paper) return;
+  if (!c_.welds[weld].bridge) return;
   if (std::ranges::find(c_.leaning, weld) == c_.leaning.end()) c_.leaning.push_back(weld);
 }
 
@@ -237,12 +229,6 @@ void WeldTest::testLeaning() {
   for (const std::uint32_t weld : c_.leaning) {
     if (!isPivot(c_.welds[weld].grip)) testMotion(c_.welds[weld]);
   }
-}
-
-bool WeldTest::moveLoudly(Weld& weld, const Turning& now) const {
-  const UnmergingSettings& settings = state_.settings.unmerging;
-  weld.turning.steps = std::abs(now.fastest) > settings.velocity ? weld.turning.steps + 1 : 0;
-  return weld.turning.steps >= settings.steps;
 }
 
 bool WeldTest::turns(Weld& weld, const Turning& now, const Least& least) {
@@ -268,12 +254,11 @@ bool WeldTest::tipsFor(const Weld& weld) const {
 bool WeldTest::mustTip(const Weld& weld) const {
   const auto frame = static_cast<std::uint32_t>(c_.members.size());
   const bool on_frame = weld.node_a == frame || weld.node_b == frame;
-  return (on_frame || c_.stirred > 0) && weld.bridge && weld.vain == 0 && rule() == Rule::Default;
+  return (on_frame || c_.stirred > 0) && weld.bridge && weld.vain == 0;
 }
 
 double WeldTest::noiseAt(const Weld& weld) const {
   constexpr double kFaint = 1e-5, kBeyondResidual = 1e2;
-  if (rule() == Rule::Paper) return 0.0;  // the threshold of Eq. (17) alone
   if (!mustTip(weld)) return noise();
   const double faint =
       std::max(kFaint * state_.h * state_.gravity.norm(), kBeyondResidual * c_.residual);
@@ -281,7 +266,6 @@ double WeldTest::noiseAt(const Weld& weld) const {
 }
 
 double WeldTest::slowFor(const Weld& weld) const {
-  if (rule() == Rule::Paper) return state_.settings.unmerging.velocity;
   return weld.bridge ? 0.0 : 0.1 * state_.settings.unmerging.velocity * caution(weld);
 }
 

@@ -105,9 +105,6 @@ class WeldTest {
   /// The faster of the weld's two bodies against the motion of the whole collection [m/s].
   double swayAgainst(const VelocityField& whole, const Weld& weld) const;
 
-  /// As in the paper: fast enough in several consecutive steps.
-  bool moveLoudly(Weld& weld, const Turning& now) const;
-
   /// A pivot that turns slowly gathers speed: each step starts from the velocity of the whole, so
   /// what it would gain is summed, as slip is.
   bool turns(Weld& weld, const Turning& now, const Least& least);
@@ -167,8 +164,6 @@ class WeldTest {
 
   /// Its bodies are where more sweeps begin.
   void doubt(const Weld& weld);
-
-  Rule rule() const { return state_.settings.unmerging.rule; }
 
   const State& state_;
   Scratch& scratch_;

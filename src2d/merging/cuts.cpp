@@ -1,0 +1,43 @@
+#include "src2d/merging/cuts.h"
+
+#include "src2d/merging/collection.h"
+#include "src2d/merging/joint_welds.h"
+#include "src2d/merging/rule.h"
+
+namespace merge2d {
+namespace {
+
+/// One event per weld that ends.
+void reportCuts(const State& state, const Collection& before, Scratch& scratch) {
+  for (const Weld& weld : before.welds) {
+    if (stillTogether(state, weld.a, weld.b)) continue;
+    scratch.events.push_back({EventType::Unmerge, weld.a, weld.b, before.id,
+                              weld.cut ? weld.reason : EventReason::Cycle});
+  }
+  noteBrokenGroups(state, before, scratch.notes);
+}
+
+}  // namespace
+
+void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts) {
+  Collection before;
+  before.id = state.collection(id).id;
+  before.welds = state.collection(id).welds;
+  std::erase_if(before.welds, [](const Weld& weld) { return weld.expected; });
+  if (scratch.notes) before.contacts = state.collection(id).contacts;
+  splitCollection(state, id, parts.part, parts.anchored);
+  reportCuts(state, before, scratch);
+  scratch.split = true;
+}
+
+bool breakJointsInside(State& state, Scratch& scratch, Collection& c) {
+  if (!anyJointBreaks(state, c)) return false;
+  const std::vector<std::uint32_t> joints = takeOverloadedJoints(state, c);
+  const Parts parts = unmergingMethod(state).parts(state, scratch, c);
+  if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, c.rigid, parts);
+  breakWhatStaysInside(state, scratch, joints);
+  scratch.split = true;  // to be laid out anew
+  return true;
+}
+
+}  // namespace merge2d

@@ -1,0 +1,47 @@
+#pragma once
+/// Cut welds, and what becomes of their collection: the part of Unmerge that all rules share.
+
+#include <string_view>
+
+#include "src2d/dynamics/state.h"
+#include "src2d/merging/group_notes.h"
+#include "src2d/merging/parts.h"
+
+namespace merge2d {
+
+/// Takes a collection apart into `parts`, and reports each weld that ends.
+void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts);
+
+/// Breaks the joints inside that bear too much, and splits the collection where nothing else holds
+/// it together. Of joints the paper does not speak. Returns false when there are none.
+bool breakJointsInside(State& state, Scratch& scratch, Collection& collection);
+
+/// A run of what was noted: one collection's decisions.
+struct Noted {
+  Notes* notes;  ///< null: nobody asks
+  std::size_t first = 0, last = 0;
+
+  explicit Noted(Notes* all) : notes(all) {
+    if (notes) first = last = notes->decisions.size();
+  }
+  /// Ends with what was noted last.
+  void close() {
+    if (notes) last = notes->decisions.size();
+  }
+};
+
+/// What was decided about welds may not be what came of it: one verdict `to` another where `holds`.
+template <class Holds>
+void restate(const Noted& noted, std::string_view to, Holds&& holds) {
+  for (std::size_t i = noted.first; i < noted.last; ++i) {
+    Decision& d = noted.notes->decisions[i];
+    if (d.verdict == "unmerge" && holds(d)) d.verdict = to;
+  }
+}
+
+/// The same where the pair stayed together.
+inline void restate(const State& state, const Noted& noted, std::string_view to) {
+  restate(noted, to, [&](const Decision& d) { return stillTogether(state, d.a, d.b); });
+}
+
+}  // namespace merge2d

@@ -1,0 +1,110 @@
+#include "src2d/merging/paper_rule.h"
+
+#include <algorithm>
+
+#include "src2d/dynamics/solver.h"
+#include "src2d/merging/ordering.h"
+#include "src2d/merging/refine.h"
+#include "src2d/merging/sleep.h"
+#include "src2d/merging/sweep.h"
+
+namespace merge2d {
+namespace {
+
+/// Section 8.2 is future work.
+CycleCriterion noCycles(const MergingSettings&) { return CycleCriterion::Off; }
+
+Rotation asItIs(const Rigid& collection) { return collection.rotation; }
+
+/// The rows of the full solve, with compliance and feedback (Section 5.3).
+InnerRows softRows(const State& state, const InternalContact& contact, const SolverVelocity& a,
+                   const SolverVelocity& b) {
+  const SolverSettings& settings = state.settings.solver;
+  const bool bilateral = isBilateral(state, contact.key.a, contact.key.b);
+  InnerRows rows{.softness = contactSoftness(settings, a.inv_mass, b.inv_mass)};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
+    rows.bias[i] = contactBias(settings, state.h, contact.gap[i], bilateral);
+  }
+  return rows;
+}
+
+/// "If a contact is inactive when two bodies are merged, we discard it from the contact graph"
+/// (Section 6.3). Where no contact of a pair carries anything they stay, unswept, so that the pair
+/// is known.
+void discardInactive(InternalContact& contact) {
+  if (contact.count < 2 || contact.watch[0].active == contact.watch[1].active) return;
+  if (!contact.watch[0].active) {
+    contact.watch[0] = contact.watch[1];
+    contact.points[0] = contact.points[1];
+    contact.gap[0] = contact.gap[1];
+    contact.feature[0] = contact.feature[1];
+  }
+  contact.watch[1] = {};
+  contact.count = 1;
+}
+
+int waitsNever(const State&, const InternalContact&, const Weld*) { return 0; }
+
+Parts components(const State& state, Scratch&, const Collection& c) {
+  return connectedParts(state, c);
+}
+
+/// The contacts around collections, then those inside. A contact that carried nothing when its pair
+/// merged is no part of the contact graph: its block is not among the active ones.
+std::vector<SweepItem> sweepItems(State& state, Scratch& scratch) {
+  std::vector<SweepItem> items;
+  for (SweepContact& outer : scratch.sweep_contacts) items.emplace_back(outer.block);
+  for (JointBlock& k : scratch.sweep_joints) items.emplace_back(k);
+  const auto inside = [&](auto&& list) {
+    for (Collection& c : state.collections) {
+      if (isSwept(state, c)) list(c, state[c.rigid].rotation);
+    }
+  };
+  inside([&](Collection& c, const Rotation& turn) {
+    for (JointBlock& k : c.joints) items.emplace_back(k, turn);
+  });
+  inside([&](Collection& c, const Rotation& turn) {
+    for (std::uint32_t i = 0; i < c.blocks.size(); ++i) {
+      const bool expected = c.contacts[c.block_contact[i]].since == kExpected;
+      if (i < c.active_blocks || expected) items.emplace_back(c.blocks[i], turn);
+    }
+  });
+  return items;
+}
+
+}  // namespace
+
+constinit const MergingMethod kPaperMerging{
+    .refuses_edge = false,
+    .unites_on_floors = true,
+    .cycles = noCycles,
+};
+
+constinit const UnmergingMethod kPaperUnmerging{
+    .sleepAndWake = sleepEachByItself,
+    .startingRotation = asItIs,
+    .sweeps_free_bodies = true,
+    .sweep = sweepBreadthFirst,
+    .unmerge = unmergeByContacts,
+    .parts = components,
+    .waitAfterSplit = waitsNever,
+    .innerRows = softRows,
+    .enter = discardInactive,
+};
+
+void sweepBreadthFirst(State& state, Scratch& scratch) {
+  const auto& settings = state.settings;
+  std::vector<SweepItem> items = sweepItems(state, scratch);
+  if (!scratch.seeds.empty()) {
+    const std::vector<std::uint8_t> through_all(scratch.sweep_u.size(), 1);
+    items = orderedFromSeeds(items, scratch, through_all);
+  }
+  for (int s = 0; s < settings.unmerging.sweeps; ++s) {
+    for (const SweepItem& item : items) sweepItem(item, scratch.sweep_u, settings.solver.method);
+  }
+  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
+    scratch.push_stale[slot] = isSwept(state, state.collections[slot]) ? 1 : 0;
+  }
+}
+
+}  // namespace merge2d

@@ -1,0 +1,25 @@
+/// Section 7 to the letter.
+
+#include "src2d/merging/paper_rule.h"
+#include "src2d/merging/sleep.h"
+
+namespace merge2d {
+
+void sleepEachByItself(State& state, Scratch& scratch) {
+  markRestless(state, scratch);
+  for (const Meeting& meeting : scratch.meetings) {  // "a new contact wakes"
+    const BodyPair& pair = scratch.pairs[meeting.pair];
+    for (const BodyId b : {pair.a, pair.b}) scratch.restless[index(state[b].rigid)] = 1;
+  }
+  for (const RigidId id : state.present) {
+    if (!canSleep(state, id)) continue;
+    const Rigid& r = state[id];
+    const bool disturbed = scratch.restless[index(id)] != 0;
+    const bool rests = r.asleep || r.quiet_steps >= state.settings.sleeping.steps;
+    noteSleep(state, scratch, id, disturbed || !rests);
+    if (r.asleep && disturbed) wakeUp(state, scratch, id);
+    if (!r.asleep && rests && !disturbed) fallAsleep(state, scratch, id);
+  }
+}
+
+}  // namespace merge2d

@@ -1,0 +1,172 @@
+/// Sections 6.3 and 6.4 to the letter.
+
+#include <algorithm>
+#include <cmath>
+
+#include "src2d/merging/cuts.h"
+#include "src2d/merging/grip.h"
+#include "src2d/merging/joint_welds.h"
+#include "src2d/merging/limits.h"
+#include "src2d/merging/metric.h"
+#include "src2d/merging/paper_rule.h"
+#include "src2d/merging/sweep.h"
+
+namespace merge2d {
+namespace {
+
+/// Tests the welds of one collection in one step.
+class WeldCriteria {
+ public:
+  WeldCriteria(const State& state, const Scratch& scratch, Collection& c)
+      : state_(state), scratch_(scratch), c_(c), turn_(state[c.rigid].rotation) {}
+
+  void testAll() {
+    for (const std::uint32_t w : c_.cut_welds) c_.welds[w].cut = false;
+    c_.cut_welds.clear();
+    for (std::uint32_t b = 0; b < c_.active_blocks; ++b) testContacts(b);
+    for (std::uint32_t w = 0; w < c_.welds.size(); ++w) {
+      if (isPivot(c_.welds[w].grip) && !c_.welds[w].cut) testMotion(w);
+    }
+  }
+
+ private:
+  /// Section 6.3, for the points of one block.
+  void testContacts(std::uint32_t b) {
+    const ContactBlock& k = c_.blocks[b];
+    InternalContact& inner = c_.contacts[c_.block_contact[b]];
+    const Vec2 n = turn_ * Vec2(k.nx, k.ny);
+    for (int i = 0; i < k.count; ++i) {
+      PointWatch& point = inner.watch[static_cast<std::size_t>(i)];
+      if (!point.active && broken(k, i)) continue;
+      const bool held = point.holds();
+      point.active = true;
+      point.lost = broken(k, i);
+      at_ = state_[c_.rigid].frame() * inner.point(i).position;
+      if (point.lost) {
+        testBroken(inner.weld, k.lambda_n(i));
+      } else {
+        const auto& u = scratch_.sweep_u;
+        const double slip = contactVelocity(k, i, n.x(), n.y(), u[k.a], u[k.b]).t;
+        testSliding(inner.weld, std::abs(slip), onEdge(k, i));
+      }
+      if (point.holds() != held) updateGrip(state_, c_, inner.weld);
+    }
+  }
+
+  void testBroken(std::uint32_t w, double lambda_n) {
+    note(w, {.criterion = "broken",
+             .equation = "Section 6.3",
+             .value = lambda_n,
+             .threshold = 0.0,
+             .verdict = "unmerge",
+             .at = at_});
+    cut(w, EventReason::Broken);
+  }
+
+  /// Eqs. (19) and (20).
+  void testSliding(std::uint32_t w, double slip, bool on_edge) {
+    const double threshold = state_.settings.unmerging.sliding;
+    if (!on_edge) return;
+    const bool slides = slip > threshold;
+    note(w, {.criterion = "sliding",
+             .equation = "(19)",
+             .value = slip,
+             .threshold = threshold,
+             .verdict = slides ? "unmerge" : "keep",
+             .at = at_});
+    if (slides) cut(w, EventReason::Sliding);
+  }
+
+  /// Section 6.4.
+  void testMotion(std::uint32_t w) {
+    const UnmergingSettings& settings = state_.settings.unmerging;
+    Weld& weld = c_.welds[w];
+    const int before = weld.turning.steps;
+    const double motion = relativeMotion(weld);
+    weld.turning.steps = motion > settings.velocity ? before + 1 : 0;
+    const bool moves = weld.turning.steps >= settings.steps;
+    note(w, {.criterion = "relative-motion",
+             .equation = "(17)",
+             .value = motion,
+             .threshold = settings.velocity,
+             .count = weld.turning.steps,
+             .needed = settings.steps,
+             .verdict = moves                    ? "unmerge"
+                        : weld.turning.steps > 0 ? "wait"
+                                                 : "keep",
+             .before = before});
+    if (moves) cut(w, EventReason::RelativeMotion);
+  }
+
+  /// Eq. (15) with the velocities of the sweep; of a pair with a pinned body only the other's box.
+  double relativeMotion(const Weld& weld) const {
+    // Seen from the first body, so that it does not matter where in the world they are.
+    const Vec2 origin = state_.pose(weld.a).position;
+    const auto field = [&](BodyId b) {
+      const SolverVelocity& u = scratch_.sweep_u[index(b)];
+      return VelocityField{state_.pose(b).position - origin, {u.vx, u.vy}, u.omega};
+    };
+    const VelocityField a = field(weld.a), b = field(weld.b);
+    double fastest = 0.0;
+    for (const BodyId id : {weld.a, weld.b}) {
+      if (state_[id].rigid != c_.rigid) continue;
+      OrientedBox box = state_.extent(rigidOf(id)).box;
+      const Pose pose = state_.pose(id);
+      box.frame = Pose{pose.position - origin, pose.rotation} * box.frame;
+      fastest = std::max(fastest, fastestCorner(box, a, b));
+    }
+    return fastest;
+  }
+
+  void cut(std::uint32_t w, EventReason reason) {
+    Weld& weld = c_.welds[w];
+    if (weld.cut) return;
+    weld.cut = true;
+    weld.reason = reason;
+    c_.cut_welds.push_back(w);
+  }
+
+  void note(std::uint32_t w, Decision test) const {
+    if (!scratch_.notes) return;
+    test.a = c_.welds[w].a;
+    test.b = c_.welds[w].b;
+    test.stage = "Unmerge";
+    scratch_.notes->decisions.push_back(test);
+  }
+
+  const State& state_;
+  const Scratch& scratch_;
+  Collection& c_;
+  Rotation turn_;
+  Vec2 at_ = Vec2::Zero();  ///< the contact point at hand, for the notes
+};
+
+/// One collection that lost welds.
+struct Loss {
+  RigidId rigid;
+  Noted noted;
+};
+
+}  // namespace
+
+void unmergeByContacts(State& state, Scratch& scratch) {
+  std::vector<Loss> losses;
+  const std::size_t slots = state.collections.size();
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    Collection& c = state.collections[slot];
+    if (!isSwept(state, c) || breakJointsInside(state, scratch, c)) continue;
+    Noted noted(scratch.notes);
+    const bool joints_loosened = loosenJoints(state, c, scratch.sweep_u);
+    WeldCriteria(state, scratch, c).testAll();
+    noted.close();
+    if (joints_loosened || !c.cut_welds.empty()) losses.push_back({c.rigid, noted});
+  }
+  for (const Loss& loss : losses) {
+    const Collection& c = state.collection(loss.rigid);
+    const Parts parts = connectedParts(state, c);
+    if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, loss.rigid, parts);
+    restate(state, loss.noted, "cut");  // but held together by others
+  }
+}
+
+}  // namespace merge2d
