@@ -37,11 +37,11 @@ struct LessonOptions : SceneOptions {
 };
 
 /// A built-in lesson's folder, or a folder that holds one.
-std::optional<fs::path> lessonNamed(const std::string& name) {
+std::optional<DataFolder> lessonNamed(const std::string& name) {
   for (const BuiltinLesson& lesson : builtinLessons()) {
     if (lesson.name == name) return lesson.folder;
   }
-  if (fs::is_directory(name)) return fs::path(name);
+  if (fs::is_directory(name)) return DataFolder(fs::path(name));
   return std::nullopt;
 }
 
@@ -109,8 +109,8 @@ PageContent scenePage(const LessonOptions& options, const Console& console,
   return content;
 }
 
-PageContent lessonPage(const fs::path& folder, const LessonOptions& options, const Console& console,
-                       std::optional<PageFile>& file) {
+PageContent lessonPage(const DataFolder& folder, const LessonOptions& options,
+                       const Console& console, std::optional<PageFile>& file) {
   if (!options.overrides.empty() || options.steps || options.seconds) {
     throw UsageError(
         "a lesson says itself how its scene is run; --set, --seed, --steps and "

@@ -34,8 +34,7 @@ if(MERGE2D_APP)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/merge2d/scenes)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/lessons/
           DESTINATION ${CMAKE_INSTALL_DATADIR}/merge2d/lessons
-          FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN "player.js" PATTERN "player.css"
-          PATTERN node_modules EXCLUDE PATTERN src EXCLUDE PATTERN tests EXCLUDE)
+          FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN web EXCLUDE)
 endif()
 
 # The package: from the build tree, where it lies at the top, and installed.

@@ -1,11 +1,21 @@
 #pragma once
-/// Where the lessons and the program of their pages are.
+/// The lessons that come with the program, and the program of their pages.
 
-#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "src2d/scene/data_folder.h"
 
 namespace merge2d {
 
-/// MERGE2D_LESSONS of the environment, else the folder in the sources, else the installed one.
-std::filesystem::path lessonFolder();
+/// The files of `lessons/` as they were when the program was built.
+std::span<const EmbeddedFile> embeddedLessons();
+/// `player.js` and `player.css`. They read what this program writes, so nothing replaces them.
+std::span<const EmbeddedFile> embeddedPlayer();
+
+/// Where lessons are looked for, in this order.
+inline std::vector<DataFolder> lessonFolders() {
+  return dataFolders("lessons", "MERGE2D_LESSONS", embeddedLessons());
+}
 
 }  // namespace merge2d

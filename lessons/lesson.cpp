@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "lessons/body_named.h"
 #include "lessons/folder.h"
 #include "lessons/markdown.h"
 #include "src2d/core/error.h"
 #include "src2d/core/suggest.h"
-#include "src2d/scene/file.h"
 #include "src2d/scene/load.h"
 #include "src2d/scene/toml_parse.h"
 #include "src2d/trace/json_text.h"
@@ -22,11 +22,11 @@ namespace fs = std::filesystem;
 
 /// The files, which values and their errors point into.
 struct Lesson::Source {
-  explicit Source(const fs::path& folder)
-      : toml_text(readFile(folder / "lesson.toml")),
-        prose_text(readFile(folder / "text.md")),
-        toml((folder / "lesson.toml").string(), toml_text),
-        prose((folder / "text.md").string(), prose_text),
+  explicit Source(const DataFolder& folder)
+      : toml_text(folder.read("lesson.toml")),
+        prose_text(folder.read("text.md")),
+        toml(folder.pathOf("lesson.toml").string(), toml_text),
+        prose(folder.pathOf("text.md").string(), prose_text),
         table(parseToml(toml)) {}
 
   std::string toml_text, prose_text;
@@ -65,13 +65,13 @@ std::string stageOf(const Value& value) {
 /// Reads a folder into a lesson.
 class Loader {
  public:
-  explicit Loader(const fs::path& folder) : folder_(folder) {
+  explicit Loader(const DataFolder& folder) : folder_(folder) {
     for (const char* file : {"lesson.toml", "text.md"}) {
-      if (fs::is_regular_file(folder / file)) continue;
+      if (folder.holds(file)) continue;
       throw InputError(
           fmt::format("{}: a lesson's folder holds lesson.toml and text.md, but {} is "
                       "missing",
-                      folder.string(), file));
+                      folder.path().string(), file));
     }
     source_ = std::make_shared<Lesson::Source>(folder);
     lesson_.source = source_;
@@ -97,9 +97,8 @@ class Loader {
     if (const auto title = top.require("title")) lesson_.title = title->text();
     top.read("summary", lesson_.summary);
     top.read("minutes", lesson_.minutes, {1, 120, "between 1 and 120"});
-    std::string name = fs::absolute(folder_).lexically_normal().filename().string();
-    if (name.empty())
-      name = fs::absolute(folder_).lexically_normal().parent_path().filename().string();
+    const fs::path path = fs::absolute(folder_.path()).lexically_normal();
+    std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
     const bool numbered = name.size() > 3 &&
                           std::isdigit(static_cast<unsigned char>(name[0])) != 0 &&
                           std::isdigit(static_cast<unsigned char>(name[1])) != 0 && name[2] == '_';
@@ -109,9 +108,10 @@ class Loader {
   void readTraces(TableReader& top) {
     LessonTrace first{.label = "as it is", .mode = Mode::MergeSleep, .scene = {}};
     if (const auto mode = top.get("mode")) first.mode = modeOf(*mode);
-    const std::string path = scenePath(top);
+    const std::string wanted = sceneWanted(top);
     const auto load = [&](const Overrides& overrides) {
-      Scene scene = loadScene(path, overrides);
+      Scene scene = folder_.holds(wanted) ? loadSceneFile(folder_, wanted, overrides)
+                                          : loadScene(wanted, overrides);
       if (const auto seconds = top.get("seconds")) {
         scene.duration = seconds->number({1e-3, 600, "between 0.001 and 600"});
       }
@@ -136,16 +136,14 @@ class Loader {
   }
 
   /// A file of the folder, or the name of a built-in scene.
-  std::string scenePath(TableReader& top) const {
+  std::string sceneWanted(TableReader& top) const {
     const std::optional<Value> named = top.require("scene");
     if (!named) top.done();
     const std::string wanted = named->text();
-    const fs::path file = folder_ / wanted;
-    const std::string path = fs::is_regular_file(file) ? file.string() : wanted;
-    if (path == wanted && wanted.find('.') != std::string::npos) {
+    if (!folder_.holds(wanted) && wanted.find('.') != std::string::npos) {
       named->fail(fmt::format("there is no file '{}' in the lesson's folder", wanted));
     }
-    return path;
+    return wanted;
   }
 
   std::string newLabel(const Value& label) const {
@@ -239,7 +237,7 @@ class Loader {
     std::sort(part.select.begin(), part.select.end());
   }
 
-  fs::path folder_;
+  DataFolder folder_;
   std::shared_ptr<Lesson::Source> source_;
   std::vector<std::string> labels_;
   Lesson lesson_;
@@ -247,7 +245,7 @@ class Loader {
 
 }  // namespace
 
-Lesson loadLesson(const fs::path& folder) { return Loader(folder).load(); }
+Lesson loadLesson(const DataFolder& folder) { return Loader(folder).load(); }
 
 namespace {
 
@@ -314,19 +312,18 @@ std::string lessonJson(const Lesson& lesson, const std::vector<Recording>& recor
 }
 
 std::vector<BuiltinLesson> builtinLessons() {
-  std::vector<BuiltinLesson> lessons;
-  std::vector<fs::path> folders;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(lessonFolder(), ignored)) {
-    if (fs::is_regular_file(entry.path() / "lesson.toml")) folders.push_back(entry.path());
+  std::map<std::string, DataFolder> folders;  // by their names
+  for (const DataFolder& all : lessonFolders()) {
+    for (const std::string& entry : all.entries()) {
+      if (all.folder(entry).holds("lesson.toml")) folders.try_emplace(entry, all.folder(entry));
+    }
   }
-  std::sort(folders.begin(), folders.end());
-  for (const fs::path& folder : folders) {
-    const std::string stem = folder.filename().string();
-    const std::string name = stem.substr(stem.find('_') + 1);
+  std::vector<BuiltinLesson> lessons;
+  for (const auto& [entry, folder] : folders) {
+    const std::string name = entry.substr(entry.find('_') + 1);
     try {
-      const std::string text = readFile(folder / "lesson.toml");
-      lessons.push_back({name, parseToml(SourceText(stem, text))["title"].value_or(name), folder});
+      const std::string text = folder.read("lesson.toml");
+      lessons.push_back({name, parseToml(SourceText(entry, text))["title"].value_or(name), folder});
     } catch (const std::runtime_error&) {
       lessons.push_back({name, name, folder});
     }

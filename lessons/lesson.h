@@ -2,7 +2,6 @@
 /// A lesson as its folder says it: `lesson.toml`, `text.md`, and a scene. docs/writing-lessons.md
 /// is the manual.
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include "lessons/expectation.h"
 #include "lessons/moment.h"
 #include "lessons/question.h"
+#include "src2d/scene/data_folder.h"
 
 namespace merge2d {
 
@@ -48,7 +48,7 @@ struct Lesson {
 };
 
 /// Reads a lesson's folder. Throws InputError with file, line and column; IoError.
-Lesson loadLesson(const std::filesystem::path& folder);
+Lesson loadLesson(const DataFolder& folder);
 
 /// Simulates everything that the lesson shows.
 std::vector<Recording> recordLesson(const Lesson& lesson,
@@ -64,9 +64,10 @@ std::string lessonJson(const Lesson& lesson, const std::vector<Recording>& recor
 struct BuiltinLesson {
   std::string name;
   std::string title;
-  std::filesystem::path folder;
+  DataFolder folder;
 };
-/// The lessons in `lessons/`, in their order.
+/// The lessons that come with the program and those in the data folders, in the order of their
+/// folders.
 std::vector<BuiltinLesson> builtinLessons();
 
 }  // namespace merge2d

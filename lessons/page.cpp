@@ -4,7 +4,6 @@
 
 #include "lessons/encode.h"
 #include "lessons/folder.h"
-#include "src2d/scene/file.h"
 #include "src2d/trace/json_text.h"
 
 namespace merge2d {
@@ -91,8 +90,8 @@ std::string escapedHtml(std::string_view text) {
 }
 
 std::string makePage(const PageContent& content) {
-  const std::filesystem::path web = lessonFolder() / "web" / "dist";
-  const std::string style = readFile(web / "player.css"), program = readFile(web / "player.js");
+  const DataFolder player("built-in/player", embeddedPlayer());
+  const std::string style = player.read("player.css"), program = player.read("player.js");
   std::string page;
   for (const Encoding& encoding : encodings()) {
     page = fmt::format(kPage, fmt::arg("policy", kPolicy),

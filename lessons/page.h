@@ -24,7 +24,7 @@ struct PageContent {
 /// Built-in pages stay below this size [bytes].
 inline constexpr std::size_t kPageBytes = 3'000'000;
 
-/// The page, as fine as fits into kPageBytes. Throws IoError when the page's program is missing.
+/// The page, as fine as fits into kPageBytes.
 std::string makePage(const PageContent& content);
 
 /// The text with the characters that mean something to HTML written as references.

@@ -1,31 +1,26 @@
 #include "src2d/scene/builtin.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <map>
+#include <stdexcept>
 
-#include "src2d/scene/file.h"
 #include "src2d/scene/load.h"
 #include "src2d/scene/toml_parse.h"
 
 namespace merge2d {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr std::string_view kEnding = ".toml";
 
-/// MERGE2D_SCENES of the environment, else the folder in the sources, else the installed one.
-fs::path sceneFolder() {
-  if (const char* chosen = std::getenv("MERGE2D_SCENES")) return chosen;
-  std::error_code ignored;
-  const fs::path source = MERGE2D_SCENES_SOURCE_DIR;
-  return fs::is_directory(source, ignored) ? source : fs::path(MERGE2D_SCENES_INSTALL_DIR);
+std::vector<DataFolder> sceneFolders() {
+  return dataFolders("scenes", "MERGE2D_SCENES", embeddedScenes());
 }
 
-/// What the file says it is called; its name when it does not say, or is no scene.
-std::string sceneTitle(const fs::path& path) {
-  const std::string name = path.stem().string();
+/// The title that a file gives; its name where there is none, or where it is no scene.
+std::string sceneTitle(const DataFolder& folder, const std::string& file, const std::string& name) {
   try {
-    const std::string text = readFile(path);
-    return parseToml(SourceText(path.string(), text))["title"].value_or(name);
+    const std::string text = folder.read(file);
+    return parseToml(SourceText(folder.pathOf(file).string(), text))["title"].value_or(name);
   } catch (const std::runtime_error&) {
     return name;
   }
@@ -33,23 +28,28 @@ std::string sceneTitle(const fs::path& path) {
 
 }  // namespace
 
-std::optional<fs::path> builtinScene(const std::string& name) {
-  const bool plain = !name.empty() && fs::path(name).filename() == fs::path(name);
-  const fs::path path = sceneFolder() / (name + ".toml");
-  std::error_code ignored;
-  if (plain && fs::is_regular_file(path, ignored)) return path;
+std::optional<DataFile> builtinScene(const std::string& name) {
+  const bool plain =
+      !name.empty() && std::filesystem::path(name).filename() == std::filesystem::path(name);
+  if (!plain) return std::nullopt;
+  const std::string file = name + std::string(kEnding);
+  for (const DataFolder& folder : sceneFolders()) {
+    if (folder.holds(file)) return DataFile{folder, file};
+  }
   return std::nullopt;
 }
 
 std::vector<BuiltinScene> builtinScenes() {
-  std::vector<BuiltinScene> scenes;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(sceneFolder(), ignored)) {
-    if (entry.path().extension() != ".toml") continue;
-    scenes.push_back({entry.path().stem().string(), sceneTitle(entry.path())});
+  std::map<std::string, std::string> titles;  // by name
+  for (const DataFolder& folder : sceneFolders()) {
+    for (const std::string& file : folder.entries()) {
+      if (!file.ends_with(kEnding)) continue;
+      const std::string name = file.substr(0, file.size() - kEnding.size());
+      if (!titles.contains(name)) titles[name] = sceneTitle(folder, file, name);
+    }
   }
-  std::sort(scenes.begin(), scenes.end(),
-            [](const auto& a, const auto& b) { return a.name < b.name; });
+  std::vector<BuiltinScene> scenes;
+  for (const auto& [name, title] : titles) scenes.push_back({name, title});
   return scenes;
 }
 

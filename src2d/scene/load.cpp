@@ -4,7 +4,6 @@
 
 #include "src2d/core/error.h"
 #include "src2d/scene/builtin.h"
-#include "src2d/scene/file.h"
 #include "src2d/scene/image.h"
 #include "src2d/scene/interpret.h"
 #include "src2d/scene/override.h"
@@ -15,15 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path of what the user called `name_or_path`: a built-in scene where it is the bare name of
+/// The file on disk of this path.
+DataFile fileAt(const fs::path& path) { return {path.parent_path(), path.filename().string()}; }
+
+/// The file of what the user called `name_or_path`: a built-in scene where it is the bare name of
 /// one (`books`; a file of that name is `./books`), else a file as it is.
-fs::path resolve(const std::string& name_or_path) {
+DataFile resolve(const std::string& name_or_path) {
   const fs::path path(name_or_path);
   const bool bare = !path.has_parent_path() && !path.has_extension();
   const auto builtin = builtinScene(name_or_path);
   std::error_code ignored;
   if (bare && builtin) return *builtin;
-  if (fs::is_regular_file(path, ignored)) return path;
+  if (fs::is_regular_file(path, ignored)) return fileAt(path);
   if (builtin) return *builtin;
   if (fs::is_directory(path, ignored)) {
     throw InputError(fmt::format("{} is a folder, not a scene", name_or_path));
@@ -77,9 +79,14 @@ Scene parseScene(std::string_view toml, const std::string& source, const Overrid
 }
 
 Scene loadScene(const std::string& name_or_path, const Overrides& overrides) {
-  const fs::path path = resolve(name_or_path);
-  if (path.extension() == ".png") return loadDrawing(path, overrides);
-  const std::string text = readFile(path);
+  const DataFile found = resolve(name_or_path);
+  return loadSceneFile(found.folder, found.name, overrides);
+}
+
+Scene loadSceneFile(const DataFolder& folder, const std::string& file, const Overrides& overrides) {
+  const fs::path path = folder.pathOf(file);
+  if (!folder.isEmbedded() && path.extension() == ".png") return loadDrawing(path, overrides);
+  const std::string text = folder.read(file);
   refusePicture(text, path.string());
   return parseScene(text, path.string(), overrides);
 }

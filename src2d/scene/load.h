@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "src2d/scene/data_folder.h"
 #include "src2d/scene/scene.h"
 
 namespace merge2d {
@@ -17,6 +18,10 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;
 /// A built-in name, a `.toml` scene or a drawn `.png` scene. Throws InputError with the place, what
 /// was expected and a suggestion; IoError when a file cannot be read.
 Scene loadScene(const std::string& name_or_path, const Overrides& overrides = {});
+
+/// A scene of a folder that may be built into the program.
+Scene loadSceneFile(const DataFolder& folder, const std::string& file,
+                    const Overrides& overrides = {});
 
 /// A text scene; `source` stands for the file's name in messages.
 Scene parseScene(std::string_view toml, const std::string& source, const Overrides& overrides = {});
@@ -31,7 +36,7 @@ struct BuiltinScene {
   std::string name;
   std::string title;
 };
-/// The scenes of the folder `scenes/`, by name.
+/// The scenes that come with the program and those in the data folders, by name.
 std::vector<BuiltinScene> builtinScenes();
 
 }  // namespace merge2d
