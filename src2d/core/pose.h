@@ -2,6 +2,7 @@
 /// Rigid placements of the plane.
 
 #include "src2d/core/grid.h"
+#include "src2d/core/trig.h"
 
 namespace merge2d {
 
@@ -10,12 +11,15 @@ struct Rotation {
   double c = 1.0;
   double s = 0.0;
 
-  static Rotation of(double angle) { return {std::cos(angle), std::sin(angle)}; }
+  static Rotation of(double angle) {
+    const SineCosine sc = sineCosine(angle);
+    return {sc.c, sc.s};
+  }
 
   Vec2 operator*(const Vec2& a) const { return {c * a.x() - s * a.y(), s * a.x() + c * a.y()}; }
   Rotation operator*(const Rotation& o) const { return {c * o.c - s * o.s, s * o.c + c * o.s}; }
   Rotation inverse() const { return {c, -s}; }
-  double angle() const { return std::atan2(s, c); }
+  double angle() const { return arcTangent(s, c); }
 };
 
 /// Places a local frame in the world: world = position + rotation · local, on the grid when the

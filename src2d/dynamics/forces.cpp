@@ -4,6 +4,8 @@
 #include <numbers>
 #include <optional>
 
+#include "src2d/core/trig.h"
+
 namespace merge2d {
 namespace {
 
@@ -105,7 +107,7 @@ double smooth(double s) { return s * s * (3.0 - 2.0 * s); }
 
 ScriptPose poseOf(const Sinusoid& script, const Actions::Scripted& s, double time) {
   const double phase = 2.0 * std::numbers::pi * time / script.period;
-  const Vec2 offset = script.axis * (script.amplitude * (1.0 - std::cos(phase)));
+  const Vec2 offset = script.axis * (script.amplitude * (1.0 - sineCosine(phase).c));
   return {s.start.position + onGrid(offset), s.start_angle};
 }
 

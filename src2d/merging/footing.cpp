@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src2d/core/trig.h"
 #include "src2d/merging/limits.h"
 #include "src2d/merging/momentum.h"
 #include "src2d/merging/refine.h"
@@ -74,7 +75,7 @@ bool gives(const State& state, Scratch& scratch, const Collection& c, const Join
 double loadDirection(const State& state, const Collection& c) {
   const Vec2 gain = state.h * state.gravity - c.frame_gain;
   const Vec2 load = state[c.rigid].rotation.inverse() * gain;
-  return std::atan2(load.y(), load.x());
+  return arcTangent(load.y(), load.x());
 }
 
 /// The same direction, as near to those of the range as whole turns bring it.

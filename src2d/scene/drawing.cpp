@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "src2d/core/error.h"
+#include "src2d/core/trig.h"
 #include "src2d/scene/cover.h"
 #include "src2d/scene/file.h"
 #include "src2d/scene/ink.h"
@@ -165,7 +166,7 @@ class Drawing {
     BodyDesc ground;
     ground.name = "ground";
     ground.motion = Motion::Pinned;
-    ground.angle = std::atan2(along.y(), along.x());
+    ground.angle = arcTangent(along.y(), along.x());
     ground.at = 0.5 * (left + right) - 0.5 * depth * perpendicular(along);
     ground.shapes = {makeBox(width, depth)};
     add(ground);

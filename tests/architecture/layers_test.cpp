@@ -73,6 +73,14 @@ bool usesBox2dDynamics(std::string_view line) {
   });
 }
 
+/// Results of the C library differ in their last place: src2d/core/trig.h has its own.
+bool usesTrigonometryOfTheCLibrary(std::string_view line) {
+  const std::vector<std::string> names = {"sin", "cos", "tan", "asin", "acos", "atan", "atan2"};
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return line.find("std::" + name + "(") != std::string_view::npos;
+  });
+}
+
 bool startsWithAny(std::string_view text, const std::vector<std::string>& prefixes) {
   return std::any_of(prefixes.begin(), prefixes.end(),
                      [&](const std::string& prefix) { return text.starts_with(prefix); });
@@ -89,6 +97,9 @@ std::vector<std::string> broken(const std::string& path, std::string_view line) 
   }
   if (!path.starts_with("bench/") && usesBox2dDynamics(line)) {
     names.emplace_back("Box2D's dynamics are a peer");
+  }
+  if (path.starts_with("src2d/") && usesTrigonometryOfTheCLibrary(line)) {
+    names.emplace_back("trigonometry is our own");
   }
   return names;
 }
@@ -136,6 +147,7 @@ TEST(Layers, AnOffendingLineIsNamed) {
   EXPECT_THAT(violationsIn("src2d/contact/tree.h", "#include <box2d/b2_dynamic_tree.h>\n").size(),
               1);
   EXPECT_THAT(violationsIn("src2d/geometry/x.h", std::string("void f(b2") + "Body*);\n").size(), 1);
+  EXPECT_THAT(violationsIn("src2d/world.cpp", "  return std::cos(angle);\n").size(), 1);
   EXPECT_THAT(violationsIn("app/main.cpp", "#include <toml++/toml.h>\n").size(), 1);
 }
 
