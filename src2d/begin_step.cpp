@@ -25,21 +25,17 @@ void emitBodies(State& state, Actions& actions, Scratch& scratch) {
 
 /// A body, and all that it touches, must not sleep through this step.
 void wakeAround(const State& state, Scratch& scratch, BodyId body) {
-  scratch.stirred.push_back(body);
-  const auto wakeOther = [&](BodyId a, BodyId b) {
-    if (a == body) scratch.stirred.push_back(b);
-    if (b == body) scratch.stirred.push_back(a);
-  };
-  for (const ContactTable::Slot slot : state.contacts.order) {
-    const Contact& contact = state.contacts[slot];
-    if (contact.count > 0) wakeOther(contact.key.a, contact.key.b);
+  listAround(state, body, scratch.stirred);
+}
+
+/// What the user has changed since the last step is awake from its start on.
+void takeOverStirred(State& state, Actions& actions, Scratch& scratch) {
+  for (const BodyId body : actions.stirred) {
+    if (!state[body].alive) continue;
+    scratch.stirred.push_back(body);
+    if (state.rigid(body).asleep) wakeUp(state, scratch, state[body].rigid);
   }
-  for (const Collection& c : state.collections) {
-    for (const Weld& weld : c.welds) wakeOther(weld.a, weld.b);
-  }
-  for (const Joint& joint : state.joints) {
-    if (!joint.to_world && holds(state, joint)) wakeOther(joint.a, joint.b);
-  }
+  actions.stirred.clear();
 }
 
 void letGo(State& state, Actions& actions, Scratch& scratch) {
@@ -84,9 +80,28 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
 
 }  // namespace
 
+void listAround(const State& state, BodyId body, std::vector<BodyId>& out) {
+  out.push_back(body);
+  const auto addOther = [&](BodyId a, BodyId b) {
+    if (a == body) out.push_back(b);
+    if (b == body) out.push_back(a);
+  };
+  for (const ContactTable::Slot slot : state.contacts.order) {
+    const Contact& contact = state.contacts[slot];
+    if (contact.count > 0) addOther(contact.key.a, contact.key.b);
+  }
+  for (const Collection& c : state.collections) {
+    for (const Weld& weld : c.welds) addOther(weld.a, weld.b);
+  }
+  for (const Joint& joint : state.joints) {
+    if (!joint.to_world && holds(state, joint)) addOther(joint.a, joint.b);
+  }
+}
+
 void beginStep(State& state, Actions& actions, Scratch& scratch) {
   scratch.events.clear();
   scratch.stirred.clear();
+  takeOverStirred(state, actions, scratch);
   emitBodies(state, actions, scratch);
   letGo(state, actions, scratch);
   switchMagnets(state, actions, scratch);

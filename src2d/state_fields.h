@@ -122,13 +122,24 @@ void fields(Ar& ar, Some<JointBlock> auto& k) {
   auto& [a, b, joint, coupled, motor, limit, rows, inverse, lambda] = k;
   ar(a, b, joint, coupled, motor, limit, rows, inverse, lambda);
 }
-/// The constants come from the scene.
+template <class Ar>
+void fields(Ar& ar, Some<JointDesc::Limits> auto& l) {
+  auto& [lower, upper] = l;
+  ar(lower, upper);
+}
+template <class Ar>
+void fields(Ar& ar, Some<JointDesc::Motor> auto& m) {
+  auto& [speed, strength] = m;
+  ar(speed, strength);
+}
 template <class Ar>
 void fields(Ar& ar, Some<Joint> auto& j) {
   auto& [kind, a, b, to_world, anchor_a, anchor_b, axis, reference, length, stiffness, damping,
          limits, motor, break_force, break_torque, collide, broken, lambda, error, breath,
          quiet_steps, yielded] = j;
-  ar(broken, lambda, error, breath, quiet_steps, yielded);
+  ar(kind, a, b, to_world, anchor_a, anchor_b, axis, reference, length, stiffness, damping, limits,
+     motor, break_force, break_torque, collide, broken, lambda, error, breath, quiet_steps,
+     yielded);
 }
 
 template <class Ar>
@@ -204,6 +215,16 @@ void fields(Ar& ar, Some<Kick> auto& k) {
   ar(body, at, impulse);
 }
 template <class Ar>
+void fields(Ar& ar, Some<Load> auto& l) {
+  auto& [body, force, torque] = l;
+  ar(body, force, torque);
+}
+template <class Ar>
+void fields(Ar& ar, Some<TimedSpring> auto& s) {
+  auto& [body, anchor, to, to_body, stiffness, damping, rest_length, removed] = s;
+  ar(body, anchor, to, to_body, stiffness, damping, rest_length, removed);
+}
+template <class Ar>
 void fields(Ar& ar, Some<Actions::Launch> auto& l) {
   auto& [body, v, omega, done] = l;
   ar(body, v, omega, done);
@@ -211,8 +232,27 @@ void fields(Ar& ar, Some<Actions::Launch> auto& l) {
 template <class Ar>
 void fields(Ar& ar, Some<Actions> auto& actions) {
   auto& [springs, forces, impulses, magnets, emissions, next_impulse, next_emission, scripts,
-         user_kicks, launches] = actions;
-  ar(next_impulse, next_emission, user_kicks, launches);
+         user_kicks, user_loads, loaded, stirred, launches] = actions;
+  ar(springs, next_impulse, next_emission, user_kicks, user_loads, loaded, stirred, launches);
+}
+
+template <class Ar>
+void fields(Ar& ar, Some<Circle> auto& c) {
+  auto& [center, radius] = c;
+  ar(center, radius);
+}
+template <class Ar>
+void fields(Ar& ar, Some<Polygon> auto& p) {
+  auto& [vertices] = p;
+  ar(vertices);
+}
+/// Of a body that was added while the world ran. Such a body has no script.
+template <class Ar>
+void fields(Ar& ar, Some<BodyDesc> auto& b) {
+  auto& [name, motion, at, angle, velocity, spin, shapes, mass, density, friction, restitution,
+         pinned_until, script] = b;
+  ar(name, motion, at, angle, velocity, spin, shapes, mass, density, friction, restitution,
+     pinned_until);
 }
 
 }  // namespace merge2d

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <memory>
+#include <optional>
 
 #include "src2d/contact/broadphase.h"
 #include "src2d/core/error.h"
@@ -12,7 +14,7 @@
 namespace merge2d {
 namespace {
 
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 /// FNV-1a, 64 bits: finds damage, not malice.
 std::uint64_t hashOf(std::string_view bytes) {
@@ -21,11 +23,23 @@ std::uint64_t hashOf(std::string_view bytes) {
   return hash;
 }
 
-/// All of a scene that the simulation sees.
+/// All of a scene that the simulation sees, but for its settings.
 std::uint64_t sceneHash(Scene scene) {
   scene.title.clear();
   scene.duration = 0.0;
   scene.camera.reset();
+  scene.gravity = Scene{}.gravity;
+  scene.step = Scene{}.step;
+  scene.settings = {};
+  return hashOf(toToml(scene));
+}
+
+/// The settings in force, which may have changed since the start.
+std::uint64_t settingsHash(const State& state) {
+  Scene scene;
+  scene.gravity = state.gravity;
+  scene.step = state.h;
+  scene.settings = state.settings;
   return hashOf(toToml(scene));
 }
 
@@ -72,6 +86,16 @@ class Walk {
   template <class T>
   void put(const std::vector<T>& list) {
     sink().list(list);
+  }
+  void put(const std::string& text) { put(std::vector<char>(text.begin(), text.end())); }
+  template <class T>
+  void put(const std::optional<T>& value) {
+    put(value ? std::vector<T>{*value} : std::vector<T>{});
+  }
+  void put(const ConvexShape& shape) {
+    const auto* circle = std::get_if<Circle>(&shape);
+    (*this)(circle != nullptr, circle ? *circle : Circle{},
+            circle ? Polygon{} : std::get<Polygon>(shape));
   }
 };
 
@@ -148,6 +172,24 @@ class Reader {
   void get(T (&array)[n]) {
     for (T& item : array) get(item);
   }
+  void get(std::string& text) {
+    std::vector<char> letters;
+    get(letters);
+    text.assign(letters.begin(), letters.end());
+  }
+  template <class T>
+  void get(std::optional<T>& value) {
+    std::vector<T> list;
+    get(list);
+    value = list.empty() ? std::nullopt : std::optional<T>(list.front());
+  }
+  void get(ConvexShape& shape) {
+    bool is_circle = false;
+    Circle circle;
+    Polygon polygon;
+    (*this)(is_circle, circle, polygon);
+    shape = is_circle ? ConvexShape(circle) : ConvexShape(polygon);
+  }
   template <class T>
   void get(std::vector<T>& list) {
     std::uint64_t size = 0;
@@ -165,7 +207,7 @@ class Reader {
 std::uint64_t layoutHash() {
   static const std::uint64_t hash = [] {
     Signature signature;
-    signature(State{}, Actions{}, std::vector<Aabb>{});
+    signature(std::vector<BodyDesc>{}, State{}, Actions{}, std::vector<Aabb>{});
     return hashOf(signature.text);
   }();
   return hash;
@@ -174,14 +216,14 @@ std::uint64_t layoutHash() {
 struct Header {
   std::uint32_t version = kVersion;
   std::uint64_t layout = layoutHash();
-  std::uint64_t scene = 0;
+  std::uint64_t scene = 0, settings = 0;
   Mode mode = Mode::Reference;
 };
 
 template <class Ar>
 void fields(Ar& ar, Some<Header> auto& header) {
-  auto& [version, layout, scene, mode] = header;
-  ar(version, layout, scene, mode);
+  auto& [version, layout, scene, settings, mode] = header;
+  ar(version, layout, scene, settings, mode);
 }
 
 /// The boxes that the broadphase keeps around everything, per rigid thing that is present.
@@ -193,21 +235,36 @@ std::vector<Aabb> fatBoxes(const State& state) {
   return boxes;
 }
 
-/// The header, after checking that the bytes are whole and fit.
-void readHeader(Reader& read, const Scene& scene, Mode mode) {
+/// The header, after checking that the bytes fit.
+Header readHeader(Reader& read, const Scene& scene, const State& state, SavedUnder under) {
   Header header;
   read(header);
   if (header.version != kVersion || header.layout != layoutHash()) {
     read.fail("the snapshot was written by another version of merge2d; run the scene again");
   }
-  if (header.scene != sceneHash(scene)) {
+  const bool any = under == SavedUnder::AnySettings;
+  if (header.scene != sceneHash(scene) || (!any && header.settings != settingsHash(state))) {
     read.fail(fmt::format("the snapshot is of another scene than '{}', or of other parameters",
                           scene.name));
   }
-  if (header.mode != mode) {
-    read.fail(
-        fmt::format("the snapshot was made with --mode {}, not {}", name(header.mode), name(mode)));
+  if (!any && header.mode != state.mode) {
+    read.fail(fmt::format("the snapshot was made with --mode {}, not {}", name(header.mode),
+                          name(state.mode)));
   }
+  return header;
+}
+
+/// The scene as at its start, with these bodies added to it and the settings that are in force.
+void startOver(const Scene& scene, const std::vector<BodyDesc>& added, Setup& setup) {
+  const Mode mode = setup.state.mode;
+  const Settings settings = setup.state.settings;
+  const Vec2 gravity = setup.state.gravity;
+  std::destroy_at(&setup);  // its tree cannot be assigned
+  std::construct_at(&setup);
+  setUp(scene, mode, setup);
+  setup.state.settings = settings;
+  setup.state.gravity = gravity;
+  for (const BodyDesc& desc : added) appendBody(setup, desc);
 }
 
 std::string_view checkedPayload(std::string_view bytes, const std::string& source) {
@@ -258,22 +315,27 @@ std::string saveState(const Scene& scene, const Setup& setup) {
   write.bytes = kStateStart;
   Header header;
   header.scene = sceneHash(scene);
+  header.settings = settingsHash(setup.state);
   header.mode = setup.state.mode;
-  write(header, setup.state, setup.actions, fatBoxes(setup.state));
+  write(header, setup.added, setup.state, setup.actions, fatBoxes(setup.state));
   const std::uint64_t checksum = hashOf(write.bytes);
   write(checksum);
   return std::move(write.bytes);
 }
 
-void restoreState(std::string_view bytes, const std::string& source, const Scene& scene,
-                  Setup& setup) {
+Mode restoreState(std::string_view bytes, const std::string& source, const Scene& scene,
+                  Setup& setup, SavedUnder under) {
   Reader read(checkedPayload(bytes, source), source);
-  readHeader(read, scene, setup.state.mode);
+  const Header header = readHeader(read, scene, setup.state, under);
+  std::vector<BodyDesc> added;
+  read(added);
+  if (!added.empty() || !setup.added.empty()) startOver(scene, added, setup);
   clearBroadphase(setup.state);
   std::vector<Aabb> boxes;
   read(setup.state, setup.actions, boxes);
   if (read.rest() > 0) read.fail("the snapshot is damaged: it goes on after its end");
   buildTrees(setup.state, boxes);
+  return header.mode;
 }
 
 }  // namespace merge2d

@@ -1,14 +1,21 @@
 #include "src2d/world.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "src2d/begin_step.h"
 #include "src2d/contact/detection.h"
+#include "src2d/core/error.h"
 #include "src2d/dynamics/finite.h"
 #include "src2d/dynamics/integrate.h"
 #include "src2d/dynamics/setup.h"
 #include "src2d/dynamics/solver.h"
+#include "src2d/edit.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/merge.h"
@@ -42,8 +49,35 @@ struct World::Impl {
   void step();
 
   const std::vector<BodyInfo>& describedBodies() {
-    if (bodies.empty()) bodies = describeBodies(*scene, setup.state);
+    if (bodies.size() != setup.state.bodies.size()) bodies = describeBodies(*scene, setup);
     return bodies;
+  }
+
+  bool isThere(BodyId body) const {
+    return index(body) < setup.state.bodies.size() && setup.state[body].alive;
+  }
+  const std::string& nameOf(BodyId body) { return describedBodies()[index(body)].name; }
+
+  /// A body that the user may change; throws InputError for one that is not there.
+  BodyId checked(BodyId body) {
+    const std::size_t count = setup.state.bodies.size();
+    if (index(body) >= count) {
+      throw InputError(fmt::format("there is no body {}: the world has {}", index(body), count));
+    }
+    if (!setup.state[body].alive) {
+      throw InputError(
+          fmt::format("body {} ('{}') is not in the world now", index(body), nameOf(body)));
+    }
+    return body;
+  }
+  BodyId checked(BodyIndex body) { return checked(BodyId{static_cast<std::uint32_t>(body)}); }
+  /// The same for one whose motion no script determines.
+  BodyId unscripted(BodyId body) {
+    if (setup.state[checked(body)].motion != Motion::Scripted) return body;
+    throw InputError(fmt::format("body '{}' moves by its script", nameOf(body)));
+  }
+  Vec2 centerOf(BodyId body) {
+    return areaProperties(descriptionOf(*scene, setup, body).shapes).centroid;
   }
 
   /// The one place for timings, the observer and checks: nothing of these stands between the lines
@@ -107,7 +141,7 @@ void World::step() { impl_->step(); }
 std::int64_t World::steps() const { return impl_->setup.state.step; }
 double World::time() const { return impl_->setup.state.time; }
 const Scene& World::scene() const { return *impl_->scene; }
-Mode World::mode() const { return impl_->options.mode; }
+Mode World::mode() const { return impl_->setup.state.mode; }
 const std::vector<BodyInfo>& World::bodies() const { return impl_->describedBodies(); }
 const Stats& World::stats() const { return impl_->scratch.stats; }
 const std::vector<Event>& World::events() const { return impl_->scratch.events; }
@@ -117,8 +151,13 @@ void World::observe(Observer* observer) { impl_->observer = observer; }
 
 std::string World::save() const { return saveState(*impl_->scene, impl_->setup); }
 
-void World::restore(std::string_view bytes, const std::string& source) {
-  restoreState(bytes, source, *impl_->scene, impl_->setup);
+void World::restore(std::string_view bytes, const std::string& source, SavedUnder under) {
+  Setup& setup = impl_->setup;
+  const Mode mode = setup.state.mode;
+  setup.state.mode = restoreState(bytes, source, *impl_->scene, setup, under);
+  impl_->scratch = {};
+  impl_->bodies.clear();
+  merge2d::setMode(setup, impl_->scratch, mode);
   impl_->scratch.events.clear();
   countBodies(impl_->setup.state, impl_->scratch);
 }
@@ -139,8 +178,177 @@ Snapshot World::capture() const {
   return snapshot;
 }
 
+// Changes between two steps
+
+namespace {
+
+/// Throws InputError unless all numbers are finite.
+void checkNumbers(const char* what, std::initializer_list<double> numbers) {
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) throw InputError(fmt::format("{} must be finite", what));
+  }
+}
+
+}  // namespace
+
 void World::applyImpulse(BodyId body, const Vec2& at, const Vec2& impulse) {
-  impl_->setup.actions.user_kicks.push_back({body, placedOnGrid(at), impulse});
+  checkNumbers("an impulse and its place", {at.x(), at.y(), impulse.x(), impulse.y()});
+  impl_->setup.actions.user_kicks.push_back({impl_->checked(body), placedOnGrid(at), impulse});
+}
+
+void World::applyForce(BodyId body, const Vec2& at, const Vec2& force) {
+  checkNumbers("a force and its place", {at.x(), at.y(), force.x(), force.y()});
+  const Vec2 arm = at - impl_->setup.state.pose(impl_->checked(body)).position;
+  impl_->setup.actions.user_loads.push_back({body, force, cross(arm, force)});
+}
+
+void World::setPose(BodyId body, const Vec2& x, double angle) {
+  checkNumbers("a pose", {x.x(), x.y(), angle});
+  merge2d::setPose(impl_->setup, impl_->scratch, impl_->unscripted(body), x, angle);
+}
+
+void World::setVelocity(BodyId body, const Vec2& v, double omega) {
+  checkNumbers("a velocity", {v.x(), v.y(), omega});
+  if (!impl_->setup.state.responds(impl_->unscripted(body))) {
+    throw InputError(fmt::format("body '{}' is pinned: it has no velocity", impl_->nameOf(body)));
+  }
+  merge2d::setVelocity(impl_->setup, impl_->scratch, body, v, omega);
+}
+
+void World::pin(BodyId body) {
+  merge2d::pin(impl_->setup, impl_->scratch, impl_->unscripted(body));
+}
+void World::unpin(BodyId body) {
+  merge2d::unpin(impl_->setup, impl_->scratch, impl_->unscripted(body));
+}
+void World::release(BodyId body) {
+  merge2d::release(impl_->setup, impl_->scratch, impl_->checked(body));
+}
+void World::wake(BodyId body) { merge2d::wake(impl_->setup, impl_->checked(body)); }
+
+BodyId World::addBody(const BodyDesc& desc) {
+  const BodyId body = merge2d::addBody(impl_->setup, desc);
+  // What is kept of the last step is numbered as the bodies were.
+  std::vector<Event> events = std::move(impl_->scratch.events);
+  impl_->scratch = {};
+  impl_->scratch.events = std::move(events);
+  countBodies(impl_->setup.state, impl_->scratch);
+  return body;
+}
+
+void World::removeBody(BodyId body) {
+  merge2d::removeBody(impl_->setup, impl_->scratch, impl_->checked(body));
+  countBodies(impl_->setup.state, impl_->scratch);
+}
+
+std::uint32_t World::addSpring(const SpringDesc& desc) {
+  const Vec2 center = impl_->centerOf(impl_->checked(desc.body));
+  const Vec2 other = desc.to_body ? impl_->centerOf(impl_->checked(*desc.to_body)) : Vec2::Zero();
+  checkNumbers("a spring", {desc.anchor.x(), desc.anchor.y(), desc.to.x(), desc.to.y(),
+                            desc.stiffness, desc.damping, desc.rest_length});
+  return merge2d::addSpring(impl_->setup, desc, center, other);
+}
+
+void World::moveSpring(std::uint32_t spring, const Vec2& to) {
+  checkNumbers("a place", {to.x(), to.y()});
+  checkSpring(spring);
+  if (impl_->setup.actions.springs[spring].to_body >= 0) {
+    throw InputError(fmt::format("spring {} holds to a body: its end cannot be moved", spring));
+  }
+  merge2d::moveSpring(impl_->setup, spring, to);
+}
+
+void World::removeSpring(std::uint32_t spring) {
+  checkSpring(spring);
+  merge2d::removeSpring(impl_->setup, spring);
+}
+
+void World::checkSpring(std::uint32_t spring) const {
+  const auto& springs = impl_->setup.actions.springs;
+  if (spring < springs.size() && !springs[spring].removed) return;
+  throw InputError(fmt::format("there is no spring {}", spring));
+}
+
+std::uint32_t World::addJoint(const JointDesc& desc) {
+  impl_->checked(desc.a);
+  if (desc.b) impl_->checked(*desc.b);
+  if (desc.b == desc.a) throw InputError("a joint needs two bodies, or one and the world");
+  checkNumbers("a joint", {desc.at.x(), desc.at.y(), desc.to.x(), desc.to.y()});
+  return merge2d::addJoint(impl_->setup, impl_->scratch, desc);
+}
+
+void World::removeJoint(std::uint32_t joint) {
+  if (joint >= impl_->setup.state.joints.size()) {
+    throw InputError(fmt::format("there is no joint {}", joint));
+  }
+  merge2d::removeJoint(impl_->setup, impl_->scratch, joint);
+}
+
+const Settings& World::settings() const { return impl_->setup.state.settings; }
+void World::setSettings(const Settings& settings) { impl_->setup.state.settings = settings; }
+Vec2 World::gravity() const { return impl_->setup.state.gravity; }
+
+void World::setGravity(const Vec2& gravity) {
+  checkNumbers("gravity", {gravity.x(), gravity.y()});
+  if (gravity == impl_->setup.state.gravity) return;
+  impl_->setup.state.gravity = gravity;
+  wakeAll(impl_->setup);
+}
+
+void World::setMode(Mode mode) { merge2d::setMode(impl_->setup, impl_->scratch, mode); }
+
+// Arrays
+
+namespace {
+
+/// Hands one row of `columns` numbers for each body to `fill`, which leaves it where none is there.
+template <class T, class Fill>
+void fillRows(const State& state, std::span<T> out, std::size_t columns, T none, Fill&& fill) {
+  const std::size_t needed = columns * state.bodies.size();
+  if (out.size() != needed) {
+    throw InputError(fmt::format("the array must have {} elements, not {}", needed, out.size()));
+  }
+  std::fill(out.begin(), out.end(), none);
+  for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
+    if (state.bodies[i].alive) fill(BodyId{i}, out.subspan(columns * i, columns));
+  }
+}
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Vec2 centerNow(const State& state, BodyId body) {
+  const bool own = state[body].rigid == rigidOf(body);
+  return own ? state.rigid(body).exactCenter() : state.pose(body).position;
+}
+
+}  // namespace
+
+void World::poses(std::span<double> out) const {
+  const State& state = impl_->setup.state;
+  fillRows(state, out, 3, kNone, [&](BodyId body, std::span<double> row) {
+    const Vec2 x = centerNow(state, body);
+    row[0] = x.x();
+    row[1] = x.y();
+    row[2] = state.angle(body);
+  });
+}
+
+void World::velocities(std::span<double> out) const {
+  const State& state = impl_->setup.state;
+  fillRows(state, out, 3, kNone, [&](BodyId body, std::span<double> row) {
+    const Vec2 v = state.rigid(body).velocityAt(state.pose(body).position);
+    row[0] = v.x();
+    row[1] = v.y();
+    row[2] = state.rigid(body).omega;
+  });
+}
+
+void World::collections(std::span<std::int32_t> out) const {
+  const State& state = impl_->setup.state;
+  fillRows(state, out, 1, value(kNoCollection), [&](BodyId body, std::span<std::int32_t> row) {
+    const RigidId rigid = state[body].rigid;
+    if (state.isCollection(rigid)) row[0] = value(state.collection(rigid).id);
+  });
 }
 
 }  // namespace merge2d

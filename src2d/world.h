@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,9 @@ struct WorldOptions {
   bool decisions = false;  ///< note every test of a criterion, and what else `notes` holds
 };
 
+/// Whether a state may be taken over that was saved under other settings or in another mode.
+enum class SavedUnder : std::uint8_t { SameSettings, AnySettings };
+
 class World {
  public:
   /// Keeps a copy of the scene.
@@ -48,14 +52,18 @@ class World {
   double time() const;         ///< [s]
   const Scene& scene() const;
   Mode mode() const;
-  /// All bodies of the run by id, also those that are not emitted yet; never changes.
+  /// All bodies of the run by id, also those that are not emitted yet or have been removed; valid
+  /// until a body is added.
   const std::vector<BodyInfo>& bodies() const;
-  /// All that influences the steps to come, as bytes: a world of the same scene and mode that takes
-  /// them over continues bit for bit as this one does.
+  /// All that influences the steps to come, as bytes: a world of the same scene, settings and mode
+  /// that takes them over continues bit for bit as this one does, also where bodies, joints or
+  /// springs were added.
   std::string save() const;
-  /// Takes over what `save` gave. `source` names the bytes in messages. Throws InputError when they
-  /// are damaged, or of another version, scene or mode.
-  void restore(std::string_view bytes, const std::string& source);
+  /// Takes over what `save` gave. `source` names the bytes in messages. Settings, gravity and mode
+  /// stay those of this world; with AnySettings the bytes may come from others. Throws InputError
+  /// when they are damaged, or of another version, scene, settings or mode.
+  void restore(std::string_view bytes, const std::string& source,
+               SavedUnder under = SavedUnder::SameSettings);
 
   std::size_t memoryBytes() const;  ///< held by the simulation's tables
 
@@ -74,10 +82,58 @@ class World {
   /// Called after each stage of each step; null for none. The world does not own it.
   void observe(Observer* observer);
 
+  // Changes between two steps. Each wakes the bodies concerned and what touches them, and takes
+  // them out of their collections where they could not stay; all are part of a saved state. They
+  // throw InputError for a body that is not there and for numbers that are not finite.
+
   /// An impulse [N s] at a world point, given at the start of the next step.
   void applyImpulse(BodyId body, const Vec2& at, const Vec2& impulse);
+  /// A force [N] at a world point, which acts during the next step.
+  void applyForce(BodyId body, const Vec2& at, const Vec2& force);
+
+  /// Of the centre of mass [m, rad]. The body comes free; a scripted one cannot be placed.
+  void setPose(BodyId body, const Vec2& x, double angle);
+  /// Of the centre of mass [m/s, rad/s]. The body comes free; it must not be pinned or scripted.
+  void setVelocity(BodyId body, const Vec2& v, double omega);
+  /// Holds a body where it is, or lets it go at rest. A scripted body is neither.
+  void pin(BodyId body);
+  void unpin(BodyId body);
+  /// Takes a body out of its collection; it may merge again.
+  void release(BodyId body);
+  void wake(BodyId body);
+
+  /// Adds a body behind all others; it may be dynamic or pinned. Ids are never used again.
+  BodyId addBody(const BodyDesc& desc);
+  /// Removes a body with its joints and springs.
+  void removeBody(BodyId body);
+  /// Springs are numbered in the order of the scene, then as they are added. `to` is where the end
+  /// of a spring that holds to the world is [m]: a spring that follows the pointer drags its body.
+  std::uint32_t addSpring(const SpringDesc& desc);
+  void moveSpring(std::uint32_t spring, const Vec2& to);
+  void removeSpring(std::uint32_t spring);
+  /// Joints are numbered in the same way. Places, directions and angles of the description are
+  /// those that the bodies have now.
+  std::uint32_t addJoint(const JointDesc& desc);
+  void removeJoint(std::uint32_t joint);
+
+  /// The settings in force; those of the scene stay as they were.
+  const Settings& settings() const;
+  void setSettings(const Settings& settings);
+  Vec2 gravity() const;
+  void setGravity(const Vec2& gravity);
+  /// Where the new mode does not merge, all collections are taken apart.
+  void setMode(Mode mode);
+
+  // What can be seen, into arrays of the caller with one element (or three) per body of `bodies()`:
+  // far cheaper than a snapshot. A body that is not there has NaN, or −1.
+
+  void poses(std::span<double> out) const;       ///< x, y [m], angle [rad] of centres of mass
+  void velocities(std::span<double> out) const;  ///< vx, vy [m/s], omega [rad/s]
+  void collections(std::span<std::int32_t> out) const;  ///< ids; −1 when free
 
  private:
+  void checkSpring(std::uint32_t spring) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

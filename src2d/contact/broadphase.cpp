@@ -277,8 +277,11 @@ void removeShapes(State& state, RigidId id, const std::vector<BodyId>& bodies) {
 }
 
 void compactTree(State& state) {
+  if (state.broadphase.tree.sparse()) rebuildTree(state);
+}
+
+void rebuildTree(State& state) {
   auto& tree = state.broadphase.tree;
-  if (!tree.sparse()) return;
   std::vector<Aabb> boxes;
   for (const RigidId id : state.present) boxes.push_back(tree.fatBox(state[id].leaf));
   tree.clear();

@@ -17,7 +17,9 @@ void addShapes(State& state, RigidId id, const std::vector<BodyId>& bodies);
 void removeShapes(State& state, RigidId id, const std::vector<BodyId>& bodies);
 void dropShapeTree(State& state, RigidId id);
 
-/// Builds the tree anew when most of its leaves have gone, with the boxes that it had.
+/// Builds the tree anew, with the boxes that it had.
+void rebuildTree(State& state);
+/// The same when most of its leaves have gone.
 void compactTree(State& state);
 
 /// Follows the motion of all rigid things and brings the contact table up to date with the pairs of

@@ -1,6 +1,7 @@
 #include "src2d/dynamics/forces.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -86,21 +87,39 @@ void addSpring(const State& state, const TimedSpring& spring, const SpringStretc
   scratch.springs.push_back({s.from.at, s.to.at, force.dot(s.direction)});
 }
 
+bool acts(const State& state, const TimedSpring& spring) {
+  return !spring.removed && state.bodies[spring.body].alive;
+}
+
 /// Where the ends of a spring are takes longer than all else about it, above all in collections.
 void addSprings(const State& state, const Actions& actions, Scratch& scratch) {
   if (actions.springs.empty()) return;
-  const auto acts = [&](const TimedSpring& spring) { return state.bodies[spring.body].alive; };
   scratch.spring_gain.assign(state.bodies.size(), 0.0);
   scratch.stretches.clear();
   for (const TimedSpring& spring : actions.springs) {
-    if (!acts(spring)) continue;
+    if (!acts(state, spring)) continue;
     scratch.stretches.push_back(stretchOf(state, spring));
     addGains(state, spring, scratch.stretches.back(), scratch.spring_gain);
   }
   auto stretch = scratch.stretches.begin();
   for (const TimedSpring& spring : actions.springs) {
-    if (acts(spring)) addSpring(state, spring, *stretch++, scratch);
+    if (acts(state, spring)) addSpring(state, spring, *stretch++, scratch);
   }
+}
+
+/// Forces of the user act in one step: they begin and end there.
+void addUserLoads(Actions& actions, Scratch& scratch) {
+  std::vector<BodyId> loaded;
+  for (const Load& load : actions.user_loads) {
+    loaded.push_back(load.body);
+    scratch.loads.push_back(load);
+  }
+  std::ranges::sort(loaded);
+  loaded.erase(std::unique(loaded.begin(), loaded.end()), loaded.end());
+  std::ranges::set_symmetric_difference(loaded, actions.loaded,
+                                        std::back_inserter(scratch.stirred));
+  actions.loaded = std::move(loaded);
+  actions.user_loads.clear();
 }
 
 double smooth(double s) { return s * s * (3.0 - 2.0 * s); }
@@ -157,6 +176,7 @@ void listLoads(State& state, Actions& actions, Scratch& scratch) {
     if (!acts(middle)) continue;
     scratch.loads.push_back(loadAt(state, body, state.pose(body) * f.at, f.force));
   }
+  addUserLoads(actions, scratch);
 }
 
 void listKicks(State& state, Actions& actions, Scratch& scratch) {
@@ -165,7 +185,8 @@ void listKicks(State& state, Actions& actions, Scratch& scratch) {
   auto& next = actions.next_impulse;
   for (; next < actions.impulses.size() && actions.impulses[next].time < end; ++next) {
     const ImpulseDesc& i = actions.impulses[next];
-    scratch.kicks.push_back({BodyId{static_cast<std::uint32_t>(i.body)}, i.at, i.impulse});
+    const BodyId body{static_cast<std::uint32_t>(i.body)};
+    if (state[body].alive) scratch.kicks.push_back({body, i.at, i.impulse});
   }
   scratch.kicks.insert(scratch.kicks.end(), actions.user_kicks.begin(), actions.user_kicks.end());
   actions.user_kicks.clear();
@@ -174,6 +195,7 @@ void listKicks(State& state, Actions& actions, Scratch& scratch) {
 double springEnergy(const State& state, const Actions& actions) {
   double energy = 0.0;
   for (const TimedSpring& spring : actions.springs) {
+    if (spring.removed) continue;
     const double stretch = stretchOf(state, spring).length - spring.rest_length;
     energy += 0.5 * spring.stiffness * stretch * stretch;
   }

@@ -26,6 +26,9 @@ struct Actions {
   };
   std::vector<Scripted> scripts;
   std::vector<Kick> user_kicks;  ///< for the next step
+  std::vector<Load> user_loads;  ///< the same
+  std::vector<BodyId> loaded;    ///< bodies of `user_loads` of the last step
+  std::vector<BodyId> stirred;   ///< changed by the user since the last step
   /// A body that was pinned at first, with the velocity that it is let go with.
   struct Launch {
     BodyId body{};

@@ -14,34 +14,36 @@ namespace {
 
 class Builder {
  public:
-  Builder(const Scene& scene, Mode mode, Setup& setup) : scene_(scene), setup_(setup) {
+  explicit Builder(Setup& setup) : setup_(setup) {}
+
+  void build(const Scene& scene, Mode mode) {
     State& s = setup_.state;
     s.settings = scene.settings;
     s.mode = mode;
     s.h = scene.step;
     s.gravity = scene.gravity;
-  }
-
-  void build() {
-    for (const BodyDesc& desc : scene_.bodies) addBody(desc, desc.at, true);
-    for (const EmitterDesc& emitter : scene_.emitters) addEmitter(emitter);
-    for (const SpringDesc& spring : scene_.springs) addSpring(spring);
-    for (const JointDesc& joint : scene_.joints) addJoint(joint);
-    for (ForceDesc force : scene_.forces) {
+    for (const BodyDesc& desc : scene.bodies) addBody(desc, desc.at, true);
+    for (const EmitterDesc& emitter : scene.emitters) addEmitter(emitter, scene.seed);
+    for (const SpringDesc& spring : scene.springs) {
+      const Vec2 other = spring.to_body ? centers_[*spring.to_body] : Vec2::Zero();
+      appendSpring(setup_.actions, spring, centers_[spring.body], other);
+    }
+    for (const JointDesc& joint : scene.joints) appendJoint(s, joint);
+    for (ForceDesc force : scene.forces) {
       force.at -= centers_[force.body];
       setup_.actions.forces.push_back(force);
     }
-    setup_.actions.impulses = scene_.impulses;
+    setup_.actions.impulses = scene.impulses;
     for (ImpulseDesc& impulse : setup_.actions.impulses) impulse.at = placedOnGrid(impulse.at);
     std::stable_sort(setup_.actions.impulses.begin(), setup_.actions.impulses.end(),
                      [](const auto& x, const auto& y) { return x.time < y.time; });
     std::stable_sort(setup_.actions.emissions.begin(), setup_.actions.emissions.end(),
                      [](const auto& x, const auto& y) { return x.time < y.time; });
-    setup_.actions.magnets = scene_.magnets;
+    setup_.actions.magnets = scene.magnets;
     enterWorld();
   }
 
- private:
+  /// `alive` says whether it is there from the start.
   BodyId addBody(const BodyDesc& desc, const Vec2& at, bool alive) {
     State& s = setup_.state;
     const auto id = static_cast<std::uint32_t>(s.bodies.size());
@@ -84,10 +86,13 @@ class Builder {
     s.bodies.push_back(body);
     s.rigids.push_back(r);
     centers_.push_back(area.centroid);
-    if (desc.pinned_until > 0.0) launch_.push_back({BodyId{id}, desc.velocity, desc.spin});
+    if (desc.pinned_until > 0.0) {
+      setup_.actions.launches.push_back({BodyId{id}, desc.velocity, desc.spin});
+    }
     return BodyId{id};
   }
 
+ private:
   /// Shapes are kept in the frame at the centre of mass.
   void addShapes(const BodyDesc& desc, const Vec2& centroid, Body& body, Rigid& r) {
     State& s = setup_.state;
@@ -142,8 +147,8 @@ class Builder {
     return kFloating;
   }
 
-  void addEmitter(const EmitterDesc& emitter) {
-    std::mt19937_64 random(scene_.seed * 0x9e3779b97f4a7c15u + emitter.seed);
+  void addEmitter(const EmitterDesc& emitter, std::uint64_t seed) {
+    std::mt19937_64 random(seed * 0x9e3779b97f4a7c15u + emitter.seed);
     const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
     for (int i = 0; i < emitter.count; ++i) {
       const double dx = uniform(), dy = uniform();
@@ -151,52 +156,6 @@ class Builder {
       const BodyId id = addBody(emitter.body, at, false);
       setup_.actions.emissions.push_back({emitter.start + i * emitter.every, id});
     }
-  }
-
-  void addSpring(const SpringDesc& spring) {
-    TimedSpring t;
-    t.body = spring.body;
-    t.anchor = spring.anchor - centers_[spring.body];
-    t.to = placedOnGrid(spring.to);
-    if (spring.to_body) {
-      t.to_body = static_cast<std::int64_t>(*spring.to_body);
-      t.to -= centers_[*spring.to_body];
-    }
-    t.stiffness = spring.stiffness;
-    t.damping = spring.damping;
-    t.rest_length = spring.rest_length;
-    setup_.actions.springs.push_back(t);
-  }
-
-  /// Joints are given by where the bodies stand at the start.
-  void addJoint(const JointDesc& desc) {
-    State& s = setup_.state;
-    const auto local = [&](BodyIndex body, const Vec2& at) {
-      const Rigid& r = s.rigids[body];
-      return r.rotation.inverse() * (at - r.x);
-    };
-    Joint joint;
-    joint.kind = desc.kind;
-    joint.a = BodyId{static_cast<std::uint32_t>(desc.a)};
-    joint.to_world = !desc.b;
-    joint.anchor_a = local(desc.a, desc.at);
-    joint.anchor_b = desc.kind == JointKind::Distance ? desc.to : desc.at;
-    joint.reference = -s.rigids[desc.a].angle;
-    if (desc.b) {
-      joint.b = BodyId{static_cast<std::uint32_t>(*desc.b)};
-      joint.anchor_b = local(*desc.b, joint.anchor_b);
-      joint.reference += s.rigids[*desc.b].angle;
-    }
-    joint.axis = s.rigids[desc.a].rotation.inverse() * desc.axis.normalized();
-    joint.length = desc.length.value_or((desc.to - desc.at).norm());
-    joint.stiffness = desc.stiffness;
-    joint.damping = desc.damping;
-    joint.limits = desc.limits;
-    joint.motor = desc.motor;
-    joint.break_force = desc.break_force;
-    joint.break_torque = desc.break_torque;
-    joint.collide = desc.collide;
-    s.joints.push_back(joint);
   }
 
   void enterWorld() {
@@ -216,23 +175,115 @@ class Builder {
     for (std::uint32_t i = 0; i < s.bodies.size(); ++i) {
       if (s.bodies[i].alive) bringIn(s, BodyId{i});
     }
-    setup_.actions.launches = launch_;
     tighten(s.bodies, s.rigids, s.extents, s.shape_collider, s.shape_body, s.first_sibling);
   }
 
-  const Scene& scene_;
   Setup& setup_;
   std::vector<Vec2> centers_;
   std::map<std::array<double, 10>, std::uint32_t> extents_;
   std::map<std::vector<double>, std::uint32_t> known_;  ///< colliders by their outline
-  std::vector<Actions::Launch> launch_;
 };
 
 }  // namespace
 
-void setUp(const Scene& scene, Mode mode, Setup& out) { Builder(scene, mode, out).build(); }
+void setUp(const Scene& scene, Mode mode, Setup& out) { Builder(out).build(scene, mode); }
 
-std::vector<BodyInfo> describeBodies(const Scene& scene, const State& state) {
+BodyId appendBody(Setup& setup, const BodyDesc& desc) {
+  State& s = setup.state;
+  const std::size_t bodies = s.bodies.size(), extents = s.extents.size() - s.collections.size();
+  const auto split = [](auto& table, std::size_t at) {
+    const auto middle = table.begin() + static_cast<std::ptrdiff_t>(at);
+    auto behind = std::vector(middle, table.end());
+    table.erase(middle, table.end());
+    return behind;
+  };
+  std::vector<Rigid> rigids = split(s.rigids, bodies);
+  const std::vector<Extent> of_collections = split(s.extents, extents);
+  const BodyId id = Builder(setup).addBody(desc, desc.at, false);
+  setup.added.push_back(desc);
+
+  // Collections follow the bodies: each of their tables moves on by one.
+  const auto more = static_cast<std::uint32_t>(s.extents.size() - extents);
+  for (Rigid& r : rigids) r.extent += more;
+  s.rigids.insert(s.rigids.end(), rigids.begin(), rigids.end());
+  s.extents.insert(s.extents.end(), of_collections.begin(), of_collections.end());
+  auto& trees = s.broadphase.shape_trees;
+  trees.emplace(trees.begin() + static_cast<std::ptrdiff_t>(bodies));
+  s.broadphase.shape_leaves.resize(s.shape_body.size(), -1);
+  listSiblings(s);
+  const auto moveOn = [&](auto& rigid) {
+    if (static_cast<std::size_t>(rigid) < bodies) return;
+    rigid = static_cast<std::remove_reference_t<decltype(rigid)>>(
+        static_cast<std::uint32_t>(rigid) + 1);
+  };
+  for (std::size_t i = 0; i < bodies; ++i) moveOn(s.bodies[i].rigid);
+  for (RigidId& r : s.present) moveOn(r);
+  for (NearPair& pair : s.broadphase.near) {
+    moveOn(pair.a);
+    moveOn(pair.b);
+  }
+  for (Collection& c : s.collections) {
+    moveOn(c.rigid);
+    for (JointBlock& joint : c.joints) {  // the world stands behind the last body
+      moveOn(joint.a);
+      moveOn(joint.b);
+    }
+  }
+  s.ready_before.clear();
+  rebuildTree(s);
+  return id;
+}
+
+void appendJoint(State& s, const JointDesc& desc) {
+  const auto local = [&](BodyIndex body, const Vec2& at) {
+    const Pose pose = s.pose(BodyId{static_cast<std::uint32_t>(body)});
+    return pose.rotation.inverse() * (at - pose.position);
+  };
+  const auto angle = [&](BodyIndex body) {
+    return s.angle(BodyId{static_cast<std::uint32_t>(body)});
+  };
+  Joint joint;
+  joint.kind = desc.kind;
+  joint.a = BodyId{static_cast<std::uint32_t>(desc.a)};
+  joint.to_world = !desc.b;
+  joint.anchor_a = local(desc.a, desc.at);
+  joint.anchor_b = desc.kind == JointKind::Distance ? desc.to : desc.at;
+  joint.reference = -angle(desc.a);
+  if (desc.b) {
+    joint.b = BodyId{static_cast<std::uint32_t>(*desc.b)};
+    joint.anchor_b = local(*desc.b, joint.anchor_b);
+    joint.reference += angle(*desc.b);
+  }
+  joint.axis = s.pose(joint.a).rotation.inverse() * desc.axis.normalized();
+  joint.length = desc.length.value_or((desc.to - desc.at).norm());
+  joint.stiffness = desc.stiffness;
+  joint.damping = desc.damping;
+  joint.limits = desc.limits;
+  joint.motor = desc.motor;
+  joint.break_force = desc.break_force;
+  joint.break_torque = desc.break_torque;
+  joint.collide = desc.collide;
+  s.joints.push_back(joint);
+}
+
+void appendSpring(Actions& actions, const SpringDesc& spring, const Vec2& center_of_body,
+                  const Vec2& center_of_other) {
+  TimedSpring t;
+  t.body = spring.body;
+  t.anchor = spring.anchor - center_of_body;
+  t.to = placedOnGrid(spring.to);
+  if (spring.to_body) {
+    t.to_body = static_cast<std::int64_t>(*spring.to_body);
+    t.to -= center_of_other;
+  }
+  t.stiffness = spring.stiffness;
+  t.damping = spring.damping;
+  t.rest_length = spring.rest_length;
+  actions.springs.push_back(t);
+}
+
+std::vector<BodyInfo> describeBodies(const Scene& scene, const Setup& setup) {
+  const State& state = setup.state;
   std::vector<BodyInfo> infos;
   infos.reserve(state.bodies.size());
   const auto describe = [&](const BodyDesc& desc, const std::string& name) {
@@ -253,8 +304,21 @@ std::vector<BodyInfo> describeBodies(const Scene& scene, const State& state) {
       describe(emitter.body, emitter.body.name + "[" + std::to_string(i) + "]");
     }
   }
+  for (const BodyDesc& desc : setup.added) describe(desc, desc.name);
   for (const MagnetDesc& magnet : scene.magnets) infos[magnet.body].magnet = true;
   return infos;
+}
+
+const BodyDesc& descriptionOf(const Scene& scene, const Setup& setup, BodyId body) {
+  std::size_t i = index(body);
+  if (i < scene.bodies.size()) return scene.bodies[i];
+  i -= scene.bodies.size();
+  for (const EmitterDesc& emitter : scene.emitters) {
+    const auto count = static_cast<std::size_t>(emitter.count);
+    if (i < count) return emitter.body;
+    i -= count;
+  }
+  return setup.added[i];
 }
 
 void bringIn(State& state, BodyId body) {

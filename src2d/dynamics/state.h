@@ -29,6 +29,7 @@ struct TimedSpring {
   Vec2 to = Vec2::Zero();      ///< world, or the same in `to_body`
   std::int64_t to_body = -1;
   double stiffness = 0.0, damping = 0.0, rest_length = 0.0;
+  bool removed = false;
 };
 
 /// The state of a world between two steps.

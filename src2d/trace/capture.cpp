@@ -34,7 +34,8 @@ void captureBodies(const State& state, Snapshot& out) {
     seen.omega = r.omega;
     if (state.isCollection(body.rigid)) seen.collection = state.collection(body.rigid).id;
     seen.asleep = r.asleep;
-    seen.pinned = state[rigidOf(id)].anchor == kWorldFrame && !state.isCollection(body.rigid);
+    seen.pinned =
+        !r.floating() && body.motion != Motion::Scripted && !state.isCollection(body.rigid);
     seen.magnet_on = body.magnet_on;
     out.bodies.push_back(seen);
   }
