@@ -234,13 +234,6 @@ TEST(Drawing, TheDepthOfASampleChangesNoDensity) {
   }
 }
 
-TEST(Drawing, APaletteEntryThatIsNotThereIsNoCrash) {
-  const PngKind palette{.depth = 8, .color = 3, .palette = std::string("\xff\xff\xff", 3)};
-  const std::string file = encodePng(2, 2, palette, [](auto, auto) { return "11111111"; });
-  const std::string message = drawingError(file);
-  EXPECT_TRUE(message == "no error" || message.starts_with("bad.png: ")) << message;
-}
-
 TEST(Drawing, OverridesReachTheDrawnBodies) {
   const Scene scene = draw({"# b"}, {{"drawing.pixel", "0.5"},
                                      {"material.density", "2"},

@@ -43,6 +43,7 @@ struct PngKind {
   int color = 6;  ///< 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA
   bool interlaced = false;
   std::string palette = {};  ///< three bytes each
+  std::string alphas = {};   ///< one byte for each of the first colours of the palette
 };
 
 /// `sample(x, y)` gives the bits of one pixel as "0101…".
@@ -72,6 +73,7 @@ inline std::string encodePng(
                              static_cast<char>(kind.interlaced ? 1 : 0);
   return "\x89PNG\r\n\x1a\n" + pngChunk("IHDR", header) +
          (kind.palette.empty() ? "" : pngChunk("PLTE", kind.palette)) +
+         (kind.alphas.empty() ? "" : pngChunk("tRNS", kind.alphas)) +
          pngChunk("IDAT", zipped(data)) + pngChunk("IEND", "");
 }
 
