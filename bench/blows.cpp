@@ -91,7 +91,8 @@ void run(const Cases& cases, int iterations) {
   int in_reference = 0, in_merged = 0, differing = 0;  // bodies that have moved in the end
   for (int i = 0; i < cases.count; ++i) {
     const Kind& kind = kKinds[static_cast<std::size_t>(i) % kKinds.size()];
-    const Scene scene = sceneOf(kind, iterations);
+    Scene scene = sceneOf(kind, iterations);
+    scene.settings.unmerging.rule = cases.rule;
     Random random = cases.random(i);
     const Blow blow = randomBlow(random, scene.bodies.size());
     const auto reference = movedAfter(scene, Mode::Reference, blow);

@@ -3,9 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
+#include <map>
 #include <random>
 #include <string>
 
+#include "src2d/scene/names.h"
 #include "src2d/scene/scene.h"
 
 namespace merge2d::bench {
@@ -36,11 +38,14 @@ struct Cases {
   int count = 0;
   unsigned seed = 1;
   bool quiet = false;
+  Rule rule = Rule::Default;
 
   void addTo(CLI::App& app) {
     app.add_option("--cases", count, "How many");
     app.add_option("--seed", seed, "Of the first one");
     app.add_flag("--quiet", quiet, "Only the sum");
+    const std::map<std::string, Rule> rules(kNames<Rule>.begin(), kNames<Rule>.end());
+    app.add_option("--rule", rule, "Of unmerging")->transform(CLI::CheckedTransformer(rules));
   }
   Random random(int number) const { return Random(seed + static_cast<unsigned>(number)); }
 };

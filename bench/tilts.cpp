@@ -91,6 +91,7 @@ void run(const Cases& cases) {
     Random random = cases.random(i);
     const Wall wall = randomWall(random);
     Scene scene = sceneOf(wall);
+    scene.settings.unmerging.rule = cases.rule;
     const double merged = angleOfFall(scene, Mode::Merge, wall.rate);
     const double soft = angleOfFall(scene, Mode::Reference, wall.rate);
     scene.settings.solver.iterations = 200;

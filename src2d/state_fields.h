@@ -175,17 +175,28 @@ void fields(Ar& ar, Some<BlockWatch> auto& w) {
   ar(bits);
 }
 template <class Ar>
+void fields(Ar& ar, Some<Witness> auto& w) {
+  auto& [frame, outer, lambda] = w;
+  ar(frame, outer, lambda);
+}
+template <class Ar>
+void fields(Ar& ar, Some<LoadCertificate> auto& c) {
+  auto& [columns, witnesses, gram, weights, heaviest, lambda_stale, push_stale, in_doubt,
+         since_blow] = c;
+  ar(columns, witnesses, gram, weights, heaviest, lambda_stale, push_stale, in_doubt, since_blow);
+}
+template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
          cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds,
          weld_at, weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up,
          struck, stirred, refusals, patience, hastened_in, hastened_every, lingering, residual,
-         settled, rested, refuted, jolted] = c;
+         settled, rested, refuted, jolted, certificate] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
      cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
      weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up, struck,
      stirred, refusals, patience, hastened_in, hastened_every, lingering, residual, settled, rested,
-     refuted, jolted);
+     refuted, jolted, certificate);
 }
 
 template <class Ar>

@@ -19,6 +19,9 @@ struct Twist {
   double omega = 0.0;         ///< [rad/s]
 };
 
+/// Normal and tangential impulses of a block's two points.
+using Impulses = std::array<double, 4>;
+
 /// A velocity summed over consecutive steps.
 struct Drift {
   float sum = 0.0F;  ///< [m/s]
@@ -137,6 +140,36 @@ struct BlockWatch {
   std::uint8_t bits = kWatched;
 };
 
+/// The load that a frame's motion puts on everything at rest in it: the velocity that it gives at the
+/// middle of the members' box, in two directions; the change of that over one size, along and across;
+/// and the spin times the size. Linear, so that loads add up [m/s].
+using FrameLoad = std::array<double, 5>;
+
+/// A load that the contacts inside were found to carry without relative motion, and their impulses.
+struct Witness {
+  FrameLoad frame{};
+  std::vector<Twist> outer;      ///< per column of the certificate; the spin times the size
+  std::vector<Impulses> lambda;  ///< per block, then per joint
+};
+
+/// Proofs that a collection holds (merging/load_certificate.h).
+struct LoadCertificate {
+  static constexpr std::size_t kMost = 8;  ///< witnesses
+  using Weights = std::array<double, kMost>;
+  using Gram = std::array<double, kMost * kMost>;
+
+  std::vector<std::uint32_t> columns;  ///< members on which something outside acts, in any witness
+  std::vector<Witness> witnesses;
+  Gram gram{};        ///< products of their loads
+  Weights weights{};  ///< of the load that was carried last
+  /// Of a floating collection: the member whose rows follow from those of the others.
+  std::uint32_t heaviest = ~0u;
+  bool lambda_stale = false;       ///< blocks and joints hold other impulses than the weights say
+  bool push_stale = false;         ///< Collection::push is not that of the impulses
+  bool in_doubt = true;            ///< no proof has been found yet for the load
+  std::int16_t since_blow = 1000;  ///< steps since something touched or hit it, at most 1,000
+};
+
 /// Bodies simulated as one (Section 4).
 struct Collection {
   static constexpr std::int8_t kMostRefusals = 5;  ///< then it waits longest, for 32 steps
@@ -185,6 +218,7 @@ struct Collection {
   std::int8_t calm = 0;     ///< steps for which it has been so, in a round (sweep.cpp)
   bool refuted = false;     ///< a closer look found that nothing parts, and nothing is new
   std::uint8_t jolted = 0;  ///< the most of its members': Body::jolted
+  LoadCertificate certificate;
 
   bool waitsLong() const { return patience > 0 && refusals == kMostRefusals; }
 };

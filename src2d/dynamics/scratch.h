@@ -55,9 +55,6 @@ struct SweepContact {
   ContactBlock block;      ///< with the bodies' own masses
 };
 
-/// Normal and tangential impulses of a block's two points.
-using Impulses = std::array<double, 4>;
-
 /// A contact or a joint, inside a collection or outside; `frame` is its collection's.
 struct SweepItem {
   ContactBlock* block = nullptr;
@@ -135,6 +132,20 @@ struct RigidParts {
   NncgBuffers nncg;
 };
 
+/// The forces and contacts from outside on one member of a collection, in one step.
+struct OuterLoad {
+  std::uint32_t slot = 0, member = 0;
+  Vec2 impulse = Vec2::Zero();  ///< in the world [N s]
+  double moment = 0.0;          ///< about the member's centre of mass [N m s]
+};
+
+/// Why the forces inside a collection are sought in this step.
+enum class Doubt : std::uint8_t {
+  None,  ///< its proofs cover the load
+  Load,  ///< they do not
+  Blow,  ///< something touched or hit it
+};
+
 /// Lives for one step; its memory is kept.
 struct Scratch {
   std::vector<Load> loads;
@@ -168,6 +179,11 @@ struct Scratch {
   // SleepAndWake
   std::vector<std::uint8_t> restless, island_awake;  ///< per rigid
 
+  // WarmStart
+  std::vector<OuterLoad> outer_loads;     ///< ascending by slot, then by member
+  std::vector<std::uint32_t> load_place;  ///< per body: one more than its place there, or 0
+  std::vector<Doubt> doubts;              ///< per collection slot; empty: all are swept
+
   // SingleIterationPGS
   bool sweeping = false;                ///< some collection is swept
   std::int64_t last_sweep = -1;         ///< step whose velocities are in sweep_u
@@ -181,6 +197,7 @@ struct Scratch {
   std::vector<std::uint8_t> shaken;           ///< per body: further sweeps changed it in this step
 
   // Unmerge
+  std::vector<SolverVelocity> trial_u;           ///< per body
   RigidParts rigid_parts;                        ///< of the collection at hand
   bool split = false;                            ///< some collection was taken apart
   std::vector<std::uint32_t> overloaded_joints;  ///< break after the full solve

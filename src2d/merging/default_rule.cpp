@@ -67,6 +67,7 @@ constinit const MergingMethod kDefaultMerging{
 
 constinit const UnmergingMethod kDefaultUnmerging{
     .sleepAndWake = sleepByIslands,
+    .findDoubts = doubtAll,
     .startingRotation = beforeLastUpdate,
     .sweeps_free_bodies = false,
     .sweep = sweepRefined,

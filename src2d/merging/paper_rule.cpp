@@ -82,6 +82,7 @@ constinit const MergingMethod kPaperMerging{
 
 constinit const UnmergingMethod kPaperUnmerging{
     .sleepAndWake = sleepEachByItself,
+    .findDoubts = doubtAll,
     .startingRotation = asItIs,
     .sweeps_free_bodies = true,
     .sweep = sweepBreadthFirst,

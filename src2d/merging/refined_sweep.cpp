@@ -203,7 +203,8 @@ void sweepRefined(State& state, Scratch& scratch) {
   }
   double blow = 0.0;
   for (Collection& c : state.collections) {
-    if (isSwept(state, c)) blow = std::max(blow, sweepOnce(state, c, scratch));
+    if (doubtOf(state, scratch, c) != Doubt::Blow) continue;
+    blow = std::max(blow, sweepOnce(state, c, scratch));
   }
   if (refines(state.settings.unmerging)) refineDisturbed(state, scratch, blow);
 }

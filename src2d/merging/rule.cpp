@@ -1,5 +1,6 @@
 #include "src2d/merging/rule.h"
 
+#include "src2d/merging/decided_rule.h"
 #include "src2d/merging/default_rule.h"
 #include "src2d/merging/paper_rule.h"
 
@@ -10,6 +11,7 @@ const MergingMethod& mergingMethod(const State& state) {
     case Rule::Paper:
       return kPaperMerging;
     case Rule::Default:
+    case Rule::Decided:
       break;
   }
   return kDefaultMerging;
@@ -19,6 +21,8 @@ const UnmergingMethod& unmergingMethod(const State& state) {
   switch (state.settings.unmerging.rule) {
     case Rule::Paper:
       return kPaperUnmerging;
+    case Rule::Decided:
+      return kDecidedUnmerging;
     case Rule::Default:
       break;
   }

@@ -29,6 +29,8 @@ struct UnmergingMethod {
   /// SleepAndWake.
   void (*sleepAndWake)(State& state, Scratch& scratch);
 
+  /// WarmStart: says in `scratch.doubts` whose inner forces are sought, and how.
+  void (*findDoubts)(State& state, Scratch& scratch);
   /// WarmStart: the orientation of a collection with which its members' velocities begin.
   Rotation (*startingRotation)(const Rigid& collection);
   /// WarmStart: contacts between free bodies have rows in the sweep too.

@@ -38,6 +38,15 @@ bool isSwept(const State& state, const Collection& c) {
   return c.id != kNoCollection && !state[c.rigid].asleep;
 }
 
+void doubtAll(State&, Scratch& scratch) { scratch.doubts.clear(); }
+
+Doubt doubtOf(const State& state, const Scratch& scratch, const Collection& c) {
+  if (!isSwept(state, c)) return Doubt::None;
+  const auto slot = static_cast<std::size_t>(&c - state.collections.data());
+  if (scratch.doubts.empty()) return Doubt::Blow;
+  return slot < scratch.doubts.size() ? scratch.doubts[slot] : Doubt::None;  // formed in this step
+}
+
 void sweepCollections(State& state, Scratch& scratch) {
   if (!scratch.sweeping) return;
   scratch.push_stale.assign(state.collections.size(), 0);

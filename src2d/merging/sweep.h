@@ -20,7 +20,13 @@ double sweepInside(const State& state, Collection& collection, Scratch& scratch,
 /// a step, and not where all is laid out anew.
 void renewPushes(State& state, Scratch& scratch);
 
-/// True for a collection whose inner forces are swept in this step.
+/// True for a collection whose inner forces may be sought in this step: it is there and awake.
 bool isSwept(const State& state, const Collection& collection);
+
+/// WarmStart: the forces inside all collections that are awake are swept.
+void doubtAll(State& state, Scratch& scratch);
+
+/// Why those of an awake collection are sought.
+Doubt doubtOf(const State& state, const Scratch& scratch, const Collection& collection);
 
 }  // namespace merge2d

@@ -170,8 +170,11 @@ void warmStartOuter(const State& state, Scratch& scratch) {
 void warmStartSweep(State& state, Scratch& scratch) {
   scratch.sweep_contacts.clear();
   scratch.sweep_joints.clear();
-  const bool any = std::any_of(state.collections.begin(), state.collections.end(),
-                               [&](const Collection& c) { return isSwept(state, c); });
+  unmergingMethod(state).findDoubts(state, scratch);
+  const auto inDoubt = [&](const Collection& c) {
+    return doubtOf(state, scratch, c) != Doubt::None;
+  };
+  const bool any = std::ranges::any_of(state.collections, inDoubt);
   scratch.sweeping = any;
   if (!any) return;
   scratch.last_sweep = state.step;
@@ -179,7 +182,7 @@ void warmStartSweep(State& state, Scratch& scratch) {
   scratch.sweep_u.back() = {};
   startOthers(state, scratch);
   for (const Collection& c : state.collections) {
-    if (isSwept(state, c)) startMembers(state, c, scratch);
+    if (inDoubt(c)) startMembers(state, c, scratch);
   }
   addLoads(state, scratch);
   warmStartOuter(state, scratch);

@@ -25,8 +25,8 @@ inline constexpr std::array<Named<Mode>, 4> kNames<Mode>{{{"reference", Mode::Re
                                                           {"merge", Mode::Merge},
                                                           {"merge+sleep", Mode::MergeSleep}}};
 template <>
-inline constexpr std::array<Named<Rule>, 2> kNames<Rule>{
-    {{"default", Rule::Default}, {"paper", Rule::Paper}}};
+inline constexpr std::array<Named<Rule>, 3> kNames<Rule>{
+    {{"default", Rule::Default}, {"paper", Rule::Paper}, {"decided", Rule::Decided}}};
 template <>
 inline constexpr std::array<Named<SolverMethod>, 3> kNames<SolverMethod>{
     {{"nncg", SolverMethod::Nncg}, {"block", SolverMethod::Block}, {"pgs", SolverMethod::Pgs}}};

@@ -15,7 +15,7 @@ constexpr bool merges(Mode m) { return m == Mode::Merge || m == Mode::MergeSleep
 constexpr bool sleeps(Mode m) { return m == Mode::Sleep || m == Mode::MergeSleep; }
 
 /// `Default` carries the cures that 2D needs; `Paper` follows the paper to the letter.
-enum class Rule { Default, Paper };
+enum class Rule { Default, Paper, Decided };
 
 enum class SolverMethod {
   Nncg,   ///< "nncg": block sweeps inside a nonsmooth nonlinear conjugate gradient

@@ -1,0 +1,222 @@
+/// Random towers on carts that move, and random columns on ground that turns and stays: when do
+/// they topple, merged and in the reference? Only those that topple in the reference count.
+///
+///   carts [--family carts|columns] [--cases N] [--seed N] [--rule default|paper|decided] [--quiet]
+///
+/// A cart floats on springs, hangs on two rods, stands on springs or is pulled by a force. The
+/// reference of the columns is a converged one: contacts ten times as hard, 100 sweeps.
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "bench/random_scene.h"
+#include "src2d/world.h"
+
+namespace merge2d::bench {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+template <class T, std::size_t n>
+T oneOf(Random& random, const std::array<T, n>& values) {
+  return values[random.below(n)];
+}
+
+/// Boxes of one size on top of each other, of which one may be denser.
+struct Tower {
+  int boxes;
+  double width, height;  ///< of each [m]
+  int heavy = -1;
+  double density = 1.0;  ///< of that one [kg/m²]
+
+  /// The tilt at which it tips as one rigid body [rad].
+  double tips() const {
+    double mass = 0.0, moment = 0.0;
+    for (int i = 0; i < boxes; ++i) {
+      const double m = i == heavy ? density : 1.0;
+      mass += m;
+      moment += m * (i + 0.5) * height;
+    }
+    return std::atan2(0.5 * width * mass, moment);
+  }
+};
+
+Tower randomTower(Random& random, int boxes) {
+  return {.boxes = boxes,
+          .width = oneOf(random, std::array{0.4, 0.6, 0.8}),
+          .height = oneOf(random, std::array{0.3, 0.4, 0.6})};
+}
+
+/// Adds the tower with its foot at a place, moving with the first body.
+void add(Scene& scene, const Tower& tower, const Vec2& foot) {
+  for (int i = 0; i < tower.boxes; ++i) {
+    const Vec2 at = foot + Vec2(0.0, (i + 0.5) * tower.height);
+    BodyDesc body = box(fmt::format("box[{}]", i), tower.width, tower.height, at);
+    if (i == tower.heavy) body.density = tower.density;
+    body.velocity = scene.bodies.front().velocity;
+    scene.bodies.push_back(body);
+  }
+}
+
+void addSpring(Scene& scene, const Vec2& anchor, const Vec2& to, double stiffness, double damping) {
+  SpringDesc spring;
+  spring.body = 0;
+  spring.anchor = anchor;
+  spring.to = to;
+  spring.stiffness = stiffness;
+  spring.damping = damping;
+  scene.springs.push_back(spring);
+}
+
+/// Hangs on two rods and swings without turning.
+void hang(Scene& scene, Random& random) {
+  const double length = random.between(3.0, 6.0), angle = random.between(15.0, 45.0) * kDegree;
+  scene.bodies[0].velocity = {std::sqrt(2.0 * 9.81 * length * (1.0 - std::cos(angle))), 0.0};
+  for (const double x : {-1.4, 1.4}) {
+    JointDesc rod;
+    rod.kind = JointKind::Distance;
+    rod.at = {x, 0.0};
+    rod.to = {x, length};
+    scene.joints.push_back(rod);
+  }
+}
+
+/// Held by four springs, and swings sideways or up and down.
+void spring(Scene& scene, Random& random) {
+  const double mass = *scene.bodies[0].mass, speed = random.between(0.5, 4.0);
+  const double turn = oneOf(random, std::array{0.0, 0.3});
+  scene.bodies[0].velocity = {speed, turn * speed};
+  for (const double x : {-1.4, 1.4}) {
+    addSpring(scene, {x, 0.0}, {x, 4.0}, 5.0 * mass, 0.0);
+    addSpring(scene, {x, 0.0}, {4.0 * x, 0.0}, random.between(2.0, 8.0) * mass, 0.0);
+  }
+}
+
+/// Turns about a hinge on the world at its left end, held up by a spring at the other.
+void hinge(Scene& scene, Random& random) {
+  const double mass = *scene.bodies[0].mass;
+  JointDesc pin;
+  pin.kind = JointKind::Revolute;
+  pin.at = {-1.4, 0.0};
+  scene.joints.push_back(pin);
+  addSpring(scene, {1.4, 0.0}, {1.4, 3.0}, random.between(1.0, 2.5) * mass, 0.1 * mass);
+}
+
+/// Rolls without friction on the ground, pulled by a force.
+void pull(Scene& scene, Random& random) {
+  const double mass = *scene.bodies[0].mass;
+  JointDesc rail;
+  rail.kind = JointKind::Prismatic;
+  rail.axis = Vec2::UnitX();
+  scene.joints.push_back(rail);
+  ForceDesc force;
+  force.force = {random.between(2.0, 9.0) * mass, 0.0};
+  force.from = 1.0;
+  scene.forces.push_back(force);
+}
+
+Scene cart(Random& random) {
+  Scene scene;
+  BodyDesc seat = box("cart", 3.0, 0.2, {0.0, 0.0});
+  seat.mass = oneOf(random, std::array{10.0, 100.0, 1000.0});
+  scene.bodies.push_back(seat);
+  constexpr std::array kMounts{hang, spring, hinge, pull};
+  kMounts[random.below(kMounts.size())](scene, random);
+  const Tower tower = randomTower(random, 2 + static_cast<int>(random.below(11)));
+  add(scene, tower, {random.between(-0.3, 0.3), 0.1});
+  for (BodyDesc& body : scene.bodies) body.friction = 1.2;
+  return scene;
+}
+
+/// Ground that turns in a second and a half to an angle at which the column tips, and stays.
+Scene column(Random& random) {
+  Scene scene;
+  Tower tower = randomTower(random, 3 + static_cast<int>(random.below(4)));
+  tower.heavy = oneOf(random, std::array{-1, tower.boxes / 2, tower.boxes - 1});
+  tower.density = oneOf(random, std::array{20.0, 100.0});
+  const double angle = tower.tips() * random.between(1.02, 1.3);
+  BodyDesc ground = box("ground", 30.0, 1.0, {0.0, 0.0});
+  ground.motion = Motion::Scripted;
+  const Vec2 origin = Vec2::Zero();
+  ground.script = Keyframes{
+      {{0.0, origin, 0.0}, {1.0, origin, 0.0}, {2.5, origin, angle}, {60.0, origin, angle}}};
+  scene.bodies.push_back(ground);
+  add(scene, tower, {0.0, 0.5});
+  for (BodyDesc& body : scene.bodies) body.friction = 2.0;
+  return scene;
+}
+
+constexpr double kNever = 1e9;
+
+/// When the top box has turned by 15 degrees or moved by a quarter of a metre against the first
+/// body, or kNever [s].
+double timeOfFall(const Scene& scene, Mode mode, double until) {
+  World world(scene, {.mode = mode, .timings = false});
+  const auto seen = [&] {
+    const Snapshot now = world.capture();
+    const Pose cart = now.bodies.front().pose();
+    const BodyState& top = now.bodies.back();
+    return std::pair(Vec2(cart.inverse() * top.x), top.angle - now.bodies.front().angle);
+  };
+  const auto [place, angle] = seen();
+  while (world.time() < until) {
+    world.step();
+    const auto [place_now, angle_now] = seen();
+    if ((place_now - place).norm() > 0.25 || std::abs(angle_now - angle) > 15.0 * kDegree) {
+      return world.time();
+    }
+  }
+  return kNever;
+}
+
+std::string shown(double time) { return time == kNever ? "never" : fmt::format("{:5.2f}", time); }
+
+void run(const Cases& cases, bool columns) {
+  constexpr double kLate = 0.3;  // [s]
+  const double until = columns ? 14.0 : 12.0;
+  int tip = 0, never = 0, late = 0, early = 0;
+  for (int i = 0; tip < cases.count; ++i) {
+    Random random = cases.random(i);
+    Scene scene = columns ? column(random) : cart(random);
+    scene.settings.unmerging.rule = cases.rule;
+    Scene hard = scene;
+    if (columns) {
+      hard.settings.solver.iterations = 100;
+      hard.settings.solver.compliance *= 0.1;
+    }
+    const double reference = timeOfFall(hard, Mode::Reference, until);
+    if (reference > until - 2.0) continue;
+    const double soft = columns ? timeOfFall(scene, Mode::Reference, until) : reference;
+    const double merged = timeOfFall(scene, Mode::Merge, until);
+    ++tip;
+    const bool stands = merged == kNever, is_late = !stands && merged > reference + kLate;
+    const bool is_early = merged < std::min(reference, soft) - kLate;
+    never += stands ? 1 : 0;
+    late += is_late ? 1 : 0;
+    early += is_early ? 1 : 0;
+    if (cases.quiet) continue;
+    fmt::print("{} {:4}: {:2} boxes: {} s, reference {} s, soft {} s\n",
+               stands || is_late || is_early ? "OFF" : "ok ", i, scene.bodies.size() - 1,
+               shown(merged), shown(reference), shown(soft));
+  }
+  fmt::print("Of {} {} {} stand for ever, {} topple more than {} s late, {} as much early.\n", tip,
+             columns ? "columns" : "towers on carts", never, late, kLate, early);
+}
+
+}  // namespace
+}  // namespace merge2d::bench
+
+int main(int argc, char** argv) {
+  CLI::App app{"Towers that topple, merged and in the reference"};
+  merge2d::bench::Cases cases{.count = 90};
+  std::string family = "carts";
+  app.add_option("--family", family, "carts or columns")
+      ->check(CLI::IsMember({"carts", "columns"}));
+  cases.addTo(app);
+  CLI11_PARSE(app, argc, argv);
+  merge2d::bench::run(cases, family == "columns");
+  return 0;
+}

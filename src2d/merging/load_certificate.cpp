@@ -1,0 +1,405 @@
+#include "src2d/merging/load_certificate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src2d/dynamics/joint_rows.h"
+#include "src2d/merging/nonnegative_fit.h"
+
+namespace merge2d {
+namespace {
+
+constexpr double kOuterWeight = 0.05;  ///< of a velocity from outside, beside those of the frame
+
+bool isAwake(const State& state, BodyId b) {
+  return state.isCollection(state[b].rigid) && !state.rigid(b).asleep;
+}
+
+std::uint32_t slotOf(const State& state, BodyId b) {
+  return static_cast<std::uint32_t>(index(state[b].rigid) - state.bodies.size());
+}
+
+/// Adds impulses per body, in the order in which they come.
+class OuterLoads {
+ public:
+  OuterLoads(const State& state, Scratch& scratch)
+      : state_(state), loads_(scratch.outer_loads), place_(scratch.load_place) {
+    loads_.clear();
+    place_.resize(state.bodies.size(), 0);
+  }
+
+  void add(BodyId b, const Vec2& impulse, double moment) {
+    if (!isAwake(state_, b)) return;
+    std::uint32_t& place = place_[index(b)];
+    if (place == 0) {
+      loads_.push_back({.slot = slotOf(state_, b), .member = state_[rigidOf(b)].member});
+      place = static_cast<std::uint32_t>(loads_.size());
+    }
+    loads_[place - 1].impulse += impulse;
+    loads_[place - 1].moment += moment;
+  }
+
+  void finish() {
+    for (const OuterLoad& l : loads_) {
+      place_[index(state_.collections[l.slot].members[l.member])] = 0;
+    }
+    std::ranges::sort(loads_, {}, [](const OuterLoad& l) { return packed(l.slot, l.member); });
+  }
+
+ private:
+  const State& state_;
+  std::vector<OuterLoad>& loads_;
+  std::vector<std::uint32_t>& place_;  ///< per body: one more than its place in loads_, or 0
+};
+
+void addContacts(const State& state, const Scratch& scratch, OuterLoads& loads) {
+  for (const BodyPair& pair : scratch.pairs) {
+    if (!isAwake(state, pair.a) && !isAwake(state, pair.b)) continue;
+    const Pose pose_a = state.pose(pair.a);
+    const Vec2 x_b = state.pose(pair.b).position;
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      const Contact& contact = state.contacts[state.contacts.order[i]];
+      const Vec2 n = pose_a.rotation * contact.normal, t = perpendicular(n);
+      for (int k = 0; k < contact.count; ++k) {
+        const ContactPoint& point = contact.points[static_cast<std::size_t>(k)];
+        if (point.lambda_n == 0.0 && point.lambda_t == 0.0) continue;
+        const Vec2 p = pose_a * point.position, impulse = point.lambda_n * n + point.lambda_t * t;
+        loads.add(pair.a, -impulse, -cross(p - pose_a.position, impulse));
+        loads.add(pair.b, impulse, cross(p - x_b, impulse));
+      }
+    }
+  }
+}
+
+/// On a body of mass and inertia 1 an impulse is a change of velocity.
+void addJoints(const State& state, OuterLoads& loads) {
+  for (std::uint32_t i = 0; i < state.joints.size(); ++i) {
+    const Joint& joint = state.joints[i];
+    if (!holds(state, joint) || isInside(state, joint)) continue;
+    if (!isAwake(state, joint.a) && (joint.to_world || !isAwake(state, joint.b))) continue;
+    const Vec2 x_a = state.pose(joint.a).position;
+    const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.pose(joint.b).position;
+    SolverVelocity a{.inv_mass = 1.0, .inv_inertia = 1.0}, b = a;
+    JointBlock k =
+        makeJointBlock(state, joint, placeOf(state, joint, {}, x_a, x_b), JointRows::Soft, a, b);
+    k.lambda = joint.lambda;
+    applyJointImpulses(k, {}, a, b);
+    loads.add(joint.a, {a.vx, a.vy}, a.omega);
+    if (!joint.to_world) loads.add(joint.b, {b.vx, b.vy}, b.omega);
+  }
+}
+
+}  // namespace
+
+void listOuterLoads(const State& state, Scratch& scratch) {
+  OuterLoads loads(state, scratch);
+  for (const Load& load : scratch.loads) {
+    loads.add(load.body, state.h * load.force, state.h * load.torque);
+  }
+  for (const Kick& kick : scratch.kicks) {
+    loads.add(kick.body, kick.impulse,
+              cross(kick.at - state.pose(kick.body).position, kick.impulse));
+  }
+  addContacts(state, scratch, loads);
+  if (!state.joints.empty()) addJoints(state, loads);
+  loads.finish();
+}
+
+namespace {
+
+/// The velocity that a frame will have at the end of this step, at its centre.
+struct FrameMotion {
+  Vec2 v = Vec2::Zero();
+  double omega = 0.0;
+};
+
+FrameMotion motionAfter(const State& state, const Collection& c, std::span<const OuterLoad> outer) {
+  const Rigid& r = state[c.rigid];
+  if (!r.floating()) {
+    if (r.anchor == kWorldFrame) return {};
+    const Rigid& anchor = state[rigidOf(c.anchor)];
+    return {anchor.v, anchor.omega};
+  }
+  Vec2 p = Vec2::Zero();
+  double l = 0.0;
+  for (const OuterLoad& load : outer) {
+    const Vec2 arm = r.rotation * (state[c.members[load.member]].local - r.center);
+    p += load.impulse;
+    l += load.moment + cross(arm, load.impulse);
+  }
+  return {r.v + state.h * state.gravity + r.inv_mass * p, r.omega + r.inv_inertia * l};
+}
+
+/// The velocities that an outer load gives its member, in the collection's frame.
+Twist gainOf(const State& state, const Collection& c, const CollectionLoad& load,
+             const OuterLoad& outer) {
+  const Body& body = state[c.members[outer.member]];
+  const Vec2 v = load.back * outer.impulse / body.mass;
+  return {v.x(), v.y(), outer.moment / body.inertia * load.size};
+}
+
+double dot(const Twist& x, const Twist& y) { return x.vx * y.vx + x.vy * y.vy + x.omega * y.omega; }
+double dot(const FrameLoad& x, const FrameLoad& y) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
+  return sum;
+}
+
+}  // namespace
+
+CollectionLoad loadOn(const State& state, const Scratch& scratch, const Collection& c) {
+  const auto slot = static_cast<std::uint32_t>(&c - state.collections.data());
+  const auto range = std::ranges::equal_range(scratch.outer_loads, slot, {}, &OuterLoad::slot);
+  const Rigid& r = state[c.rigid];
+  const OrientedBox& box = state.extent(r).box;
+  CollectionLoad load;
+  load.outer = {range.begin(), range.end()};
+  load.back = r.rotation.inverse();
+  load.size = box.half.norm();
+  const FrameMotion after = motionAfter(state, c, load.outer);
+  // v(x) = v + ω × (x − c) of both, the earlier one with the rotation before the last step.
+  const Rotation turn = load.back * r.previous_rotation;
+  const double along = -r.omega * turn.s, across = r.omega * turn.c - after.omega;
+  const Vec2 arm = box.frame.position - r.center;
+  const Vec2 d = load.back * Vec2(r.v + state.h * state.gravity - after.v) + along * arm +
+                 across * perpendicular(arm);
+  load.frame = {d.x(), d.y(), along * load.size, across * load.size,
+                (r.omega - after.omega) * load.size};
+  load.norm = std::sqrt(dot(load.frame, load.frame));
+  double outer = 0.0;
+  for (const OuterLoad& o : load.outer) {
+    if (o.member == c.certificate.heaviest) continue;
+    const Twist gain = gainOf(state, c, load, o);
+    outer += dot(gain, gain);
+  }
+  load.outer_norm = std::sqrt(outer);
+  return load;
+}
+
+namespace {
+
+constexpr std::size_t kMost = LoadCertificate::kMost;
+
+/// x · xᵢ of a load and a witness.
+double product(const State& state, const Collection& c, const CollectionLoad& load,
+               const Witness& witness) {
+  double sum = dot(load.frame, witness.frame);
+  const auto& columns = c.certificate.columns;
+  std::size_t k = 0;
+  for (const OuterLoad& o : load.outer) {
+    while (k < columns.size() && columns[k] < o.member) ++k;
+    if (k == columns.size()) break;
+    if (columns[k] != o.member) continue;
+    sum += kOuterWeight * kOuterWeight * dot(gainOf(state, c, load, o), witness.outer[k]);
+  }
+  return sum;
+}
+
+double product(const Witness& x, const Witness& y) {
+  double sum = dot(x.frame, y.frame);
+  for (std::size_t k = 0; k < x.outer.size(); ++k) {
+    sum += kOuterWeight * kOuterWeight * dot(x.outer[k], y.outer[k]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+namespace {
+
+/// A load beside those of the witnesses.
+struct Projection {
+  LoadCertificate::Weights weights{};
+  double left = 0.0;  ///< |x − Σ wᵢ xᵢ|², of which rounding may leave less than nothing
+};
+
+/// The nearest combination of the first `n` loads of `gram` to one of products `b` and square `xx`.
+Projection project(const LoadCertificate::Gram& gram, const LoadCertificate::Weights& b,
+                   std::size_t n, double xx) {
+  Projection p{nonNegativeFit(gram, b, n), xx};
+  for (std::size_t i = 0; i < n; ++i) {
+    p.left -= 2.0 * p.weights[i] * b[i];
+    for (std::size_t j = 0; j < n; ++j) {
+      p.left += p.weights[i] * p.weights[j] * gram[i * kMost + j];
+    }
+  }
+  return p;
+}
+
+}  // namespace
+
+bool covers(const State& state, Collection& c, const CollectionLoad& load) {
+  constexpr double kFrame = 0.9e-3, kOuter = 0.9e-2;  // of the load that may be left over
+  constexpr double kLeast = 2e-6;                     // [m/s]
+  LoadCertificate& proof = c.certificate;
+  const std::size_t n = proof.witnesses.size();
+  if (n == 0) return false;
+  LoadCertificate::Weights b{};
+  for (std::size_t i = 0; i < n; ++i) b[i] = product(state, c, load, proof.witnesses[i]);
+  const double outer = kOuterWeight * load.outer_norm;
+  const Projection p = project(proof.gram, b, n, load.norm * load.norm + outer * outer);
+  const double most = std::max(kLeast, kFrame * load.norm + kOuter * outer);
+  if (p.left > most * most) return false;
+  proof.lambda_stale |= p.weights != proof.weights;
+  proof.weights = p.weights;
+  return true;
+}
+
+namespace {
+
+void fillGram(LoadCertificate& proof) {
+  const std::size_t n = proof.witnesses.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      proof.gram[i * kMost + j] = product(proof.witnesses[i], proof.witnesses[j]);
+    }
+  }
+}
+
+/// How far a witness is from the cone of the others, squared.
+double worthOf(const LoadCertificate& proof, std::size_t which) {
+  LoadCertificate::Gram gram{};
+  LoadCertificate::Weights b{};
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
+    if (i == which) continue;
+    std::size_t m = 0;
+    for (std::size_t j = 0; j < proof.witnesses.size(); ++j) {
+      if (j != which) gram[n * kMost + m++] = proof.gram[i * kMost + j];
+    }
+    b[n++] = proof.gram[i * kMost + which];
+  }
+  const double xx = proof.gram[which * kMost + which];
+  return project(gram, b, n, xx).left / xx;
+}
+
+/// Drops the witness without which the others lose least.
+void makePlace(LoadCertificate& proof) {
+  if (proof.witnesses.size() < kMost) return;
+  std::size_t least = 0;
+  double worth = 1e300;
+  for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
+    const double of = worthOf(proof, i);
+    if (of < worth) {
+      worth = of;
+      least = i;
+    }
+  }
+  proof.witnesses.erase(proof.witnesses.begin() + static_cast<std::ptrdiff_t>(least));
+  fillGram(proof);
+}
+
+/// The columns of the certificate, and those of this load too.
+void addColumns(LoadCertificate& proof, const CollectionLoad& load) {
+  std::vector<std::uint32_t> columns = proof.columns;
+  for (const OuterLoad& o : load.outer) {
+    if (o.member != proof.heaviest) columns.push_back(o.member);
+  }
+  std::ranges::sort(columns);
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  if (columns == proof.columns) return;
+  for (Witness& witness : proof.witnesses) {
+    std::vector<Twist> outer(columns.size());
+    for (std::size_t k = 0; k < proof.columns.size(); ++k) {
+      const auto at = std::ranges::lower_bound(columns, proof.columns[k]) - columns.begin();
+      outer[static_cast<std::size_t>(at)] = witness.outer[k];
+    }
+    witness.outer = std::move(outer);
+  }
+  proof.columns = std::move(columns);
+}
+
+}  // namespace
+
+void remember(Collection& c, Witness&& load) {
+  LoadCertificate& proof = c.certificate;
+  makePlace(proof);
+  Witness& witness = proof.witnesses.emplace_back(std::move(load));
+  witness.lambda.clear();
+  witness.lambda.reserve(c.blocks.size() + c.joints.size());
+  for (const ContactBlock& k : c.blocks) witness.lambda.push_back(k.lambda);
+  for (const JointBlock& k : c.joints) witness.lambda.push_back(k.lambda);
+  fillGram(proof);
+  proof.weights = {};
+  proof.weights[proof.witnesses.size() - 1] = 1.0;
+  proof.lambda_stale = false;
+}
+
+Witness asWitness(const State& state, Collection& c, const CollectionLoad& load) {
+  LoadCertificate& proof = c.certificate;
+  addColumns(proof, load);
+  Witness witness;
+  witness.frame = load.frame;
+  witness.outer.assign(proof.columns.size(), {});
+  for (const OuterLoad& o : load.outer) {
+    if (o.member == proof.heaviest) continue;
+    const auto at = std::ranges::lower_bound(proof.columns, o.member) - proof.columns.begin();
+    witness.outer[static_cast<std::size_t>(at)] = gainOf(state, c, load, o);
+  }
+  return witness;
+}
+
+Witness beyond(const LoadCertificate& proof, const Witness& load, double part) {
+  Witness mean;
+  mean.outer.assign(load.outer.size(), {});
+  const double share = 1.0 / static_cast<double>(proof.witnesses.size());
+  for (const Witness& w : proof.witnesses) {
+    for (std::size_t i = 0; i < mean.frame.size(); ++i) mean.frame[i] += share * w.frame[i];
+    for (std::size_t k = 0; k < w.outer.size(); ++k) {
+      mean.outer[k].vx += share * w.outer[k].vx;
+      mean.outer[k].vy += share * w.outer[k].vy;
+      mean.outer[k].omega += share * w.outer[k].omega;
+    }
+  }
+  Witness next = load;
+  next.lambda.clear();
+  for (std::size_t i = 0; i < next.frame.size(); ++i) {
+    next.frame[i] += part * (load.frame[i] - mean.frame[i]);
+  }
+  for (std::size_t k = 0; k < next.outer.size(); ++k) {
+    next.outer[k].vx += part * (load.outer[k].vx - mean.outer[k].vx);
+    next.outer[k].vy += part * (load.outer[k].vy - mean.outer[k].vy);
+    next.outer[k].omega += part * (load.outer[k].omega - mean.outer[k].omega);
+  }
+  return next;
+}
+
+Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
+                   std::uint32_t member) {
+  const OrientedBox& box = state.extent(c.rigid).box;
+  const double size = box.half.norm();
+  const Vec2 arm = state[c.members[member]].local - box.frame.position;
+  const double along = load.frame[2] / size, across = load.frame[3] / size;
+  Twist u{load.frame[0] + along * arm.x() - across * arm.y(),
+          load.frame[1] + along * arm.y() + across * arm.x(), load.frame[4] / size};
+  const auto& columns = c.certificate.columns;
+  const auto at = std::ranges::lower_bound(columns, member);
+  if (at != columns.end() && *at == member) {
+    const Twist& e = load.outer[static_cast<std::size_t>(at - columns.begin())];
+    u.vx += e.vx;
+    u.vy += e.vy;
+    u.omega += e.omega / size;
+  }
+  return u;
+}
+
+void writeImpulses(Collection& c) {
+  LoadCertificate& proof = c.certificate;
+  if (!proof.lambda_stale) return;
+  proof.lambda_stale = false;
+  proof.push_stale = true;
+  const auto combine = [&](std::size_t at, Impulses& lambda) {
+    lambda = {};
+    for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
+      const double w = proof.weights[i];
+      if (w == 0.0) continue;
+      const Impulses& of = proof.witnesses[i].lambda[at];
+      for (std::size_t r = 0; r < lambda.size(); ++r) lambda[r] += w * of[r];
+    }
+  };
+  std::size_t at = 0;
+  for (ContactBlock& k : c.blocks) combine(at++, k.lambda);
+  for (JointBlock& k : c.joints) combine(at++, k.lambda);
+}
+
+}  // namespace merge2d
