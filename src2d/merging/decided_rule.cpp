@@ -45,7 +45,6 @@ Doubt doubtAbout(const State& state, const Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate;
   if (proof.since_blow < kDecided.blow_steps || c.follow_up > 0) return Doubt::Blow;
   if (proof.in_doubt || !covers(state, c, loadOn(state, scratch, c))) return Doubt::Load;
-  if (c.joints.empty()) return Doubt::None;
   writeImpulses(c);
   return anyJointBreaks(state, c) ? Doubt::Load : Doubt::None;
 }
