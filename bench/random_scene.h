@@ -38,13 +38,14 @@ struct Cases {
   int count = 0;
   unsigned seed = 1;
   bool quiet = false;
-  Rule rule = Rule::Default;
+  UnmergingRule rule = UnmergingRule::Default;
 
   void addTo(CLI::App& app) {
     app.add_option("--cases", count, "How many");
     app.add_option("--seed", seed, "Of the first one");
     app.add_flag("--quiet", quiet, "Only the sum");
-    const std::map<std::string, Rule> rules(kNames<Rule>.begin(), kNames<Rule>.end());
+    const std::map<std::string, UnmergingRule> rules(kNames<UnmergingRule>.begin(),
+                                                     kNames<UnmergingRule>.end());
     app.add_option("--rule", rule, "Of unmerging")->transform(CLI::CheckedTransformer(rules));
   }
   Random random(int number) const { return Random(seed + static_cast<unsigned>(number)); }

@@ -8,10 +8,9 @@ namespace merge2d {
 
 const MergingMethod& mergingMethod(const State& state) {
   switch (state.settings.merging.rule) {
-    case Rule::Paper:
+    case MergingRule::Paper:
       return kPaperMerging;
-    case Rule::Default:
-    case Rule::Decided:
+    case MergingRule::Default:
       break;
   }
   return kDefaultMerging;
@@ -19,11 +18,11 @@ const MergingMethod& mergingMethod(const State& state) {
 
 const UnmergingMethod& unmergingMethod(const State& state) {
   switch (state.settings.unmerging.rule) {
-    case Rule::Paper:
+    case UnmergingRule::Paper:
       return kPaperUnmerging;
-    case Rule::Decided:
+    case UnmergingRule::Decided:
       return kDecidedUnmerging;
-    case Rule::Default:
+    case UnmergingRule::Default:
       break;
   }
   return kDefaultUnmerging;

@@ -25,8 +25,13 @@ inline constexpr std::array<Named<Mode>, 4> kNames<Mode>{{{"reference", Mode::Re
                                                           {"merge", Mode::Merge},
                                                           {"merge+sleep", Mode::MergeSleep}}};
 template <>
-inline constexpr std::array<Named<Rule>, 3> kNames<Rule>{
-    {{"default", Rule::Default}, {"paper", Rule::Paper}, {"decided", Rule::Decided}}};
+inline constexpr std::array<Named<MergingRule>, 2> kNames<MergingRule>{
+    {{"default", MergingRule::Default}, {"paper", MergingRule::Paper}}};
+template <>
+inline constexpr std::array<Named<UnmergingRule>, 3> kNames<UnmergingRule>{
+    {{"default", UnmergingRule::Default},
+     {"paper", UnmergingRule::Paper},
+     {"decided", UnmergingRule::Decided}}};
 template <>
 inline constexpr std::array<Named<SolverMethod>, 3> kNames<SolverMethod>{
     {{"nncg", SolverMethod::Nncg}, {"block", SolverMethod::Block}, {"pgs", SolverMethod::Pgs}}};

@@ -14,8 +14,13 @@ enum class Mode { Reference, Sleep, Merge, MergeSleep };
 constexpr bool merges(Mode m) { return m == Mode::Merge || m == Mode::MergeSleep; }
 constexpr bool sleeps(Mode m) { return m == Mode::Sleep || m == Mode::MergeSleep; }
 
-/// `Default` carries the cures that 2D needs; `Paper` follows the paper to the letter.
-enum class Rule { Default, Paper, Decided };
+/// Which pairs merge: `Default` carries the cures that 2D needs; `Paper` follows the paper to the
+/// letter.
+enum class MergingRule { Default, Paper };
+
+/// What comes free: the same two, and `Decided`, which decides from impulses that have converged
+/// (docs/decisions/decided.md).
+enum class UnmergingRule { Default, Paper, Decided };
 
 enum class SolverMethod {
   Nncg,   ///< "nncg": block sweeps inside a nonsmooth nonlinear conjugate gradient
@@ -51,7 +56,7 @@ enum class Metric {
 
 /// [merging], Table 1
 struct MergingSettings {
-  Rule rule = Rule::Default;
+  MergingRule rule = MergingRule::Default;
   double velocity = 1e-2;   ///< relative motion threshold, Eq. (17) [m/s]
   double breathing = 1e-5;  ///< largest change of the overlap between two steps [m]
   double sliding = 1e-2;    ///< slip threshold, Eq. (18) [m/s]
@@ -62,7 +67,7 @@ struct MergingSettings {
 
 /// [unmerging], Table 1
 struct UnmergingSettings {
-  Rule rule = Rule::Default;
+  UnmergingRule rule = UnmergingRule::Default;
   double velocity = 2e-2;     ///< relative motion threshold [m/s]
   double sliding = 1e-2;      ///< slip threshold, Eq. (19) [m/s]
   int steps = 3;              ///< consecutive steps above the threshold

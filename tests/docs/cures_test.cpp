@@ -106,7 +106,7 @@ TEST(Cures, ACollectionSleepsWhenTheForcesInsideCarryItsWeight) {
 TEST(Cures, UnderThePapersRuleACollectionSleepsWhateverTheForcesInside) {
   Simulation run(wall(5, 40), Mode::MergeSleep);
   Scene literal = wall(5, 40);
-  literal.settings.unmerging.rule = Rule::Paper;
+  literal.settings.unmerging.rule = UnmergingRule::Paper;
   Simulation paper(literal, Mode::MergeSleep);
   const auto timeToSleep = [](Simulation& s) {
     while (s.world().stats().asleep < s.world().stats().bodies && s.world().time() < 10.0) {

@@ -176,7 +176,7 @@ TEST(Determinism, NamesOfBodiesChangeNothing) {
 TEST(Determinism, TheReferenceIsNotTouchedByTheSettingsOfMergingAndSleeping) {
   Scene scene = towerUnderFire(), other = scene;
   Settings& s = other.settings;
-  s.merging = {.rule = Rule::Paper,
+  s.merging = {.rule = MergingRule::Paper,
                .velocity = 1.0,
                .breathing = 1.0,
                .sliding = 1.0,

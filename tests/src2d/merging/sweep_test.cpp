@@ -247,7 +247,7 @@ TEST(Sweep, UnderThePapersRuleLooksAtAllContacts) {
 
 /// How many contacts away from the blow on the left pile the walk finds the foot of the right one,
 /// both on one floor; 0: never.
-int depthOfOtherPile(Rule rule) {
+int depthOfOtherPile(UnmergingRule rule) {
   Scene scene = onGround();
   for (const double x : {-3.0, 3.0}) {
     add(scene, box(1, 1, {x, 0.5}));
@@ -263,10 +263,10 @@ int depthOfOtherPile(Rule rule) {
   return 0;
 }
 
-TEST(Sweep, TheWalkDoesNotPassTheFloor) { EXPECT_EQ(depthOfOtherPile(Rule::Default), 0); }
+TEST(Sweep, TheWalkDoesNotPassTheFloor) { EXPECT_EQ(depthOfOtherPile(UnmergingRule::Default), 0); }
 
 TEST(Sweep, UnderThePapersRuleTheWalkPassesTheFloor) {
-  EXPECT_EQ(depthOfOtherPile(Rule::Paper), 3);
+  EXPECT_EQ(depthOfOtherPile(UnmergingRule::Paper), 3);
 }
 
 /// How far the friction under a wall is from what moves the wall with its platform, at most, in

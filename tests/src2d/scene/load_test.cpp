@@ -98,14 +98,14 @@ pinned_until = 3
   EXPECT_EQ(s.solver.max_correction, 0.25);
   EXPECT_EQ(s.solver.margin, 0.001);
   EXPECT_EQ(s.solver.restitution_velocity, 0.75);
-  EXPECT_EQ(s.merging.rule, Rule::Paper);
+  EXPECT_EQ(s.merging.rule, MergingRule::Paper);
   EXPECT_EQ(s.merging.velocity, 0.03);
   EXPECT_EQ(s.merging.breathing, 1e-6);
   EXPECT_EQ(s.merging.sliding, 0.04);
   EXPECT_EQ(s.merging.steps, 5);
   EXPECT_EQ(s.merging.cycles, CycleCriterion::Rigid);
   EXPECT_EQ(s.merging.metric, Metric::Naive);
-  EXPECT_EQ(s.unmerging.rule, Rule::Paper);
+  EXPECT_EQ(s.unmerging.rule, UnmergingRule::Paper);
   EXPECT_EQ(s.unmerging.velocity, 0.05);
   EXPECT_EQ(s.unmerging.sliding, 0.06);
   EXPECT_EQ(s.unmerging.steps, 7);

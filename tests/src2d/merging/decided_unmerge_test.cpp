@@ -1,0 +1,213 @@
+#include "src2d/merging/decided_unmerge.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+const Overrides kDecidedRule{{"unmerging.rule", "decided"}};
+
+/// When the body named `top` has turned by 15 degrees or moved by 25 cm against `base`, or 99 [s].
+double timeOfFall(const std::string& scene, Mode mode, const std::string& base,
+                  const std::string& top, double until) {
+  Simulation run(scene, mode, merges(mode) ? kDecidedRule : Overrides{});
+  const auto seen = [&] { return seenFrom(run.body(base), run.body(top)); };
+  const Pose before = seen();
+  while (run.world().time() < until) {
+    run.steps(2);
+    const Pose now = seen();
+    const double turned = cross(before.rotation * Vec2::UnitX(), now.rotation * Vec2::UnitX());
+    if ((now.position - before.position).norm() > 0.25) return run.world().time();
+    if (std::abs(turned) > std::sin(15.0 * kDegree)) return run.world().time();
+  }
+  return 99.0;
+}
+
+/// Ground that turns to `degrees` in a second and a half, and stays; bricks of 0.6 m by 0.4 m, of
+/// which the top one is heavy.
+std::string heavyTop(int bricks, double degrees, double density) {
+  const std::string angle = std::to_string(degrees);
+  std::string scene = R"(
+format = 1
+[material]
+friction = 2
+[[body]]
+name = "ground"
+motion = "scripted"
+box = [12, 1]
+script = { keyframes = [[0,0,0,0],[1,0,0,0],[2.5,0,0,)" +
+                      angle + "],[60,0,0," + angle + "]] }\n";
+  for (int i = 0; i < bricks; ++i) {
+    scene += "[[body]]\nname = \"b" + std::to_string(i) + "\"\nbox = [0.6, 0.4]\nat = [0, " +
+             std::to_string(0.7 + 0.4 * i) + "]\n";
+    if (i == bricks - 1) scene += "density = " + std::to_string(density) + "\n";
+  }
+  return scene;
+}
+
+/// As one rigid body five bricks with a top of 20 kg/m² tip above 10.4 degrees.
+TEST(DecidedUnmerge, AColumnWithAHeavyTopTipsAsInTheReference) {
+  const std::string scene = heavyTop(5, 11.448, 20.0);
+  const double reference = timeOfFall(scene, Mode::Reference, "ground", "b4", 14.0);
+  ASSERT_LT(reference, 5.0);
+  EXPECT_NEAR(timeOfFall(scene, Mode::Merge, "ground", "b4", 14.0), reference, 0.3);
+  EXPECT_NEAR(timeOfFall(scene, Mode::MergeSleep, "ground", "b4", 14.0), reference, 0.3);
+}
+
+TEST(DecidedUnmerge, TheSameColumnStandsOnGroundThatTurnsLess) {
+  const std::string scene = heavyTop(5, 7.0, 20.0);
+  ASSERT_EQ(timeOfFall(scene, Mode::Reference, "ground", "b4", 14.0), 99.0);
+  EXPECT_EQ(timeOfFall(scene, Mode::Merge, "ground", "b4", 14.0), 99.0);
+}
+
+/// Two boxes, twice as high as wide, topple on a swing that does not turn where tan(angle) > 1/2.
+TEST(DecidedUnmerge, TwoBoxesToppleOnASwing) {
+  const auto swing = [](const std::string& speed) {
+    return R"(
+format = 1
+[material]
+friction = 1.2
+[[body]]
+name = "seat"
+at = [0, -5]
+box = [3, 0.2]
+mass = 100
+velocity = [)" +
+           speed + R"(, 0]
+[[joint]]
+kind = "distance"
+bodies = ["seat"]
+at = [-1.4, -5]
+to = [-1.4, 0]
+[[joint]]
+kind = "distance"
+bodies = ["seat"]
+at = [1.4, -5]
+to = [1.4, 0]
+[[body]]
+name = "low"
+at = [0, -4.6]
+box = [0.6, 0.6]
+velocity = [)" +
+           speed + R"(, 0]
+[[body]]
+name = "high"
+at = [0, -4.0]
+box = [0.6, 0.6]
+velocity = [)" +
+           speed + R"(, 0]
+)";
+  };
+  for (const char* speed : {"3.68", "4.15", "5.077"}) {  // to 30.5, 34.5 and 42.5 degrees
+    const double reference = timeOfFall(swing(speed), Mode::Reference, "seat", "high", 8.0);
+    ASSERT_LT(reference, 8.0);
+    EXPECT_NEAR(timeOfFall(swing(speed), Mode::Merge, "seat", "high", 8.0), reference, 0.3)
+        << speed;
+  }
+  EXPECT_EQ(timeOfFall(swing("2.5"), Mode::Merge, "seat", "high", 8.0), 99.0) << "to 20.6 degrees";
+}
+
+/// A block on a slope that tilts by a degree per second slides at arctan μ = 30.96 degrees.
+TEST(DecidedUnmerge, ABlockOnATiltingSlopeSlidesAsInTheReference) {
+  const auto angle = [](Mode mode) {
+    Simulation run(R"(
+format = 1
+[[body]]
+name = "slope"
+motion = "scripted"
+at = [0, -0.5]
+box = [20, 1]
+script = { spin = 1 }
+[[body]]
+name = "block"
+at = [0, 0.25]
+box = [1, 0.5]
+)",
+                   mode, merges(mode) ? kDecidedRule : Overrides{});
+    const auto place = [&] { return seenFrom(run.body("slope"), run.body("block")).position.x(); };
+    run.until(5.0);
+    const double start = place();
+    while (run.world().time() < 45.0 && std::abs(place() - start) < 0.01) run.steps(1);
+    return run.body("slope").angle / kDegree;
+  };
+  EXPECT_NEAR(angle(Mode::Merge), angle(Mode::Reference), 0.2);
+}
+
+int eventsAfterSettling(const Scene& of, double until) {
+  Scene scene = of;
+  scene.settings.unmerging.rule = UnmergingRule::Decided;
+  Simulation run(scene, Mode::Merge);
+  run.until(5.0);
+  const int before = run.count(EventType::Merge) + run.count(EventType::Unmerge);
+  EXPECT_LE(run.world().stats().active_bodies, 2) << "all is merged";
+  run.until(until);
+  return run.count(EventType::Merge) + run.count(EventType::Unmerge) - before;
+}
+
+TEST(DecidedUnmerge, AWallOnTheGroundStaysInOnePiece) {
+  EXPECT_EQ(eventsAfterSettling(wall(12, 12), 8.0), 0);
+}
+
+TEST(DecidedUnmerge, AWallOnASwingingPlatformStaysInOnePiece) {
+  EXPECT_EQ(eventsAfterSettling(wallOnSwingingPlatform(12, 12, 0.4, 10.0), 25.0), 0);
+}
+
+/// The friction below carries the wall: its mass times the platform's acceleration.
+TEST(DecidedUnmerge, TheFrictionBelowASwingingWallIsThatOfItsMotion) {
+  Scene scene = wallOnSwingingPlatform(12, 12, 0.4, 4.0);
+  scene.settings.unmerging.rule = UnmergingRule::Decided;
+  Simulation run(scene, Mode::Merge);
+  run.until(8.0);
+  double largest = 0.0, off = 0.0, mass = 0.0;
+  for (const BodyInfo& b : run.world().bodies()) {
+    if (b.motion == Motion::Dynamic) mass += b.mass;
+  }
+  for (int i = 0; i < 400; ++i) {
+    const double v = run.now().bodies[0].v.x();
+    run.steps(1);
+    const Snapshot now = run.now();
+    const double wanted = mass * (now.bodies[0].v.x() - v);
+    double friction = 0.0;
+    for (const ContactView& c : now.contacts) {
+      if (c.a != BodyId{0}) continue;
+      friction += (c.lambda_n * c.normal + c.lambda_t * perpendicular(c.normal)).x();
+    }
+    largest = std::max(largest, std::abs(wanted));
+    off = std::max(off, std::abs(friction - wanted));
+  }
+  EXPECT_LT(off, 0.06 * largest);
+}
+
+TEST(DecidedUnmerge, SaysWhichMotionItDecidedFromAndCitesNoEquation) {
+  Simulation run(heavyTop(5, 11.448, 20.0), Mode::Merge, kDecidedRule, true);
+  bool found = false;
+  while (run.world().time() < 5.0 && !found) {
+    run.steps(1);
+    for (const Decision& d : run.world().notes().decisions) {
+      if (d.criterion != "motion" || d.verdict != "unmerge") continue;
+      found = true;
+      EXPECT_GT(d.value, d.threshold);
+      EXPECT_EQ(d.equation, "");
+      EXPECT_EQ(d.stage, "Unmerge");
+    }
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(DecidedUnmerge, GoesOnFromASavedStateAsIfItHadNotBeenSaved) {
+  const Scene scene = parseScene(heavyTop(4, 14.0, 20.0), "test.toml", kDecidedRule);
+  World straight(scene, {.mode = Mode::Merge, .timings = false});
+  for (int i = 0; i < 180; ++i) straight.step();  // while the ground turns
+  World restored(scene, {.mode = Mode::Merge, .timings = false});
+  restored.restore(straight.save(), "test");
+  for (int i = 0; i < 200; ++i) {
+    straight.step();
+    restored.step();
+  }
+  EXPECT_EQ(straight.save(), restored.save());
+}
+
+}  // namespace
+}  // namespace merge2d
