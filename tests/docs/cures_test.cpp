@@ -106,6 +106,7 @@ TEST(Cures, ACollectionSleepsWhenTheForcesInsideCarryItsWeight) {
 TEST(Cures, UnderThePapersRuleACollectionSleepsWhateverTheForcesInside) {
   Simulation run(wall(5, 40), Mode::MergeSleep);
   Scene literal = wall(5, 40);
+  literal.settings.merging.rule = MergingRule::Paper;
   literal.settings.unmerging.rule = UnmergingRule::Paper;
   Simulation paper(literal, Mode::MergeSleep);
   const auto timeToSleep = [](Simulation& s) {
