@@ -140,9 +140,9 @@ struct BlockWatch {
   std::uint8_t bits = kWatched;
 };
 
-/// The load that a frame's motion puts on everything at rest in it: the velocity that it gives at the
-/// middle of the members' box, in two directions; the change of that over one size, along and across;
-/// and the spin times the size. Linear, so that loads add up [m/s].
+/// The load that a frame's motion puts on everything at rest in it: the velocity that it gives at
+/// the middle of the members' box, in two directions; the change of that over one size, along and
+/// across; and the spin times the size. Linear, so that loads add up [m/s].
 using FrameLoad = std::array<double, 5>;
 
 /// A load that the contacts inside were found to carry without relative motion, and their impulses.
@@ -156,12 +156,11 @@ struct Witness {
 struct LoadCertificate {
   static constexpr std::size_t kMost = 8;  ///< witnesses
   using Weights = std::array<double, kMost>;
-  using Gram = std::array<double, kMost * kMost>;
 
   std::vector<std::uint32_t> columns;  ///< members on which something outside acts, in any witness
   std::vector<Witness> witnesses;
-  Gram gram{};        ///< products of their loads
-  Weights weights{};  ///< of the load that was carried last
+  std::vector<double> gram;  ///< products of their loads: that of i and j at kMost i + j
+  Weights weights{};         ///< of the load that was carried last
   /// Of a floating collection: the member whose rows follow from those of the others.
   std::uint32_t heaviest = ~0u;
   bool lambda_stale = false;       ///< blocks and joints hold other impulses than the weights say

@@ -214,8 +214,8 @@ struct Projection {
 };
 
 /// The nearest combination of the first `n` loads of `gram` to one of products `b` and square `xx`.
-Projection project(const LoadCertificate::Gram& gram, const LoadCertificate::Weights& b,
-                   std::size_t n, double xx) {
+Projection project(std::span<const double> gram, const LoadCertificate::Weights& b, std::size_t n,
+                   double xx) {
   Projection p{nonNegativeFit(gram, b, n), xx};
   for (std::size_t i = 0; i < n; ++i) {
     p.left -= 2.0 * p.weights[i] * b[i];
@@ -249,6 +249,7 @@ namespace {
 
 void fillGram(LoadCertificate& proof) {
   const std::size_t n = proof.witnesses.size();
+  proof.gram.resize(kMost * kMost);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       proof.gram[i * kMost + j] = product(proof.witnesses[i], proof.witnesses[j]);
@@ -258,7 +259,7 @@ void fillGram(LoadCertificate& proof) {
 
 /// How far a witness is from the cone of the others, squared.
 double worthOf(const LoadCertificate& proof, std::size_t which) {
-  LoadCertificate::Gram gram{};
+  std::array<double, kMost * kMost> gram{};
   LoadCertificate::Weights b{};
   std::size_t n = 0;
   for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {

@@ -13,8 +13,7 @@ using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSize, 1>;
 
 class NonNegativeFit {
  public:
-  NonNegativeFit(const LoadCertificate::Gram& gram, const LoadCertificate::Weights& b,
-                 std::size_t n)
+  NonNegativeFit(std::span<const double> gram, const LoadCertificate::Weights& b, std::size_t n)
       : gram_(gram), b_(b), n_(n) {}
 
   LoadCertificate::Weights run() {
@@ -84,7 +83,7 @@ class NonNegativeFit {
     return feasible || m == 0;
   }
 
-  const LoadCertificate::Gram& gram_;
+  std::span<const double> gram_;
   const LoadCertificate::Weights& b_;
   std::size_t n_;
   LoadCertificate::Weights w_{};
@@ -93,7 +92,7 @@ class NonNegativeFit {
 
 }  // namespace
 
-LoadCertificate::Weights nonNegativeFit(const LoadCertificate::Gram& gram,
+LoadCertificate::Weights nonNegativeFit(std::span<const double> gram,
                                         const LoadCertificate::Weights& b, std::size_t n) {
   return NonNegativeFit(gram, b, n).run();
 }

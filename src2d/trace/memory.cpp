@@ -15,6 +15,12 @@ std::size_t bytesOfBroadphase(const Broadphase& b) {
   return total;
 }
 
+std::size_t bytesOfProofs(const LoadCertificate& proof) {
+  std::size_t total = bytesOf(proof.columns, proof.witnesses, proof.gram);
+  for (const Witness& witness : proof.witnesses) total += bytesOf(witness.outer, witness.lambda);
+  return total;
+}
+
 std::size_t bytesOfState(const State& s) {
   std::size_t total =
       bytesOf(s.colliders, s.collider_bounds, s.shape_collider, s.shape_body, s.first_sibling,
@@ -25,7 +31,8 @@ std::size_t bytesOfState(const State& s) {
   for (const Collection& c : s.collections) {
     total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.watches, c.pivots,
                      c.leaning, c.cut_welds, c.spare, c.stood, c.loosened, c.welds, c.weld_at,
-                     c.weld_of, c.joints, c.push);
+                     c.weld_of, c.joints, c.push) +
+             bytesOfProofs(c.certificate);
   }
   return total;
 }
@@ -43,8 +50,8 @@ std::size_t bytesOfScratch(const Scratch& s) {
                  s.moved, s.moved_flag, s.candidates, s.touching, s.near_candidates, s.near_refined,
                  s.paired_with, s.meetings, s.seeds, s.stirred, s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
-                 s.push_stale, s.others, s.doubted, s.overloaded_joints, s.leant, s.ready,
-                 s.restless_bodies, s.shaken) +
+                 s.outer_loads, s.load_place, s.doubts, s.trial_u, s.push_stale, s.others,
+                 s.doubted, s.overloaded_joints, s.leant, s.ready, s.restless_bodies, s.shaken) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order) +
          bytesOfParts(s.rigid_parts) + bytesOfBuffers(s.nncg) + s.sets.memoryBytes();

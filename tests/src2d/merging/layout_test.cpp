@@ -99,7 +99,7 @@ TEST(Layout, WhatIsKeptIsWhatWouldBeMadeAnew) {
 TEST(Layout, IsKeptInEachStepWhereNothingHasWoken) {
   World world(parseScene(kRain, "rain.toml"), {.mode = Mode::Merge, .timings = false});
   int compared = 0, woken = 0;
-  for (int step = 0; step < 1500; ++step) {
+  for (int step = 0; step < 2000; ++step) {
     world.step();
     forEachCollection(world, [&](const Collection& kept, const Collection& fresh) {
       if (!hasWoken(kept)) expectTheSameLayout(kept, fresh, step);

@@ -15,7 +15,7 @@ using Vector = std::array<double, 3>;
 double dot(const Vector& x, const Vector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
 Weights fit(const std::vector<Vector>& of, const Vector& x) {
-  LoadCertificate::Gram gram{};
+  std::array<double, LoadCertificate::kMost * LoadCertificate::kMost> gram{};
   Weights b{};
   for (std::size_t i = 0; i < of.size(); ++i) {
     b[i] = dot(of[i], x);
