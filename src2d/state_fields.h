@@ -181,9 +181,8 @@ void fields(Ar& ar, Some<Witness> auto& w) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<LoadCertificate> auto& c) {
-  auto& [columns, witnesses, gram, weights, heaviest, lambda_stale, push_stale, in_doubt,
-         since_blow] = c;
-  ar(columns, witnesses, gram, weights, heaviest, lambda_stale, push_stale, in_doubt, since_blow);
+  auto& [columns, witnesses, gram, weights, heaviest, lambda_stale, push_stale, in_doubt] = c;
+  ar(columns, witnesses, gram, weights, heaviest, lambda_stale, push_stale, in_doubt);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
@@ -191,12 +190,12 @@ void fields(Ar& ar, Some<Collection> auto& c) {
          cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds,
          weld_at, weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up,
          struck, stirred, refusals, patience, hastened_in, hastened_every, lingering, residual,
-         settled, rested, refuted, jolted, certificate] = c;
+         settled, rested, refuted, jolted, since_blow, certificate] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
      cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
      weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up, struck,
      stirred, refusals, patience, hastened_in, hastened_every, lingering, residual, settled, rested,
-     refuted, jolted, certificate);
+     refuted, jolted, since_blow, certificate);
 }
 
 template <class Ar>

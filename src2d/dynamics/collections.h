@@ -163,10 +163,9 @@ struct LoadCertificate {
   Weights weights{};         ///< of the load that was carried last
   /// Of a floating collection: the member whose rows follow from those of the others.
   std::uint32_t heaviest = ~0u;
-  bool lambda_stale = false;       ///< blocks and joints hold other impulses than the weights say
-  bool push_stale = false;         ///< Collection::push is not that of the impulses
-  bool in_doubt = true;            ///< no proof has been found yet for the load
-  std::int16_t since_blow = 1000;  ///< steps since something touched or hit it, at most 1,000
+  bool lambda_stale = false;  ///< blocks and joints hold other impulses than the weights say
+  bool push_stale = false;    ///< Collection::push is not that of the impulses
+  bool in_doubt = true;       ///< no proof has been found yet for the load
 };
 
 /// Bodies simulated as one (Section 4).
@@ -217,7 +216,8 @@ struct Collection {
   std::int8_t calm = 0;     ///< steps for which it has been so, in a round (sweep.cpp)
   bool refuted = false;     ///< a closer look found that nothing parts, and nothing is new
   std::uint8_t jolted = 0;  ///< the most of its members': Body::jolted
-  LoadCertificate certificate;
+  std::int16_t since_blow = 1000;  ///< steps since something touched or hit it, at most 1,000
+  std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
 
   bool waitsLong() const { return patience > 0 && refusals == kMostRefusals; }
 };

@@ -16,20 +16,13 @@ namespace {
 
 constexpr std::int16_t kLongAgo = 1000;  // steps
 
-/// Calls `note(certificate)` for the collection that a body is a member of.
-template <class Note>
-void atCollectionOf(State& state, BodyId b, Note&& note) {
-  if (state.isCollection(state[b].rigid)) note(state.collection(state[b].rigid).certificate);
-}
-
 /// Notes what is new: a touch, a hit or an impulse; and a force that begins or ends.
 void notePerturbations(State& state, const Scratch& scratch) {
   for (Collection& c : state.collections) {
-    auto& since = c.certificate.since_blow;
-    since = std::min<std::int16_t>(kLongAgo, static_cast<std::int16_t>(since + 1));
+    c.since_blow = std::min<std::int16_t>(kLongAgo, static_cast<std::int16_t>(c.since_blow + 1));
   }
   const auto blow = [&](BodyId b) {
-    atCollectionOf(state, b, [](LoadCertificate& proof) { proof.since_blow = 0; });
+    if (state.isCollection(state[b].rigid)) state.collection(state[b].rigid).since_blow = 0;
   };
   for (const Meeting& m : scratch.meetings) {
     blow(scratch.pairs[m.pair].a);
@@ -37,13 +30,27 @@ void notePerturbations(State& state, const Scratch& scratch) {
   }
   for (const Kick& kick : scratch.kicks) blow(kick.body);
   for (const BodyId b : scratch.stirred) {
-    atCollectionOf(state, b, [](LoadCertificate& proof) { proof.in_doubt = true; });
+    if (!state.isCollection(state[b].rigid)) continue;
+    for (LoadCertificate& proof : state.collection(state[b].rigid).certificate) {
+      proof.in_doubt = true;
+    }
   }
 }
 
+/// A certificate without proofs for a collection that has none.
+void openCertificate(const State& state, Collection& c) {
+  if (!c.certificate.empty()) return;
+  LoadCertificate& proof = c.certificate.emplace_back();
+  if (!state[c.rigid].floating()) return;
+  const auto lighter = [&](BodyId a, BodyId b) { return state[a].mass < state[b].mass; };
+  proof.heaviest =
+      static_cast<std::uint32_t>(std::ranges::max_element(c.members, lighter) - c.members.begin());
+}
+
 Doubt doubtAbout(const State& state, const Scratch& scratch, Collection& c) {
-  LoadCertificate& proof = c.certificate;
-  if (proof.since_blow < kDecided.blow_steps || c.follow_up > 0) return Doubt::Blow;
+  openCertificate(state, c);
+  LoadCertificate& proof = c.certificate.front();
+  if (c.since_blow < kDecided.blow_steps || c.follow_up > 0) return Doubt::Blow;
   if (proof.in_doubt || !covers(state, c, loadOn(state, scratch, c))) return Doubt::Load;
   writeImpulses(c);
   return anyJointBreaks(state, c) ? Doubt::Load : Doubt::None;
@@ -81,8 +88,8 @@ void spreadDoubts(const State& state, Scratch& scratch) {
 /// Impulses and pushes that were not looked at while the collection was quiet.
 void refresh(const State& state, Collection& c) {
   writeImpulses(c);
-  if (!c.certificate.push_stale) return;
-  c.certificate.push_stale = false;
+  if (!c.certificate.front().push_stale) return;
+  c.certificate.front().push_stale = false;
   layOutPush(state, c);
 }
 

@@ -172,7 +172,7 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c) {
 /// Remembers the impulses that carry today's load, and looks whether a load beyond it is carried
 /// too: one that swings then finds its proof before it gets there.
 void prove(const State& state, Scratch& scratch, Collection& c) {
-  LoadCertificate& proof = c.certificate;
+  LoadCertificate& proof = c.certificate.front();
   const Witness load = asWitness(state, c, loadOn(state, scratch, c));
   remember(c, Witness(load));
   if (proof.witnesses.size() < 2) return;
@@ -199,7 +199,7 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   Noted noted(scratch.notes);
   const bool cut = cutMovers(state, scratch, c);
   noted.close();
-  c.settled = !cut && !c.certificate.in_doubt;
+  c.settled = !cut && !c.certificate.front().in_doubt;
   if (c.settled) return prove(state, scratch, c);
   if (!cut) return;
   const Parts parts = componentsOf(c);

@@ -159,8 +159,8 @@ void solve(State& state, Scratch& scratch, InnerSystem& s) {
   for (const std::uint32_t slot : s.slots) {
     Collection& c = state.collections[slot];
     c.residual = static_cast<float>(left);
-    c.certificate.in_doubt = left > tolerance;
-    c.certificate.push_stale = true;
+    c.certificate.front().in_doubt = left > tolerance;
+    c.certificate.front().push_stale = true;
   }
 }
 
@@ -181,7 +181,7 @@ void startAtRest(const State& state, Scratch& scratch, Collection& c, const Witn
   for (const Weld& weld : c.welds) u[index(weld.a)] = u[index(weld.b)] = {};
   for (const JointBlock& k : c.joints) u[k.a] = u[k.b] = {};
   for (std::uint32_t m = 0; m < c.members.size(); ++m) {
-    if (m == c.certificate.heaviest) continue;
+    if (m == c.certificate.front().heaviest) continue;
     const Body& body = state[c.members[m]];
     const Twist d = loadOnMember(state, c, load, m);
     u[index(c.members[m])] = {d.vx + c.push[m].vx, d.vy + c.push[m].vy, d.omega + c.push[m].omega,

@@ -218,17 +218,6 @@ void forgetJudgement(Collection& c) {
   c.borne = {};
 }
 
-/// Proofs are for the members and contacts of a layout.
-void forgetProofs(const State& state, Collection& c) {
-  const std::int16_t since_blow = c.certificate.since_blow;
-  c.certificate = {};
-  c.certificate.since_blow = since_blow;
-  if (!state[c.rigid].floating()) return;
-  const auto lighter = [&](BodyId a, BodyId b) { return state[a].mass < state[b].mass; };
-  c.certificate.heaviest =
-      static_cast<std::uint32_t>(std::ranges::max_element(c.members, lighter) - c.members.begin());
-}
-
 }  // namespace
 
 // The push is the start of the next sweep, so that no pass over the rows is needed for a warm
@@ -280,7 +269,7 @@ void layOut(State& state, Collection& c) {
   markBridges(c);
   layOutBlocks(state, c);
   forgetJudgement(c);
-  forgetProofs(state, c);
+  c.certificate.clear();  // proofs are for the members and contacts of a layout
   findGrips(state, c);
   layOutPush(state, c);
   c.stale = false;

@@ -168,7 +168,7 @@ CollectionLoad loadOn(const State& state, const Scratch& scratch, const Collecti
   load.norm = std::sqrt(dot(load.frame, load.frame));
   double outer = 0.0;
   for (const OuterLoad& o : load.outer) {
-    if (o.member == c.certificate.heaviest) continue;
+    if (o.member == c.certificate.front().heaviest) continue;
     const Twist gain = gainOf(state, c, load, o);
     outer += dot(gain, gain);
   }
@@ -184,7 +184,7 @@ constexpr std::size_t kMost = LoadCertificate::kMost;
 double product(const State& state, const Collection& c, const CollectionLoad& load,
                const Witness& witness) {
   double sum = dot(load.frame, witness.frame);
-  const auto& columns = c.certificate.columns;
+  const auto& columns = c.certificate.front().columns;
   std::size_t k = 0;
   for (const OuterLoad& o : load.outer) {
     while (k < columns.size() && columns[k] < o.member) ++k;
@@ -231,7 +231,7 @@ Projection project(std::span<const double> gram, const LoadCertificate::Weights&
 bool covers(const State& state, Collection& c, const CollectionLoad& load) {
   constexpr double kFrame = 0.9e-3, kOuter = 0.9e-2;  // of the load that may be left over
   constexpr double kLeast = 2e-6;                     // [m/s]
-  LoadCertificate& proof = c.certificate;
+  LoadCertificate& proof = c.certificate.front();
   const std::size_t n = proof.witnesses.size();
   if (n == 0) return false;
   LoadCertificate::Weights b{};
@@ -313,7 +313,7 @@ void addColumns(LoadCertificate& proof, const CollectionLoad& load) {
 }  // namespace
 
 void remember(Collection& c, Witness&& load) {
-  LoadCertificate& proof = c.certificate;
+  LoadCertificate& proof = c.certificate.front();
   makePlace(proof);
   Witness& witness = proof.witnesses.emplace_back(std::move(load));
   witness.lambda.clear();
@@ -327,7 +327,7 @@ void remember(Collection& c, Witness&& load) {
 }
 
 Witness asWitness(const State& state, Collection& c, const CollectionLoad& load) {
-  LoadCertificate& proof = c.certificate;
+  LoadCertificate& proof = c.certificate.front();
   addColumns(proof, load);
   Witness witness;
   witness.frame = load.frame;
@@ -373,7 +373,7 @@ Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
   const double along = load.frame[2] / size, across = load.frame[3] / size;
   Twist u{load.frame[0] + along * arm.x() - across * arm.y(),
           load.frame[1] + along * arm.y() + across * arm.x(), load.frame[4] / size};
-  const auto& columns = c.certificate.columns;
+  const auto& columns = c.certificate.front().columns;
   const auto at = std::ranges::lower_bound(columns, member);
   if (at != columns.end() && *at == member) {
     const Twist& e = load.outer[static_cast<std::size_t>(at - columns.begin())];
@@ -385,7 +385,7 @@ Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
 }
 
 void writeImpulses(Collection& c) {
-  LoadCertificate& proof = c.certificate;
+  LoadCertificate& proof = c.certificate.front();
   if (!proof.lambda_stale) return;
   proof.lambda_stale = false;
   proof.push_stale = true;

@@ -15,9 +15,12 @@ std::size_t bytesOfBroadphase(const Broadphase& b) {
   return total;
 }
 
-std::size_t bytesOfProofs(const LoadCertificate& proof) {
-  std::size_t total = bytesOf(proof.columns, proof.witnesses, proof.gram);
-  for (const Witness& witness : proof.witnesses) total += bytesOf(witness.outer, witness.lambda);
+std::size_t bytesOfProofs(const Collection& c) {
+  std::size_t total = bytesOf(c.certificate);
+  for (const LoadCertificate& proof : c.certificate) {
+    total += bytesOf(proof.columns, proof.witnesses, proof.gram);
+    for (const Witness& witness : proof.witnesses) total += bytesOf(witness.outer, witness.lambda);
+  }
   return total;
 }
 
@@ -32,7 +35,7 @@ std::size_t bytesOfState(const State& s) {
     total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.watches, c.pivots,
                      c.leaning, c.cut_welds, c.spare, c.stood, c.loosened, c.welds, c.weld_at,
                      c.weld_of, c.joints, c.push) +
-             bytesOfProofs(c.certificate);
+             bytesOfProofs(c);
   }
   return total;
 }
