@@ -187,15 +187,15 @@ void fields(Ar& ar, Some<LoadCertificate> auto& c) {
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
-         cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds,
-         weld_at, weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up,
-         struck, stirred, refusals, patience, hastened_in, hastened_every, lingering, residual,
-         settled, rested, refuted, jolted, since_blow, certificate] = c;
+         cut_welds, spare, stood, loosened, judged, pivots_stale, stale, points, active_blocks,
+         residual, welds, weld_at, weld_of, joints, push, frame_v, frame_gain, frame_known,
+         follow_up, struck, stirred, refusals, patience, hastened_in, hastened_every, lingering,
+         settled, rested, refuted, jolted, since_blow, borne, certificate] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
-     cut_welds, spare, stood, loosened, judged, pivots_stale, points, active_blocks, welds, weld_at,
-     weld_of, joints, push, stale, borne, frame_v, frame_gain, frame_known, follow_up, struck,
-     stirred, refusals, patience, hastened_in, hastened_every, lingering, residual, settled, rested,
-     refuted, jolted, since_blow, certificate);
+     cut_welds, spare, stood, loosened, judged, pivots_stale, stale, points, active_blocks,
+     residual, welds, weld_at, weld_of, joints, push, frame_v, frame_gain, frame_known, follow_up,
+     struck, stirred, refusals, patience, hastened_in, hastened_every, lingering, settled, rested,
+     refuted, jolted, since_blow, borne, certificate);
 }
 
 template <class Ar>

@@ -192,15 +192,15 @@ struct Collection {
   std::vector<std::uint32_t> loosened;
   bool judged = false;  ///< asked since it was laid out whether it holds together
   bool pivots_stale = true;
+  bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
   int points = 0;                   ///< contact points of all blocks
   std::uint32_t active_blocks = 0;  ///< the first ones; the others are swept in disturbed steps
-  std::vector<Weld> welds;          ///< ascending by pair
+  float residual = 0.0F;    ///< largest change of a member's velocity in the last sweep [m/s]
+  std::vector<Weld> welds;  ///< ascending by pair
   /// Welds of node n, a member or at last the frame: weld_of[weld_at[n] … weld_at[n + 1]].
   std::vector<std::uint32_t> weld_at, weld_of;
   std::vector<JointBlock> joints;  ///< those that act inside; λ is live here
   std::vector<Twist> push;         ///< per member: Δu by the inner forces, in the frame
-  bool stale = false;              ///< contacts changed: welds and blocks must be laid out anew
-  LoadRange borne;                 ///< that its parts were found to stand in (footing.h)
   Vec2 frame_v = Vec2::Zero(), frame_gain = Vec2::Zero();  ///< velocity, and its last gain [m/s]
   std::int16_t frame_known = 0;                            ///< steps since it was formed, up to 2
   std::int16_t follow_up = 0;  ///< steps for which a disturbance is still followed
@@ -211,12 +211,12 @@ struct Collection {
   std::int16_t hastened_in = 0;     ///< steps before slow sweeps are hastened (slow_sweep.h)
   std::int16_t hastened_every = 0;  ///< and how many there were the last time
   float lingering = 0.0F;           ///< what the last refinement did not quieten [m/s]
-  float residual = 0.0F;    ///< largest change of a member's velocity in the last sweep [m/s]
-  bool settled = false;     ///< inner forces did not change in the last sweep
-  std::int8_t calm = 0;     ///< steps for which it has been so, in a round (sweep.cpp)
-  bool refuted = false;     ///< a closer look found that nothing parts, and nothing is new
-  std::uint8_t jolted = 0;  ///< the most of its members': Body::jolted
-  std::int16_t since_blow = 1000;  ///< steps since something touched or hit it, at most 1,000
+  bool settled = false;             ///< inner forces did not change in the last sweep
+  std::int8_t calm = 0;             ///< steps for which it has been so, in a round (sweep.cpp)
+  bool refuted = false;             ///< a closer look found that nothing parts, and nothing is new
+  std::uint8_t jolted = 0;          ///< the most of its members': Body::jolted
+  std::int16_t since_blow = 1000;   ///< steps since something touched or hit it, at most 1,000
+  LoadRange borne;                  ///< that its parts were found to stand in (footing.h)
   std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
 
   bool waitsLong() const { return patience > 0 && refusals == kMostRefusals; }
