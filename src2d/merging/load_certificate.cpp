@@ -149,11 +149,14 @@ double dot(const FrameLoad& x, const FrameLoad& y) {
 
 CollectionLoad loadOn(const State& state, const Scratch& scratch, const Collection& c) {
   const auto slot = static_cast<std::uint32_t>(&c - state.collections.data());
-  const auto range = std::ranges::equal_range(scratch.outer_loads, slot, {}, &OuterLoad::slot);
+  const auto& all = scratch.outer_loads;
+  const auto first = std::ranges::lower_bound(all, slot, {}, &OuterLoad::slot);
+  const auto last = std::ranges::upper_bound(all, slot, {}, &OuterLoad::slot);
   const Rigid& r = state[c.rigid];
   const OrientedBox& box = state.extent(r).box;
   CollectionLoad load;
-  load.outer = {range.begin(), range.end()};
+  load.outer = std::span(all).subspan(static_cast<std::size_t>(first - all.begin()),
+                                      static_cast<std::size_t>(last - first));
   load.back = r.rotation.inverse();
   load.size = box.half.norm();
   const FrameMotion after = motionAfter(state, c, load.outer);
@@ -178,7 +181,7 @@ CollectionLoad loadOn(const State& state, const Scratch& scratch, const Collecti
 
 namespace {
 
-constexpr std::size_t kMost = LoadCertificate::kMost;
+constexpr std::size_t kWitnesses = LoadCertificate::kMost;
 
 /// x · xᵢ of a load and a witness.
 double product(const State& state, const Collection& c, const CollectionLoad& load,
@@ -220,7 +223,7 @@ Projection project(std::span<const double> gram, const LoadCertificate::Weights&
   for (std::size_t i = 0; i < n; ++i) {
     p.left -= 2.0 * p.weights[i] * b[i];
     for (std::size_t j = 0; j < n; ++j) {
-      p.left += p.weights[i] * p.weights[j] * gram[i * kMost + j];
+      p.left += p.weights[i] * p.weights[j] * gram[i * kWitnesses + j];
     }
   }
   return p;
@@ -249,34 +252,34 @@ namespace {
 
 void fillGram(LoadCertificate& proof) {
   const std::size_t n = proof.witnesses.size();
-  proof.gram.resize(kMost * kMost);
+  proof.gram.resize(kWitnesses * kWitnesses);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
-      proof.gram[i * kMost + j] = product(proof.witnesses[i], proof.witnesses[j]);
+      proof.gram[i * kWitnesses + j] = product(proof.witnesses[i], proof.witnesses[j]);
     }
   }
 }
 
 /// How far a witness is from the cone of the others, squared.
 double worthOf(const LoadCertificate& proof, std::size_t which) {
-  std::array<double, kMost * kMost> gram{};
+  std::array<double, kWitnesses * kWitnesses> gram{};
   LoadCertificate::Weights b{};
   std::size_t n = 0;
   for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
     if (i == which) continue;
     std::size_t m = 0;
     for (std::size_t j = 0; j < proof.witnesses.size(); ++j) {
-      if (j != which) gram[n * kMost + m++] = proof.gram[i * kMost + j];
+      if (j != which) gram[n * kWitnesses + m++] = proof.gram[i * kWitnesses + j];
     }
-    b[n++] = proof.gram[i * kMost + which];
+    b[n++] = proof.gram[i * kWitnesses + which];
   }
-  const double xx = proof.gram[which * kMost + which];
+  const double xx = proof.gram[which * kWitnesses + which];
   return project(gram, b, n, xx).left / xx;
 }
 
 /// Drops the witness without which the others lose least.
 void makePlace(LoadCertificate& proof) {
-  if (proof.witnesses.size() < kMost) return;
+  if (proof.witnesses.size() < kWitnesses) return;
   std::size_t least = 0;
   double worth = 1e300;
   for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {

@@ -7,9 +7,9 @@
 namespace merge2d {
 namespace {
 
-constexpr std::size_t kSize = LoadCertificate::kMost;
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSize, kSize>;
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSize, 1>;
+constexpr std::size_t kFitted = LoadCertificate::kMost;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kFitted, kFitted>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFitted, 1>;
 
 class NonNegativeFit {
  public:
@@ -17,7 +17,7 @@ class NonNegativeFit {
       : gram_(gram), b_(b), n_(n) {}
 
   LoadCertificate::Weights run() {
-    for (std::size_t round = 0; round < 3 * kSize; ++round) {
+    for (std::size_t round = 0; round < 3 * kFitted; ++round) {
       const std::size_t next = steepest();
       if (next == n_) break;
       free_[next] = true;
@@ -35,9 +35,9 @@ class NonNegativeFit {
     for (std::size_t i = 0; i < n_; ++i) {
       if (free_[i]) continue;
       double slope = b_[i];
-      for (std::size_t j = 0; j < n_; ++j) slope -= gram_[i * kSize + j] * w_[j];
-      const double gain = slope / std::sqrt(gram_[i * kSize + i]);
-      const double noise = 1e-9 * std::sqrt(gram_[i * kSize + i]);
+      for (std::size_t j = 0; j < n_; ++j) slope -= gram_[i * kFitted + j] * w_[j];
+      const double gain = slope / std::sqrt(gram_[i * kFitted + i]);
+      const double noise = 1e-9 * std::sqrt(gram_[i * kFitted + i]);
       if (gain > std::max(most, noise)) {
         best = i;
         most = gain;
@@ -49,7 +49,7 @@ class NonNegativeFit {
   /// Solves for the free weights. Where one would be negative, goes as far as it may and binds it.
   bool toFeasible() {
     constexpr double kRidge = 1e-12;
-    std::array<std::size_t, kSize> of{};
+    std::array<std::size_t, kFitted> of{};
     Eigen::Index m = 0;
     for (std::size_t i = 0; i < n_; ++i) {
       if (free_[i]) of[static_cast<std::size_t>(m++)] = i;
@@ -60,7 +60,7 @@ class NonNegativeFit {
       const std::size_t p = of[static_cast<std::size_t>(i)];
       b[i] = b_[p];
       for (Eigen::Index j = 0; j < m; ++j) {
-        g(i, j) = gram_[p * kSize + of[static_cast<std::size_t>(j)]];
+        g(i, j) = gram_[p * kFitted + of[static_cast<std::size_t>(j)]];
       }
       g(i, i) *= 1.0 + kRidge;
     }
@@ -87,7 +87,7 @@ class NonNegativeFit {
   const LoadCertificate::Weights& b_;
   std::size_t n_;
   LoadCertificate::Weights w_{};
-  std::array<bool, kSize> free_{};
+  std::array<bool, kFitted> free_{};
 };
 
 }  // namespace
