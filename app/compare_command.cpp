@@ -8,6 +8,7 @@
 #include "app/comparison_charts.h"
 #include "app/comparison_report.h"
 #include "app/console.h"
+#include "app/folder_lock.h"
 #include "app/interrupt.h"
 #include "app/output_file.h"
 #include "app/parse.h"
@@ -93,17 +94,23 @@ void check(const CompareOptions& options) {
 /// The files of a comparison: asked for before it begins, so that nobody waits for nothing.
 class Products {
  public:
-  Products(const CompareOptions& options, const Scene& scene) : options_(options) {
+  Products(const CompareOptions& options, const Scene& scene)
+      : options_(options),
+        folder_(options.folder.empty() ? fs::path("frames") / scene.name / "compare"
+                                       : fs::path(options.folder)) {
+    std::vector<NamedOutput> outputs{{"--csv", options.csv}};
+    const auto charts = chartFiles(folder_, !options.no_timings);
+    if (!options.no_charts) {
+      for (const fs::path& chart : charts) outputs.push_back({"--output", chart.string()});
+    }
+    requireDistinct(outputs);
     if (!options.csv.empty()) {
       csv_.emplace(options.csv, Replaces{.everything = options.force, .ours = kComparisonCsvStart});
     }
     if (options.no_charts) return;
-    folder_ = options.folder.empty() ? fs::path("frames") / scene.name / "compare"
-                                     : fs::path(options.folder);
     made_.emplace(folder_);
-    for (const fs::path& chart : chartFiles(folder_, !options.no_timings)) {
-      requirePictureMayAppear(chart, options.force);
-    }
+    lock_.emplace(folder_);
+    for (const fs::path& chart : charts) requirePictureMayAppear(chart, options.force);
   }
 
   void writeTable(const Comparison& comparison) {
@@ -118,9 +125,10 @@ class Products {
 
  private:
   const CompareOptions& options_;
-  std::optional<OutputFile> csv_;
   fs::path folder_;  ///< of the charts
+  std::optional<OutputFile> csv_;
   std::optional<MadeFolder> made_;
+  std::optional<FolderLock> lock_;
 };
 
 void simulate(Comparison& comparison, const Console& console) {

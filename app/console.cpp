@@ -1,5 +1,6 @@
 #include "app/console.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -7,6 +8,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "app/interrupt.h"
 #include "src2d/core/error.h"
 #include "src2d/core/utf8.h"
 
@@ -25,7 +27,7 @@ bool terminal() {
 
 /// Lines with what they quote; `heading` is ours, and may have colours.
 void say(std::string_view lines, std::string_view heading = {}) {
-  fmt::print(stderr, "{}{}\n", heading, escaped(lines, "\n"));
+  sayRaw(fmt::format("{}{}\n", heading, escaped(lines, "\n")));
 }
 
 /// "error:" or "warning:", in colour where that can be seen (no-color.org).
@@ -34,12 +36,31 @@ std::string heading(std::string_view word, int color) {
   return fmt::format("\033[1;{}m{}:\033[0m ", color, word);
 }
 
-[[noreturn]] void failOutput() {
+}  // namespace
+
+void openStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0) continue;
+    // Opened the wrong way round, so that reading and writing still fail.
+    const int other_way = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    if (open("/dev/null", other_way) != stream) return;  // the lowest that is free
+  }
+}
+
+void failOutput() {
+  if (errno == EINTR) stopIfInterrupted();
+  if (errno == EPIPE) throw ReaderGone();
   throw IoError(fmt::format("cannot write to the standard output: {}",
                             std::generic_category().message(errno)));
 }
 
-}  // namespace
+void sayRaw(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+    if (written < 0) return;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
 
 void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) failOutput();

@@ -3,17 +3,33 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <string_view>
 
 #include "app/options.h"
 
 namespace merge2d {
 
-/// Writes to stdout. Throws IoError when that fails.
-void print(std::string_view text);
-/// Makes sure that everything printed has arrived. Throws IoError.
-void flushOutput();
+/// Opens /dev/null in place of a standard stream that is closed. Otherwise the next file that is
+/// opened would get its number, and messages would be written into it. To be called first of all.
+void openStandardStreams();
 
+/// The reader of the standard output has closed its end of the pipe, as `head` does.
+class ReaderGone : public std::runtime_error {
+ public:
+  ReaderGone() : std::runtime_error("nobody reads the standard output any more") {}
+};
+
+/// Writes to stdout. Throws what `failOutput` throws.
+void print(std::string_view text);
+/// Makes sure that everything printed has arrived. Throws what `failOutput` throws.
+void flushOutput();
+/// Throws the error of a write to stdout that failed with `errno`: ReaderGone, Interrupted
+/// or IoError.
+[[noreturn]] void failOutput();
+
+/// Writes to stderr. A message that cannot be written is lost: it never fails a command.
+void sayRaw(std::string_view text);
 /// "error: …" on stderr.
 void printError(std::string_view message);
 

@@ -51,6 +51,13 @@ std::string checkDrawing() {
   return canvas.description();
 }
 
+/// Sets a letter.
+std::string checkFont(Weight weight) {
+  const fs::path file = fontFile(weight);
+  Text().width("x", {.size = 12, .weight = weight});
+  return file.string();
+}
+
 std::string checkScenes() {
   const std::size_t scenes = builtinScenes().size();
   if (scenes == 0) throw IoError("there are no built-in scenes");
@@ -79,8 +86,8 @@ Check checkFfmpeg() {
 std::vector<Check> examine() {
   const std::string font_remedy = "install fonts-dejavu-core";
   return {attempt("OpenGL", "install libosmesa6", checkDrawing),
-          attempt("font", font_remedy, [] { return fontFile(Weight::Regular).string(); }),
-          attempt("bold font", font_remedy, [] { return fontFile(Weight::Bold).string(); }),
+          attempt("font", font_remedy, [] { return checkFont(Weight::Regular); }),
+          attempt("bold font", font_remedy, [] { return checkFont(Weight::Bold); }),
           attempt("scenes", "set MERGE2D_SCENES to their folder", checkScenes),
           checkFolder(),
           checkFfmpeg(),

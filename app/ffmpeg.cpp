@@ -1,18 +1,17 @@
 #include "app/ffmpeg.h"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <sstream>
 #include <system_error>
 
+#include "app/child_process.h"
 #include "app/output_file.h"
+#include "render/new_file.h"
 #include "src2d/core/error.h"
-
-extern char** environ;
 
 namespace merge2d {
 namespace {
@@ -26,21 +25,25 @@ std::string escapedPercents(const std::string& path) {
   return out;
 }
 
-/// Runs a program and returns what it returns to the shell.
-int runProgram(const fs::path& program, const std::vector<std::string>& arguments) {
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  pid_t child = 0;
-  const int failed = posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ);
-  if (failed != 0) {
-    throw IoError(fmt::format("cannot start {}: {}", program.string(),
-                              std::generic_category().message(failed)));
+/// ffmpeg takes a word that begins with "-" for an option, and "name:" for a protocol.
+std::string plainPath(const fs::path& path) {
+  const std::string text = path.string();
+  const std::string first = text.substr(0, text.find('/'));
+  const bool plain = !text.starts_with('-') && first.find(':') == std::string::npos;
+  return plain ? text : "./" + text;
+}
+
+/// What went wrong, in a line: the first message is about the cause, the others about what
+/// followed.
+std::string reasonOf(const ChildResult& result) {
+  std::istringstream lines(result.messages);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t source_end = line.starts_with('[') ? line.find("] ") : std::string::npos;
+    if (source_end != std::string::npos) line.erase(0, source_end + 2);  // "[libx264 @ 0x55…] "
+    if (line.find_first_not_of(" \t\r") != std::string::npos) return line;
   }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  if (result.signal == 0) return fmt::format("it returned {} without a word", result.code);
+  return fmt::format("signal {} ended it ({})", result.signal, strsignal(result.signal));
 }
 
 }  // namespace
@@ -64,7 +67,7 @@ std::vector<std::string> FfmpegJob::arguments(const fs::path& output) const {
   std::vector<std::string> all{"ffmpeg", "-framerate", std::to_string(fps)};
   if (first != 0) all.insert(all.end(), {"-start_number", std::to_string(first)});
   const fs::path frames = fs::path(escapedPercents(folder.string())) / "frame_%06d.png";
-  all.insert(all.end(), {"-i", frames.string()});
+  all.insert(all.end(), {"-i", plainPath(frames)});
   if (gif) {
     all.insert(all.end(), {"-vf",
                            "fps=25,split[a][b];[a]palettegen=stats_mode=diff[p];"
@@ -74,7 +77,7 @@ std::vector<std::string> FfmpegJob::arguments(const fs::path& output) const {
   } else {
     all.insert(all.end(), {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-movflags", "+faststart"});
   }
-  all.push_back(output.string());
+  all.push_back(plainPath(output));
   return all;
 }
 
@@ -87,19 +90,13 @@ std::string FfmpegJob::commandLine() const {
 }
 
 void runFfmpeg(const fs::path& program, const FfmpegJob& job) {
-  const fs::path output = job.output();
-  fs::path temporary = output;
-  temporary.replace_extension(".part" + output.extension().string());
-  std::vector<std::string> arguments = job.arguments(temporary);
+  NewFile film(job.output(), {.has_name = true});
+  std::vector<std::string> arguments = job.arguments(film.temporary());
   arguments.insert(arguments.begin() + 1, {"-y", "-nostdin", "-loglevel", "error"});
-  const int status = runProgram(program, arguments);
-  std::error_code failed;
-  if (status == 0) fs::rename(temporary, output, failed);
-  if (status == 0 && !failed) return;
-  std::error_code ignored;
-  fs::remove(temporary, ignored);
-  throw IoError(fmt::format("ffmpeg could not write {}; this is its command: {}", output.string(),
-                            job.commandLine()));
+  const ChildResult result = runChild(program, arguments);
+  if (result.code == 0) return film.finish();
+  throw IoError(fmt::format("ffmpeg could not write {}: {}; this is its command: {}",
+                            job.output().string(), reasonOf(result), job.commandLine()));
 }
 
 }  // namespace merge2d

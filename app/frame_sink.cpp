@@ -16,8 +16,9 @@ namespace fs = std::filesystem;
 class ParallelSink : public FrameSink {
  public:
   ParallelSink(const std::vector<BodyInfo>& bodies, const FrameStyle& style, const fs::path& folder,
-               bool resume)
-      : writer_(bodies, style, {.folder = folder, .workers = workers(), .resume = resume}) {}
+               FrameDigests& digests, bool resume)
+      : writer_(bodies, style,
+                {.folder = folder, .workers = workers(), .resume = resume, .digests = &digests}) {}
 
   void add(std::int64_t, const Snapshot& snapshot) override { writer_.add(snapshot); }
   void finish() override { writer_.finish(); }
@@ -38,26 +39,31 @@ class ParallelSink : public FrameSink {
 class PartialSink : public FrameSink {
  public:
   PartialSink(const std::vector<BodyInfo>& bodies, const FrameStyle& style, fs::path folder,
-              std::int64_t from, bool resume)
+              std::int64_t from, FrameDigests& digests, bool resume)
       : bodies_(bodies),
         style_(style),
         looks_(bodies),
         canvas_(style.width, style.height),
         folder_(std::move(folder)),
         from_(from),
+        digests_(digests),
         resume_(resume) {}
 
   void add(std::int64_t frame, const Snapshot& snapshot) override {
     const CollectionSlots slots = colors_.update(snapshot);
     if (frame < from_) return;
     const fs::path file = folder_ / frameName(frame);
-    if (resume_ && complete(file)) {
+    if (resume_ && digests_.holds(frame, file)) {
       ++counts_.kept;
       return;
     }
     const auto image =
         canvas_.draw(composeFrame(canvas_.text(), snapshot, bodies_, looks_, style_, slots));
-    savePng(file, image, {.alpha = style_.transparent, .description = describe(snapshot, style_)});
+    const auto png =
+        encodePng(image, {.alpha = style_.transparent, .description = describe(snapshot, style_)});
+    constexpr bool kDurable = false;  // a damaged one is drawn again
+    writeAtomically(file, png, kDurable);
+    digests_.note(frame, png);
     ++counts_.written;
   }
 
@@ -65,12 +71,6 @@ class PartialSink : public FrameSink {
   FrameCounts counts() const override { return counts_; }
 
  private:
-  bool complete(const fs::path& file) const {
-    if (!fs::is_regular_file(file)) return false;
-    const PngSummary found = inspectPng(readFileBytes(file));
-    return found.complete && found.width == style_.width && found.height == style_.height;
-  }
-
   const std::vector<BodyInfo>& bodies_;
   FrameStyle style_;
   BodyLooks looks_;
@@ -78,6 +78,7 @@ class PartialSink : public FrameSink {
   Canvas canvas_;
   fs::path folder_;
   std::int64_t from_;
+  FrameDigests& digests_;
   bool resume_;
   FrameCounts counts_;
 };
@@ -86,9 +87,9 @@ class PartialSink : public FrameSink {
 
 std::unique_ptr<FrameSink> makeFrameSink(const std::vector<BodyInfo>& bodies,
                                          const FrameStyle& style, const fs::path& folder,
-                                         const Film& film, bool resume) {
-  if (film.from == 0) return std::make_unique<ParallelSink>(bodies, style, folder, resume);
-  return std::make_unique<PartialSink>(bodies, style, folder, film.from, resume);
+                                         const Film& film, FrameDigests& digests, bool resume) {
+  if (film.from == 0) return std::make_unique<ParallelSink>(bodies, style, folder, digests, resume);
+  return std::make_unique<PartialSink>(bodies, style, folder, film.from, digests, resume);
 }
 
 }  // namespace merge2d

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/film.h"
+#include "render/frame_digests.h"
 #include "render/style.h"
 #include "src2d/trace/snapshot.h"
 
@@ -25,10 +26,11 @@ class FrameSink {
   virtual FrameCounts counts() const = 0;
 };
 
-/// `bodies` must outlive the sink.
+/// Notes the digests of what it writes; with `resume`, frames that are there with the digests noted
+/// are kept. `bodies` and `digests` must outlive the sink.
 std::unique_ptr<FrameSink> makeFrameSink(const std::vector<BodyInfo>& bodies,
                                          const FrameStyle& style,
                                          const std::filesystem::path& folder, const Film& film,
-                                         bool resume);
+                                         FrameDigests& digests, bool resume);
 
 }  // namespace merge2d

@@ -6,25 +6,14 @@
 #include <optional>
 #include <vector>
 
-#include "app/output_file.h"
+#include "app/folder_lock.h"
 #include "app/usage_error.h"
-#include "src2d/core/error.h"
+#include "render/sequence.h"
 
 namespace merge2d {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "frame_000012.png", or the temporary name of such a file.
-bool isFrame(std::string_view name) {
-  constexpr std::string_view kStart = "frame_";
-  constexpr std::size_t kDigits = 6;
-  if (!name.starts_with(kStart) || name.size() < kStart.size() + kDigits) return false;
-  const std::string_view digits = name.substr(kStart.size(), kDigits);
-  const std::string_view rest = name.substr(kStart.size() + kDigits);
-  return (rest == ".png" || rest == ".png.part") &&
-         std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
-}
 
 /// The names in a folder, sorted.
 std::vector<std::string> namesIn(const fs::path& folder) {
@@ -38,13 +27,14 @@ std::vector<std::string> namesIn(const fs::path& folder) {
 
 std::vector<std::string> framesIn(const fs::path& folder) {
   std::vector<std::string> names = namesIn(folder);
-  std::erase_if(names, [](const std::string& name) { return !isFrame(name); });
+  std::erase_if(names, [](const std::string& name) { return !frameNumber(name); });
   return names;
 }
 
 /// Lessons and comparisons are put beside the frames.
 void requireNothingForeign(const fs::path& folder) {
   for (const std::string& name : namesIn(folder)) {
+    if (name == FolderLock::kName || isTemporaryName(name)) continue;
     if (name == "lesson.html" || name == "stages" || name == "compare") continue;
     throw UsageError(
         fmt::format("{} holds files that merge2d did not write, such as {}; choose another folder "
@@ -55,13 +45,8 @@ void requireNothingForeign(const fs::path& folder) {
 
 }  // namespace
 
-void prepareFolder(const fs::path& folder, const Json& film, const Film& frames,
-                   const RenderOptions& options, const Console& console) {
-  if (!fs::exists(folder)) {
-    makeFolder(folder);
-    return;
-  }
-  if (!fs::is_directory(folder)) throw IoError(fmt::format("{} is not a folder", folder.string()));
+FrameDigests::Map framesToKeep(const fs::path& folder, const Json& film, const Film& frames,
+                               const RenderOptions& options) {
   const std::optional<Json> earlier = readRunFile(folder);
   if (!earlier && !options.force) requireNothingForeign(folder);
 
@@ -75,20 +60,27 @@ void prepareFolder(const fs::path& folder, const Json& film, const Film& frames,
   }
   const bool whole = frames.from == 0 && frames.to == frames.last;
   const bool same = earlier && changed.empty();
-  if (same && (options.resume || !whole)) return;
+  if (same && (options.resume || !whole)) return digestsOf(*earlier);
 
-  const std::vector<std::string> replaced = framesIn(folder);
-  if (!whole && replaced.size() > 1 && !options.force) {
+  const std::size_t replaced = framesIn(folder).size();
+  if (!whole && replaced > 1 && !options.force) {
     throw UsageError(
         fmt::format("{} frames in {} belong to another rendering: {} differs from what {} says; "
                     "choose another folder with --output, or say --force to remove them",
-                    replaced.size(), folder.string(), changed, run_file));
+                    replaced, folder.string(), changed, run_file));
   }
-  for (const std::string& name : replaced) fs::remove(folder / name);
-  if (!replaced.empty()) {
-    console.note(
-        fmt::format("{} earlier frames in {} are replaced", replaced.size(), folder.string()));
+  return {};
+}
+
+void removeOtherFrames(const fs::path& folder, const FrameDigests::Map& kept,
+                       const Console& console) {
+  removeRemains(folder);
+  std::size_t removed = 0;
+  for (const std::string& name : framesIn(folder)) {
+    if (!kept.contains(*frameNumber(name))) removed += fs::remove(folder / name) ? 1 : 0;
   }
+  if (removed == 0) return;
+  console.note(fmt::format("{} earlier frames in {} are replaced", removed, folder.string()));
 }
 
 }  // namespace merge2d

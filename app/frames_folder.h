@@ -8,10 +8,16 @@
 
 namespace merge2d {
 
-/// Makes the folder ready: makes it when it is missing, and removes frames of earlier renderings
-/// that would be taken for frames of this one. Throws UsageError where that would touch somebody
-/// else's files, or where --resume has nothing that it could continue.
-void prepareFolder(const std::filesystem::path& folder, const Json& film, const Film& frames,
-                   const RenderOptions& options, const Console& console);
+/// The frames of an earlier rendering in a folder that show the same film, by the digests in its
+/// run.json. Throws UsageError where a rendering would touch somebody else's files, or where
+/// --resume has nothing that it could continue.
+FrameDigests::Map framesToKeep(const std::filesystem::path& folder, const Json& film,
+                               const Film& frames, const RenderOptions& options);
+
+/// Removes frames that would be taken for frames of this rendering, and what a killed one left. To
+/// be called when run.json tells of the new rendering: otherwise the folder would be nobody's for a
+/// moment.
+void removeOtherFrames(const std::filesystem::path& folder, const FrameDigests::Map& kept,
+                       const Console& console);
 
 }  // namespace merge2d

@@ -1,3 +1,9 @@
+#include "app/console.h"
+#include "app/interrupt.h"
 #include "app/program.h"
 
-int main(int argc, char** argv) { return merge2d::runProgram({argv + 1, argv + argc}); }
+int main(int argc, char** argv) {
+  merge2d::openStandardStreams();
+  merge2d::prepareSignals();
+  return merge2d::runProgram({argv + 1, argv + argc});
+}

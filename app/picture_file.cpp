@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <fstream>
 #include <system_error>
 
 #include "app/usage_error.h"
+#include "render/new_file.h"
 #include "render/png.h"
 #include "src2d/core/error.h"
 
@@ -17,19 +16,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& file, const std::string& why) {
   throw IoError(fmt::format("cannot write {}: {}", file.string(), why));
-}
-
-/// Tries what writeAtomically does: rights do not tell of every file system.
-void requireWritable(const fs::path& file) {
-  fs::path probe = file;
-  probe += ".part";
-  std::error_code ignored;
-  const bool there = fs::exists(probe, ignored);
-  errno = 0;
-  if (!std::ofstream(probe, std::ios::binary | std::ios::app)) {
-    fail(file, std::generic_category().message(errno));
-  }
-  if (!there) fs::remove(probe, ignored);
 }
 
 }  // namespace
@@ -44,7 +30,7 @@ void requirePictureMayAppear(const fs::path& file, bool force) {
         fmt::format("{} is there already and is no picture of merge2d; say --force to replace it",
                     file.string()));
   }
-  requireWritable(file);
+  const NewFile probe(file);  // rights do not tell of every file system
 }
 
 }  // namespace merge2d

@@ -1,8 +1,10 @@
 #include "app/program.h"
 
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <new>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/console.h"
@@ -78,10 +80,19 @@ int runProgram(std::vector<std::string> arguments) {
   } catch (const Interrupted& interrupted) {
     printError(interrupted.what());
     endByInterrupt();
+  } catch (const ReaderGone& error) {
+    endByBrokenPipe();  // silently, as every filter does
+    return fail(error, kOutputFailed);
   } catch (const std::bad_alloc&) {
     printError("there is not enough memory");
     return kOutputFailed;
-  } catch (const std::exception& error) {  // IoError, and those of std::filesystem
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(
+        IoError(fmt::format("cannot use {}: {}", error.path1().string(), error.code().message())),
+        kOutputFailed);
+  } catch (const std::system_error& error) {
+    return fail(IoError(error.code().message()), kOutputFailed);
+  } catch (const std::exception& error) {  // IoError
     return fail(error, kOutputFailed);
   }
 }

@@ -1,7 +1,6 @@
 #include "app/progress.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace merge2d {
 namespace {
@@ -22,7 +21,7 @@ Progress::Progress(const Console& console, std::string unit, std::int64_t total)
       total_(std::max<std::int64_t>(total, 1)) {}
 
 Progress::~Progress() {
-  if (shown_) fmt::print(stderr, "\r\033[K");
+  if (shown_) sayRaw("\r\033[K");
 }
 
 void Progress::update(std::int64_t done) {
@@ -35,8 +34,7 @@ void Progress::update(std::int64_t done) {
   std::string line = fmt::format("\r{0:#<{1}}{0:.<{2}} {3} {4} of {5}", "", filled, kWidth - filled,
                                  unit_, done, total_);
   if (done > 0) line += fmt::format(", {} left", clockText(elapsed * (1.0 / fraction - 1.0)));
-  fmt::print(stderr, "{}\033[K", line);
-  std::fflush(stderr);
+  sayRaw(line + "\033[K");
 }
 
 }  // namespace merge2d

@@ -2,11 +2,13 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/captions.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/ffmpeg.h"
+#include "app/folder_lock.h"
 #include "app/frame_sink.h"
 #include "app/frames_folder.h"
 #include "app/interrupt.h"
@@ -42,6 +44,11 @@ what happens; those of --stages have captions in step_000599.vtt, a second for e
 folder is used only when it is empty or holds an earlier rendering, which is replaced; --force puts
 the frames among other files.)";
 
+using Clock = std::chrono::steady_clock;
+
+/// run.json is written so often: what a kill costs.
+constexpr std::chrono::seconds kNotedEvery{1};
+
 /// A rendering from its options to its files.
 class Rendering {
  public:
@@ -67,7 +74,9 @@ class Rendering {
   double speed() const { return static_cast<double>(counts_.written) / std::max(seconds_, 1e-9); }
 
   FrameStyle makeStyle() const;
+  void prepareFolder();
   void drawFrames();
+  void noteProgress();
   void stepTo(std::int64_t step);
   void finish(bool complete, const std::string& failure = {});
   fs::path makeAnimation();
@@ -84,6 +93,10 @@ class Rendering {
   Snapshot snapshot_;
   FrameStyle style_;
   RunFile run_file_;
+  std::optional<MadeFolder> made_;
+  std::optional<FolderLock> lock_;
+  std::optional<FrameDigests> digests_;
+  Clock::time_point noted_ = Clock::now();  ///< when run.json was written
   Captions captions_;
   FrameCounts counts_;
   double seconds_ = 0.0;  ///< that the frames took
@@ -114,24 +127,33 @@ void Rendering::stepTo(std::int64_t step) {
   }
 }
 
+/// What a kill leaves can be told from what somebody else put there.
+void Rendering::noteProgress() {
+  if (Clock::now() < noted_ + kNotedEvery) return;
+  run_file_.write(false, *digests_);
+  noted_ = Clock::now();
+}
+
 void Rendering::drawFrames() {
-  const auto sink = makeFrameSink(world().bodies(), style_, folder_, film_, options_.resume);
+  const auto sink =
+      makeFrameSink(world().bodies(), style_, folder_, film_, *digests_, options_.resume);
   Progress progress(console_, "frame", film_.to + 1);
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
   for (std::int64_t frame = 0; frame <= film_.to; ++frame) {
     stepTo(film_.stepOf(frame));
     stopIfInterrupted();
     world().capture(snapshot_);
     sink->add(frame, snapshot_);
+    noteProgress();
     progress.update(frame);
   }
   sink->finish();
   counts_ = sink->counts();
-  seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 void Rendering::finish(bool complete, const std::string& failure) {
-  run_file_.write(complete, describe(snapshot_, style_), failure);
+  run_file_.write(complete, *digests_, describe(snapshot_, style_), failure);
   writeFile(folder_ / "captions.vtt", captions_.text(scene().title), {.everything = true});
 }
 
@@ -217,18 +239,30 @@ void Rendering::printProducts(const fs::path& animation) const {
   }
 }
 
-void Rendering::run() {
-  if (options_.contact_sheet && fs::exists(folder_)) {
-    requirePictureMayAppear(sheetFile(), options_.force);
+void Rendering::prepareFolder() {
+  std::error_code ignored;
+  if (fs::exists(folder_, ignored) && !fs::is_directory(folder_, ignored)) {
+    throw IoError(fmt::format("{} is not a folder", folder_.string()));
   }
-  prepareFolder(folder_, filmJson(scene(), options_, style_), film_, options_, console_);
-  run_file_.write(false);
+  made_.emplace(folder_);
+  lock_.emplace(folder_);
+  if (options_.contact_sheet) requirePictureMayAppear(sheetFile(), options_.force);
+  const FrameDigests::Map kept =
+      framesToKeep(folder_, filmJson(scene(), options_, style_), film_, options_);
+  digests_.emplace(kept);
+  run_file_.write(false, *digests_);
+  removeOtherFrames(folder_, kept, console_);
+}
+
+void Rendering::run() {
+  prepareFolder();
   try {
     drawFrames();
   } catch (const SimulationError& error) {
     finish(false, error.what());  // what there is up to here helps to find out why
     throw;
   } catch (const Interrupted&) {
+    run_file_.write(false, *digests_);
     throw Interrupted("interrupted; --resume continues");
   }
   finish(true);

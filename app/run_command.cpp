@@ -42,13 +42,8 @@ void check(const RunOptions& options) {
   if (options.decisions && options.trace.empty()) {
     throw UsageError("--decisions go into the trace; name it with --trace FILE.jsonl");
   }
-  if (!options.trace.empty() && options.trace == options.csv) {
-    throw UsageError("--trace and --csv need two different files");
-  }
-  if (!options.snapshot.empty() &&
-      (options.snapshot == options.trace || options.snapshot == options.csv)) {
-    throw UsageError("--snapshot needs a file of its own");
-  }
+  requireDistinct(
+      {{"--trace", options.trace}, {"--csv", options.csv}, {"--snapshot", options.snapshot}});
   if (options.snapshot == "-") throw UsageError("a snapshot is not written to the standard output");
   if (options.json && (options.trace == "-" || options.csv == "-")) {
     throw UsageError("--json and '-' would both write to the standard output");

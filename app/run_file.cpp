@@ -5,6 +5,8 @@
 #include <fstream>
 
 #include "app/output_file.h"
+#include "render/sequence.h"
+#include "src2d/core/digest.h"
 #include "src2d/scene/load.h"
 #include "src2d/trace/parameters.h"
 #include "src2d/trace/trace_writer.h"
@@ -15,14 +17,7 @@ namespace {
 constexpr const char* kFormat = "merge2d-run";
 constexpr int kVersion = 1;
 
-/// A number that changes with any part of the scene (FNV-1a).
-std::string digest(const Scene& scene) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : toToml(scene)) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  }
-  return fmt::format("{:016x}", hash);
-}
+std::string digest(const Scene& scene) { return fmt::format("{:016x}", digestOf(toToml(scene))); }
 
 Json parameters(const Scene& scene) {
   JsonText text;
@@ -72,6 +67,8 @@ Json filmJson(const Scene& scene, const RenderOptions& options, const FrameStyle
 }
 
 std::optional<Json> readRunFile(const std::filesystem::path& folder) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(folder / "run.json", missing)) return std::nullopt;
   std::ifstream in(folder / "run.json");
   Json run = Json::parse(in, nullptr, false);
   if (!run.is_object() || run.value("format", Json()) != kFormat) return std::nullopt;
@@ -85,6 +82,16 @@ std::string difference(const Json& film, const Json& run_file) {
   return path == "digest" ? "the scene" : path;
 }
 
+FrameDigests::Map digestsOf(const Json& run_file) {
+  FrameDigests::Map digests;
+  const Json noted = run_file.value("digests", Json::object());
+  for (const auto& [name, digest] : noted.items()) {
+    const std::optional<std::int64_t> frame = frameNumber(name);
+    if (frame && digest.is_string()) digests[*frame] = digest;
+  }
+  return digests;
+}
+
 void RunFile::add(const Snapshot& snapshot) {
   for (const Event& event : snapshot.events) {
     JsonText text;
@@ -93,11 +100,14 @@ void RunFile::add(const Snapshot& snapshot) {
   }
 }
 
-void RunFile::write(bool complete, const std::string& description, const std::string& failure) {
+void RunFile::write(bool complete, const FrameDigests& digests, const std::string& description,
+                    const std::string& failure) {
   Json out = film_;
   out["steps"] = frames_.steps;
   out["frames"] = {{"first", frames_.from}, {"last", frames_.to}, {"pattern", "frame_%06d.png"}};
   out["complete"] = complete;
+  out["digests"] = Json::object();
+  for (const auto& [frame, digest] : digests.all()) out["digests"][frameName(frame)] = digest;
   if (!description.empty()) out["description"] = description;
   if (!failure.empty()) out["failure"] = failure;
   std::string text = out.dump(2, ' ', false, Json::error_handler_t::replace);

@@ -8,6 +8,7 @@
 
 #include "app/film.h"
 #include "app/json.h"
+#include "render/frame_digests.h"
 #include "src2d/trace/snapshot.h"
 
 namespace merge2d {
@@ -23,6 +24,9 @@ std::optional<Json> readRunFile(const std::filesystem::path& folder);
 /// they are the same.
 std::string difference(const Json& film, const Json& run_file);
 
+/// The digests of the frames that it tells of.
+FrameDigests::Map digestsOf(const Json& run_file);
+
 /// Gathers what run.json says and writes it.
 class RunFile {
  public:
@@ -34,7 +38,8 @@ class RunFile {
 
   /// `description` says in words what is to be seen; `failure` why the rendering ended too early.
   /// Throws IoError.
-  void write(bool complete, const std::string& description = {}, const std::string& failure = {});
+  void write(bool complete, const FrameDigests& digests, const std::string& description = {},
+             const std::string& failure = {});
 
  private:
   std::filesystem::path folder_;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/console.h"
+#include "app/folder_lock.h"
 #include "app/interrupt.h"
 #include "app/output_file.h"
 #include "app/picture_file.h"
@@ -50,6 +51,7 @@ class StageFiles {
             (options.folder.empty() ? fs::path("frames") / scene.name : fs::path(options.folder)) /
             "stages"),
         made_(folder_),
+        lock_(folder_),
         vtt_(file(".vtt").string(), {.everything = options.force, .ours = WebVtt::kStart}),
         pictures_(scene, options.mode, style_) {
     for (std::size_t i = 0; i < kStages; ++i) requirePictureMayAppear(picture(i), options.force);
@@ -96,6 +98,7 @@ class StageFiles {
   FrameStyle style_;
   fs::path folder_;
   MadeFolder made_;
+  FolderLock lock_;
   OutputFile vtt_;
   std::optional<StepRecord> record_;
   StagePictures pictures_;

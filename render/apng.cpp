@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <system_error>
-#include <utility>
 
 #include "render/png.h"
 #include "render/png_chunks.h"
@@ -17,11 +15,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-void write(std::ofstream& out, std::span<const std::uint8_t> bytes) {
-  out.write(reinterpret_cast<const char*>(bytes.data()),
-            static_cast<std::streamsize>(bytes.size()));
-}
-
 void append(Bytes& out, std::uint32_t number) {
   const auto bytes = bigEndian(number);
   out.insert(out.end(), bytes.begin(), bytes.end());
@@ -29,20 +22,9 @@ void append(Bytes& out, std::uint32_t number) {
 
 }  // namespace
 
-ApngWriter::ApngWriter(std::filesystem::path file, int frames_per_second)
-    : file_(std::move(file)),
-      temporary_(file_.string() + ".part"),
-      out_(temporary_, std::ios::binary | std::ios::trunc),
-      frames_per_second_(static_cast<std::uint16_t>(std::clamp(frames_per_second, 1, 1000))) {
-  if (!out_) throw IoError(fmt::format("cannot write {}", file_.string()));
-}
-
-ApngWriter::~ApngWriter() {
-  if (!out_.is_open()) return;
-  out_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
-}
+ApngWriter::ApngWriter(const std::filesystem::path& file, int frames_per_second)
+    : file_(file),
+      frames_per_second_(static_cast<std::uint16_t>(std::clamp(frames_per_second, 1, 1000))) {}
 
 void ApngWriter::add(const Picture& picture, bool alpha) {
   add(encodePng(picture, {.alpha = alpha}));
@@ -60,9 +42,9 @@ void ApngWriter::add(std::span<const std::uint8_t> png) {
   while (const auto chunk = chunks.next()) {
     if (chunk->type != "IDAT") continue;
     if (frames_ == 0) {
-      write(out_, pngChunk("IDAT", chunk->data));
+      file_.write(pngChunk("IDAT", chunk->data));
     } else {
-      write(out_, pngChunk("fdAT", bigEndian(sequence_++), chunk->data));
+      file_.write(pngChunk("fdAT", bigEndian(sequence_++), chunk->data));
     }
   }
   ++frames_;
@@ -74,18 +56,18 @@ void ApngWriter::writeHeader(std::span<const std::uint8_t> ihdr) {
     throw IoError(fmt::format("an animation needs even sizes, not {}x{}", width, height));
   }
   header_.assign(ihdr.begin(), ihdr.end());
-  write(out_, kPngSignature);
-  write(out_, pngChunk("IHDR", ihdr));
-  control_ = out_.tellp();
-  writeAnimationControl();
+  file_.write(kPngSignature);
+  file_.write(pngChunk("IHDR", ihdr));
+  control_ = file_.size();
+  file_.write(animationControl());
 }
 
 /// The number of frames, which is known at the end only: written twice.
-void ApngWriter::writeAnimationControl() {
+std::vector<std::uint8_t> ApngWriter::animationControl() const {
   Bytes data;
   append(data, frames_);
   append(data, 0);  // plays: for ever
-  write(out_, pngChunk("acTL", data));
+  return pngChunk("acTL", data);
 }
 
 void ApngWriter::writeFrameControl() {
@@ -100,18 +82,14 @@ void ApngWriter::writeFrameControl() {
     data.push_back(static_cast<std::uint8_t>(byte));
   data.push_back(kKeep);
   data.push_back(kReplace);
-  write(out_, pngChunk("fcTL", data));
+  file_.write(pngChunk("fcTL", data));
 }
 
 void ApngWriter::finish() {
   if (frames_ == 0) throw IoError("an animation needs at least one frame");
-  write(out_, pngChunk("IEND", {}));
-  out_.seekp(control_);
-  writeAnimationControl();
-  out_.close();
-  std::error_code failed;
-  if (out_) std::filesystem::rename(temporary_, file_, failed);
-  if (!out_ || failed) throw IoError(fmt::format("cannot write {}", file_.string()));
+  file_.write(pngChunk("IEND", {}));
+  file_.writeAt(control_, animationControl());
+  file_.finish();
 }
 
 }  // namespace merge2d

@@ -3,9 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <span>
+#include <vector>
 
+#include "render/new_file.h"
 #include "render/picture.h"
 
 namespace merge2d {
@@ -15,10 +16,7 @@ namespace merge2d {
 class ApngWriter {
  public:
   /// The file appears when `finish` is called. Throws IoError.
-  ApngWriter(std::filesystem::path file, int frames_per_second);
-  ~ApngWriter();
-  ApngWriter(const ApngWriter&) = delete;
-  ApngWriter& operator=(const ApngWriter&) = delete;
+  ApngWriter(const std::filesystem::path& file, int frames_per_second);
 
   /// A frame as the bytes of a PNG file. Throws IoError for another size or kind of pixels than
   /// the first frame's, and for odd sizes.
@@ -30,14 +28,13 @@ class ApngWriter {
 
  private:
   void writeHeader(std::span<const std::uint8_t> ihdr);
-  void writeAnimationControl();
+  std::vector<std::uint8_t> animationControl() const;
   void writeFrameControl();
 
-  std::filesystem::path file_, temporary_;
-  std::ofstream out_;
+  NewFile file_;
   std::uint16_t frames_per_second_;
   std::vector<std::uint8_t> header_;  ///< IHDR of the first frame
-  std::streampos control_{};          ///< where acTL stands
+  std::uint64_t control_ = 0;         ///< where acTL stands
   std::uint32_t frames_ = 0, sequence_ = 0;
 };
 

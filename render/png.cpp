@@ -8,10 +8,13 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <system_error>
 
+#include "render/new_file.h"
 #include "render/png_chunks.h"
 #include "src2d/core/error.h"
 
@@ -117,8 +120,6 @@ void appendBytes(png_structp png, png_bytep data, std::size_t size) {
   out.insert(out.end(), data, data + size);
 }
 
-std::string reason() { return std::generic_category().message(errno); }
-
 }  // namespace
 
 std::vector<std::uint8_t> encodePng(const Picture& picture, const PngOptions& options) {
@@ -195,34 +196,30 @@ bool isOurPng(const std::filesystem::path& file) {
 }
 
 std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) throw IoError(fmt::format("cannot read {}: {}", file.string(), reason()));
-  Bytes bytes(static_cast<std::size_t>(in.tellg()));
-  in.seekg(0);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) throw IoError(fmt::format("cannot read {}", file.string()));
+  const auto fail = [&] {
+    throw IoError(
+        fmt::format("cannot read {}: {}", file.string(), std::generic_category().message(errno)));
+  };
+  const auto closed = [](std::FILE* in) { std::fclose(in); };
+  const std::unique_ptr<std::FILE, decltype(closed)> in(std::fopen(file.c_str(), "rbe"), closed);
+  if (!in) fail();
+  Bytes bytes;
+  constexpr std::size_t kBlock = 1 << 16;
+  for (std::size_t got = kBlock; got == kBlock;) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + kBlock);
+    got = std::fread(bytes.data() + size, 1, kBlock, in.get());
+    bytes.resize(size + got);
+  }
+  if (std::ferror(in.get()) != 0) fail();  // a folder can be opened, but not read
   return bytes;
 }
 
-void writeAtomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  std::filesystem::path temporary = file;
-  temporary += ".part";
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    if (!out) throw IoError(fmt::format("cannot write {}: {}", file.string(), reason()));
-    out.write(reinterpret_cast<const char*>(bytes.data()),
-              static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) {
-      const std::string why = reason();
-      std::error_code ignored;
-      std::filesystem::remove(temporary, ignored);
-      throw IoError(fmt::format("cannot write {}: {}", file.string(), why));
-    }
-  }
-  std::error_code failed;
-  std::filesystem::rename(temporary, file, failed);
-  if (failed) throw IoError(fmt::format("cannot write {}: {}", file.string(), failed.message()));
+void writeAtomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
+                     bool durable) {
+  NewFile out(file, {.durable = durable});
+  out.write(bytes);
+  out.finish();
 }
 
 }  // namespace merge2d

@@ -36,8 +36,10 @@ bool isOurPng(const std::filesystem::path& file);
 /// Throws IoError.
 std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file);
 
-/// The file appears with all its bytes or not at all. Throws IoError.
-void writeAtomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+/// The file appears with all its bytes or not at all (render/new_file.h); after a loss of power
+/// too, where it is `durable`. Throws IoError.
+void writeAtomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
+                     bool durable = true);
 
 inline Picture loadPng(const std::filesystem::path& file) { return decodePng(readFileBytes(file)); }
 inline void savePng(const std::filesystem::path& file, const Picture& picture,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -28,7 +29,7 @@ double secondsSince(Clock::time_point start) {
 struct Job {
   Snapshot snapshot;
   CollectionSlots slots;
-  std::filesystem::path file;
+  std::int64_t frame = 0;
 };
 
 /// Jobs on their way to the workers: so many that none waits, so few that memory stays bounded.
@@ -73,17 +74,21 @@ class Queue {
   bool closed_ = false;
 };
 
-/// Whether a frame of this size is there with its first and its last bytes.
-bool isComplete(const std::filesystem::path& file, const FrameStyle& style) {
-  std::error_code missing;
-  if (!std::filesystem::is_regular_file(file, missing)) return false;
-  const PngSummary found = inspectPng(readFileBytes(file));
-  return found.complete && found.width == style.width && found.height == style.height;
-}
-
 }  // namespace
 
 std::string frameName(std::int64_t number) { return fmt::format("frame_{:06}.png", number); }
+
+std::optional<std::int64_t> frameNumber(std::string_view name) {
+  constexpr std::size_t kDigits = 6;
+  constexpr std::string_view kStart = "frame_", kEnd = ".png";
+  if (name.size() != kStart.size() + kDigits + kEnd.size()) return std::nullopt;
+  if (!name.starts_with(kStart) || !name.ends_with(kEnd)) return std::nullopt;
+  std::int64_t number = 0;
+  const std::string_view digits = name.substr(kStart.size(), kDigits);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + kDigits, number);
+  const bool whole = error == std::errc() && end == digits.data() + kDigits && number >= 0;
+  return whole ? std::optional(number) : std::nullopt;
+}
 
 struct SequenceWriter::Impl {
   Impl(const std::vector<BodyInfo>& bodies_in, FrameStyle style_in, SequenceOptions options_in)
@@ -132,13 +137,21 @@ struct SequenceWriter::Impl {
     const double draw_seconds = secondsSince(start);
     const std::vector<std::uint8_t> png = encodePng(
         picture, {.alpha = style.transparent, .description = describe(job.snapshot, style)});
-    writeAtomically(job.file, png);
+    constexpr bool kDurable = false;  // thousands of files; a damaged one is drawn again
+    writeAtomically(options.folder / frameName(job.frame), png, kDurable);
+    if (options.digests != nullptr) options.digests->note(job.frame, png);
 
     const std::lock_guard lock(mutex);
     ++stats.written;
     stats.bytes += png.size();
     stats.draw_seconds += draw_seconds;
     stats.encode_seconds += secondsSince(start) - draw_seconds;
+  }
+
+  /// Whether this frame is there from an earlier rendering.
+  bool isThere(std::int64_t frame) const {
+    return options.resume && options.digests != nullptr &&
+           options.digests->holds(frame, options.folder / frameName(frame));
   }
 
   void rethrow() {
@@ -168,13 +181,13 @@ SequenceWriter::~SequenceWriter() = default;
 void SequenceWriter::add(Snapshot snapshot) {
   Impl& w = *impl_;
   CollectionSlots slots = w.colors.update(snapshot);
-  const std::filesystem::path file = w.options.folder / frameName(w.next++);
-  if (w.options.resume && isComplete(file, w.style)) {
+  const std::int64_t frame = w.next++;
+  if (w.isThere(frame)) {
     const std::lock_guard lock(w.mutex);
     ++w.stats.kept;
     return;
   }
-  if (!w.queue.push({std::move(snapshot), std::move(slots), file})) w.rethrow();
+  if (!w.queue.push({std::move(snapshot), std::move(slots), frame})) w.rethrow();
 }
 
 void SequenceWriter::skip(const Snapshot& snapshot) { impl_->colors.update(snapshot); }

@@ -4,20 +4,26 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "render/frame_digests.h"
 #include "render/style.h"
 
 namespace merge2d {
 
 /// "frame_000012.png": of constant width, so that names sort like numbers.
 std::string frameName(std::int64_t number);
+/// 12; nothing when it is no frame's name.
+std::optional<std::int64_t> frameNumber(std::string_view name);
 
 struct SequenceOptions {
-  std::filesystem::path folder;  ///< made when it is missing
-  int workers = 2;               ///< threads, each with a canvas of its own
-  bool resume = false;           ///< keep frames that are there and complete
+  std::filesystem::path folder;     ///< made when it is missing
+  int workers = 2;                  ///< threads, each with a canvas of its own
+  bool resume = false;              ///< keep frames that are there with the digests noted
+  FrameDigests* digests = nullptr;  ///< of the frames that are written; outlives the writer
 };
 
 struct SequenceStats {

@@ -71,7 +71,7 @@ struct Text::Faces {
   }
 };
 
-Text::Text() : faces_(std::make_unique<Faces>()) {}
+Text::Text() = default;
 Text::~Text() = default;
 Text::Text(Text&&) noexcept = default;
 Text& Text::operator=(Text&&) noexcept = default;
@@ -121,6 +121,7 @@ const Text::Glyph& Text::glyph(char32_t code, Font font) {
 }
 
 Text::Glyph Text::rasterise(char32_t code, Font font) {
+  if (!faces_) faces_ = std::make_unique<Faces>();  // not needed by drawings without text
   FT_Face face = faces_->sized(font);
   Glyph g;
   if (FT_Load_Char(face, code, FT_LOAD_RENDER | FT_LOAD_TARGET_LIGHT) != 0) return g;

@@ -42,6 +42,17 @@ TEST_F(Doctor, FailsWithoutWhatIsNeeded) {
   EXPECT_THAT(outcome.err, HasSubstr("1 of 7 checks failed"));
 }
 
+TEST_F(Doctor, MissingFontsAreNoMatterOfOpenGl) {
+  fs::create_directory(folder() / "fonts");
+  write("fonts/DejaVuSans.ttf", "no font");
+  setEnvironment("MERGE2D_FONTS", (folder() / "fonts").string());
+  const Outcome outcome = run({"doctor", "--json"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_TRUE(check(outcome.json(), "OpenGL")["ok"]);
+  EXPECT_FALSE(check(outcome.json(), "font")["ok"]);
+  EXPECT_THAT(check(outcome.json(), "font")["detail"].get<std::string>(), HasSubstr("not a font"));
+}
+
 TEST_F(Doctor, DoesWithoutFfmpeg) {
   setEnvironment("PATH", "/nowhere");
   const Outcome outcome = run({"doctor"});

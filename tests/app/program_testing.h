@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -105,6 +106,7 @@ class ProgramTest : public testing::Test {
     for (const auto& [name, value] : environment_) {
       value.empty() ? unsetenv(name.c_str()) : setenv(name.c_str(), value.c_str(), 1);
     }
+    if (prepare_) prepare_();
     std::vector<char*> argv{const_cast<char*>("merge2d")};
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);
@@ -132,6 +134,10 @@ class ProgramTest : public testing::Test {
     std::ofstream(input_, std::ios::binary) << text;
   }
 
+  /// Changes the circumstances of the runs that follow: closes descriptors, sets limits, ignores
+  /// signals. Called in the child before the program begins.
+  void beforeStart(std::function<void()> prepare) { prepare_ = std::move(prepare); }
+
   /// Sends the standard output of the runs that follow to a device instead.
   void sendOutputTo(const std::string& device) { stdout_ = device; }
 
@@ -147,6 +153,7 @@ class ProgramTest : public testing::Test {
   std::map<std::string, std::string> environment_;
   fs::path input_;
   std::string stdout_;
+  std::function<void()> prepare_;
 };
 
 /// Three boxes that fall on top of each other and merge.

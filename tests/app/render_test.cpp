@@ -95,11 +95,9 @@ TEST_F(Render, ResumesToTheSameBytes) {
   fs::remove(folder() / "frames/stack/frame_000002.png");
   fs::remove(folder() / "frames/stack/captions.vtt");
   write("frames/stack/frame_000004.png", whole.at("frame_000004.png").substr(0, 100));
-  write("frames/stack/frame_000005.png.part", "half");
   const Outcome outcome = render({"--resume"});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_THAT(outcome.err, HasSubstr("were there already"));
-  fs::remove(folder() / "frames/stack/frame_000005.png.part");
   EXPECT_EQ(contents("frames/stack"), whole);
 }
 
@@ -112,7 +110,7 @@ TEST_F(Render, ResumesAfterAnInterrupt) {
   EXPECT_EQ(interrupted.signal, SIGTERM);
   EXPECT_THAT(interrupted.err, HasSubstr("--resume continues"));
   EXPECT_EQ(runFile("pile")["complete"], false);
-  for (const std::string& file : files("pile")) EXPECT_THAT(file, Not(HasSubstr(".part")));
+  for (const std::string& file : files("pile")) EXPECT_THAT(file, Not(HasSubstr(".merge2d")));
   const std::string third = read("pile/frame_000003.png");
   const Outcome outcome = run({"render", "pile", "-r", "320x240", "--seconds", "20", "-o", "pile",
                                "--resume", "--json", "-n", "0,12"});
@@ -288,7 +286,7 @@ TEST_F(Render, MakesAFilmWithFfmpeg) {
   EXPECT_EQ(linesOf(outcome.out)[0], "frames/stack/stack.mp4");
   EXPECT_THAT(read("frames/stack/stack.mp4"),
               HasSubstr("-framerate 10 -i frames/stack/frame_%06d.png -c:v libx264"));
-  EXPECT_THAT(files("frames/stack"), Not(Contains("stack.part.mp4")));
+  for (const std::string& file : files()) EXPECT_THAT(file, Not(HasSubstr(".merge2d")));
 }
 
 TEST_F(Render, AFailureOfFfmpegLeavesTheFramesOnly) {

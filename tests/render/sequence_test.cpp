@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,10 @@ class SequenceTest : public testing::Test {
   FrameStyle style = samples::styleOf(sample, "A small wall", 160, 90);
   TemporaryFolder folder;
 
+  std::optional<FrameDigests> digests{std::in_place};
+
   SequenceStats write(const std::filesystem::path& to, int workers, bool resume = false) {
-    SequenceWriter writer(sample.bodies, style, {to, workers, resume});
+    SequenceWriter writer(sample.bodies, style, {to, workers, resume, &*digests});
     for (int k = 0; k < kFrames; ++k) writer.add(frameOf(sample, k));
     writer.finish();
     EXPECT_EQ(writer.frames(), kFrames);
@@ -87,17 +90,30 @@ TEST_F(SequenceTest, ResumesWithTheSameBytes) {
   EXPECT_EQ(read(at), before);
 }
 
-TEST_F(SequenceTest, DrawsFramesOfAnotherSizeAgain) {
+TEST_F(SequenceTest, DrawsFramesAgainThatAreNotThoseNoted) {
   write(folder.path(), 1);
-  style.width = 170;
-  EXPECT_EQ(write(folder.path(), 1, true).written, kFrames);
+  const Files before = read(folder.path());
+  std::filesystem::copy_file(folder.path() / frameName(2), folder.path() / frameName(4),
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(write(folder.path(), 1, true).written, 1);
+  EXPECT_EQ(read(folder.path()), before);
+  digests.emplace();
+  EXPECT_EQ(write(folder.path(), 1, true).written, kFrames) << "nobody vouches for them";
+}
+
+TEST(FrameName, CanBeReadAgain) {
+  EXPECT_EQ(frameNumber("frame_000012.png"), 12);
+  for (const char* other : {"frame_12.png", "frame_-00012.png", "frame_00001x.png", "frame_.png",
+                            "frame_000012.png.part", "xframe_000012.png", ""}) {
+    EXPECT_EQ(frameNumber(other), std::nullopt) << other;
+  }
 }
 
 TEST_F(SequenceTest, SkippedSnapshotsDecideOnColoursToo) {
   const std::filesystem::path all = folder.path() / "all", late = folder.path() / "late";
   write(all, 2);
   {
-    SequenceWriter writer(sample.bodies, style, {late, 2, false});
+    SequenceWriter writer(sample.bodies, style, {late, 2, false, nullptr});
     for (int k = 0; k < 5; ++k) writer.skip(frameOf(sample, k));
     for (int k = 5; k < kFrames; ++k) writer.add(frameOf(sample, k));
     writer.finish();
@@ -112,12 +128,13 @@ TEST_F(SequenceTest, PassesOnWhatAWorkerThrew) {
 
 TEST_F(SequenceTest, SaysWhenTheFolderCannotBeMade) {
   std::ofstream(folder.path() / "file") << "in the way";
-  EXPECT_THROW(SequenceWriter(sample.bodies, style, {folder.path() / "file" / "frames", 1, false}),
-               IoError);
+  EXPECT_THROW(
+      SequenceWriter(sample.bodies, style, {folder.path() / "file" / "frames", 1, false, nullptr}),
+      IoError);
 }
 
 TEST_F(SequenceTest, CanBeLeftBeforeItIsFinished) {
-  SequenceWriter writer(sample.bodies, style, {folder.path(), 2, false});
+  SequenceWriter writer(sample.bodies, style, {folder.path(), 2, false, nullptr});
   for (int k = 0; k < 4; ++k) writer.add(frameOf(sample, k));
 }
 
