@@ -25,7 +25,7 @@ class PinsOfNodes {
   }
 
   std::span<const std::uint32_t> operator[](std::uint32_t node) const {
-    return {pins_.begin() + first_[node], pins_.begin() + first_[node + 1]};
+    return {pins_.data() + first_[node], pins_.data() + first_[node + 1]};
   }
 
  private:

@@ -105,7 +105,7 @@ Groups rigidGroups(std::uint32_t nodes, std::span<const Pin> pins) {
   for (auto first = inner.begin(); first != inner.end();) {
     const auto last = std::find_if(first, inner.end(),
                                    [&](const Pin& pin) { return group(pin) != group(*first); });
-    const std::span<Pin> own(first, last);
+    const std::span<Pin> own(&*first, static_cast<std::size_t>(last - first));
     first = last;
     if (std::none_of(own.begin(), own.end(), [](const Pin& p) { return p.placed; })) continue;
     placeTheRest(own, extentOf(own));

@@ -108,7 +108,9 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
   }
   std::sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
     const auto key = [](const ContactView& c) {
-      return std::tuple(c.a, c.b, c.feature, c.x.x(), c.x.y());
+      // Two points may lie in one place: then their impulses tell them apart, so that no sorting
+      // algorithm has a choice.
+      return std::tuple(c.a, c.b, c.feature, c.x.x(), c.x.y(), c.lambda_n, c.lambda_t);
     };
     return key(x) < key(y);
   });
