@@ -3,25 +3,13 @@
 #include <utility>
 
 #include "lessons/encode.h"
+#include "lessons/ledger.h"
 #include "render/silhouette.h"
 #include "src2d/trace/json_text.h"
 #include "src2d/trace/parameters.h"
 
 namespace merge2d {
 namespace {
-
-void writeLedger(JsonText& out, const LedgerEntry& e) {
-  const auto change = [&](double LedgerEntry::Sums::*of) {
-    return std::pair{e.before.*of, e.after.*of};
-  };
-  out.open('[').value(e.step).value(static_cast<int>(e.stage)).value(e.anchored ? 1 : 0);
-  for (const auto of : {&LedgerEntry::Sums::px, &LedgerEntry::Sums::py, &LedgerEntry::Sums::angular,
-                        &LedgerEntry::Sums::kinetic}) {
-    const auto [before, after] = change(of);
-    out.value(static_cast<float>(before)).value(static_cast<float>(after));
-  }
-  out.close(']');
-}
 
 void writeBody(JsonText& out, const BodyInfo& body) {
   out.open('{').field("name", body.name).field("motion", name(body.motion));

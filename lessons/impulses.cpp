@@ -109,6 +109,10 @@ ImpulsesInside impulsesOf(const StepRecord& record, const TrackIndex& tracks) {
 
 }  // namespace
 
+ImpulsesInside impulsesInside(const StepRecord& record, const Recording& recording) {
+  return impulsesOf(record, tracksOf(recording));
+}
+
 void lookInside(Recording& recording, const std::vector<std::int64_t>& wanted,
                 const std::function<void(std::int64_t)>& progress) {
   // Which steps.

@@ -28,6 +28,11 @@ struct ImpulsesInside {
 /// The most contacts, over all steps, whose impulses a recording keeps.
 inline constexpr std::size_t kMostImpulses = 250'000;
 
+struct StepRecord;
+
+/// The impulses inside one recorded step, for the contacts that `recording` has tracks of.
+ImpulsesInside impulsesInside(const StepRecord& record, const Recording& recording);
+
 /// Looks into a recorded run once more and keeps the impulses inside its steps in
 /// `recording.inside`: of `wanted` steps first, then of those in which most bodies met, merged or
 /// came apart, then of all others, as long as there are no more than kMostImpulses. `progress` is

@@ -1,0 +1,135 @@
+#include "lessons/snapshot_feed.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "src2d/core/trig.h"
+
+namespace merge2d {
+namespace {
+
+/// Adds one sample at `step` to the spans of a track.
+void extend(std::vector<Span>& spans, std::int64_t step) {
+  if (spans.empty() || spans.back().first + spans.back().count != step) spans.push_back({step, 0});
+  ++spans.back().count;
+}
+
+bool sampledAt(const std::vector<Span>& spans, std::int64_t step) {
+  return !spans.empty() && spans.back().first + spans.back().count == step + 1;
+}
+
+/// The criteria that compare a measured number with a limit: what charts and questions are about.
+constexpr std::array<std::string_view, 6> kCharted = {"relative-motion", "sliding", "breathing",
+                                                      "opening",         "cone",    "rest"};
+
+/// Whether a verdict keeps a pair apart, or takes it apart.
+bool parts(std::string_view verdict) {
+  for (const std::string_view bad : {"apart", "unmerge", "cut", "lost", "edge", "awake"}) {
+    if (verdict == bad) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+SnapshotFeed::SnapshotFeed(Recording& out) : out_(out) { out_.tracks.resize(out_.bodies.size()); }
+
+void SnapshotFeed::add(const Snapshot& seen) {
+  addBodies(seen);
+  if (out_.detail == Detail::Full) {
+    addContacts(seen);
+    for (const Decision& decision : seen.decisions) addDecision(seen.step, decision);
+  }
+  for (const Event& event : seen.events) out_.events.push_back({seen.step, event});
+  out_.stats.push_back(seen.stats);
+  out_.stats.back().seconds = {};
+  for (const auto& [id, slot] : colors_.update(seen)) {
+    if (!out_.colors.empty() && id <= out_.colors.back().id) continue;
+    out_.colors.push_back({id, slot});
+  }
+}
+
+void SnapshotFeed::addBodies(const Snapshot& seen) {
+  for (const BodyState& b : seen.bodies) {
+    BodyTrack& track = out_.tracks[index(b.id)];
+    if (track.x.empty()) track.first = seen.step;
+    track.x.push_back(b.x.x());
+    track.y.push_back(b.x.y());
+    track.angle.push_back(b.angle);
+    track.vx.push_back(static_cast<float>(b.v.x()));
+    track.vy.push_back(static_cast<float>(b.v.y()));
+    track.omega.push_back(static_cast<float>(b.omega));
+    track.collection.push_back(value(b.collection));
+    track.asleep.push_back(b.asleep ? 1 : 0);
+  }
+}
+
+void SnapshotFeed::addContacts(const Snapshot& seen) {
+  for (const ContactView& c : seen.contacts) {
+    const BodyTrack& body = out_.tracks[index(c.a)];
+    const Pose frame = Pose::at({body.x.back(), body.y.back()}, body.angle.back());
+    ContactTrack& track = contactTrack(c);
+    if (sampledAt(track.spans, seen.step)) continue;
+    extend(track.spans, seen.step);
+    const Vec2 at = frame.inverse() * c.x;
+    const Vec2 normal = frame.rotation.inverse() * c.normal;
+    track.x.push_back(static_cast<float>(at.x()));
+    track.y.push_back(static_cast<float>(at.y()));
+    track.normal.push_back(static_cast<float>(arcTangent(normal.y(), normal.x())));
+    track.gap.push_back(static_cast<float>(c.gap));
+    track.lambda_n.push_back(static_cast<float>(c.lambda_n));
+    track.lambda_t.push_back(static_cast<float>(c.lambda_t));
+    track.w_n.push_back(static_cast<float>(c.w_n));
+    track.w_t.push_back(static_cast<float>(c.w_t));
+    track.state.push_back(static_cast<std::uint8_t>(c.state));
+    track.internal.push_back(c.internal ? 1 : 0);
+    track.fresh.push_back(c.fresh ? 1 : 0);
+  }
+}
+
+ContactTrack& SnapshotFeed::contactTrack(const ContactView& c) {
+  const auto key = std::tuple{index(c.a), index(c.b), c.feature};
+  const auto [at, added] = contact_of_.try_emplace(key, out_.contacts.size());
+  if (added) {
+    out_.contacts.push_back({.a = c.a, .b = c.b, .feature = c.feature, .mu = c.mu});
+  }
+  return out_.contacts[at->second];
+}
+
+/// The edge of the cone moves with the force: friction is kept as its part of what it may be.
+void SnapshotFeed::addDecision(std::int64_t step, Decision d) {
+  if (std::find(kCharted.begin(), kCharted.end(), d.criterion) == kCharted.end()) return;
+  if (d.criterion == "cone") {
+    d.value = d.threshold > 0.0 ? std::abs(d.value) / d.threshold : 0.0;
+    d.threshold = 1.0;
+  }
+  const auto key =
+      std::tuple{index(d.a), index(d.b), std::string(d.stage), std::string(d.criterion)};
+  const auto [at, added] = decision_of_.try_emplace(key, out_.decisions.size());
+  if (added) {
+    out_.decisions.push_back({.a = d.a,
+                              .b = d.b,
+                              .stage = std::string(d.stage),
+                              .criterion = std::string(d.criterion),
+                              .equation = std::string(d.equation),
+                              .threshold = d.threshold,
+                              .needed = d.needed});
+  }
+  DecisionTrack& track = out_.decisions[at->second];
+  const auto number = static_cast<float>(d.value);
+  const auto count = static_cast<std::uint8_t>(std::clamp(d.count, 0, 255));
+  const std::uint8_t passed = parts(d.verdict) ? 0 : 1;
+  if (!sampledAt(track.spans, step)) {
+    extend(track.spans, step);
+    track.value.push_back(number);
+    track.count.push_back(count);
+    track.passed.push_back(passed);
+  } else if (std::abs(number) > std::abs(track.value.back())) {
+    track.value.back() = number;
+    track.count.back() = count;
+    track.passed.back() = passed;
+  }
+}
+
+}  // namespace merge2d

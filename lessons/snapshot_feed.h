@@ -1,0 +1,32 @@
+#pragma once
+/// Snapshots into a recording.
+
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "lessons/recording.h"
+#include "render/palette.h"
+
+namespace merge2d {
+
+/// Adds one step after the other. `out` holds the bodies already, and must outlive the feed.
+class SnapshotFeed {
+ public:
+  explicit SnapshotFeed(Recording& out);
+  void add(const Snapshot& seen);
+
+ private:
+  void addBodies(const Snapshot& seen);
+  void addContacts(const Snapshot& seen);
+  ContactTrack& contactTrack(const ContactView& c);
+  void addDecision(std::int64_t step, Decision d);
+
+  Recording& out_;
+  CollectionColors colors_;
+  std::map<std::tuple<std::size_t, std::size_t, std::uint32_t>, std::size_t> contact_of_;
+  std::map<std::tuple<std::size_t, std::size_t, std::string, std::string>, std::size_t>
+      decision_of_;
+};
+
+}  // namespace merge2d
