@@ -14,6 +14,7 @@
 #include "app/parse.h"
 #include "app/picture_file.h"
 #include "app/progress.h"
+#include "app/render_options.h"
 #include "app/simulation.h"
 #include "app/usage_error.h"
 #include "src2d/core/error.h"
@@ -189,6 +190,7 @@ void addCompareCommand(CLI::App& program, Action& action) {
       [options](const std::string& s) { options->charts.theme = readTheme(s); },
       "Colours of the charts: light (default), dark or print")
       ->group(kGroup);
+  addContextOption(*command);
   command->add_flag("--no-charts", options->no_charts, "Draw no charts")->group(kGroup);
   command
       ->add_flag("--no-timings", options->no_timings,

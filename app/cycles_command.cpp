@@ -253,6 +253,7 @@ void addCyclesCommand(CLI::App& program, Action& action) {
       *command, "--theme", "NAME", [options](const std::string& s) { options->theme = s; },
       "light (default), dark or print")
       ->group(kPictures);
+  addContextOption(*command);
   command->add_flag("--force", options->force, "Overwrite files that are not ours")
       ->group("General");
   addMessageOptions(*command, *options);

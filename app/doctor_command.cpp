@@ -6,13 +6,16 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/ffmpeg.h"
+#include "app/render_options.h"
 #include "render/canvas.h"
+#include "render/context.h"
 #include "src2d/core/error.h"
 #include "src2d/scene/load.h"
 
@@ -40,7 +43,7 @@ Check attempt(const std::string& name, const std::string& remedy, F&& look) {
   }
 }
 
-/// Draws a red picture and looks whether it is one.
+/// Draws a red picture and looks whether it is one. The context comes from where --context says.
 std::string checkDrawing() {
   Canvas canvas(64, 64);
   Drawing drawing;
@@ -56,6 +59,16 @@ std::string checkFont(Weight weight) {
   const fs::path file = fontFile(weight);
   Text().width("x", {.size = 12, .weight = weight});
   return file.string();
+}
+
+/// Whether a library can draw, be it the one in use or not.
+Check checkContext(const char* name, ContextKind kind) {
+  const std::optional<ContextKind> chosen = chosenContext();
+  chooseContext(kind);
+  Check check = attempt(name, "only --context needs it", checkDrawing);
+  chooseContext(chosen);
+  check.needed = false;
+  return check;
 }
 
 std::string checkScenes() {
@@ -85,7 +98,9 @@ Check checkFfmpeg() {
 
 std::vector<Check> examine() {
   const std::string font_remedy = "install fonts-dejavu-core";
-  return {attempt("OpenGL", "install libosmesa6", checkDrawing),
+  return {attempt("OpenGL", "nothing can be drawn here", checkDrawing),
+          checkContext("OSMesa", ContextKind::Osmesa),
+          checkContext("EGL", ContextKind::Egl),
           attempt("font", font_remedy, [] { return checkFont(Weight::Regular); }),
           attempt("bold font", font_remedy, [] { return checkFont(Weight::Bold); }),
           attempt("scenes", "set MERGE2D_SCENES to their folder", checkScenes),
@@ -134,6 +149,7 @@ void addDoctorCommand(CLI::App& program, Action& action) {
       program.add_subcommand("doctor", "Tell what works here: drawing, fonts, ffmpeg, folders");
   command->footer("Examples:\n  merge2d doctor\n  merge2d doctor --json");
   const auto options = std::make_shared<MessageOptions>();
+  addContextOption(*command);
   addMessageOptions(*command, *options);
   command->callback([&action, options] { action = [options] { examine(*options); }; });
 }

@@ -8,6 +8,7 @@
 #include "app/simulation.h"
 #include "app/usage_error.h"
 #include "render/canvas.h"
+#include "render/context.h"
 #include "src2d/core/error.h"
 #include "src2d/core/suggest.h"
 
@@ -25,6 +26,7 @@ constexpr std::array<Quality, 5> kQualities{{{'l', 854, 480, 15},
                                              {'k', 3840, 2160, 60}}};
 
 constexpr std::array<std::string_view, 4> kFormats{"png", "apng", "gif", "mp4"};
+constexpr std::array<std::string_view, 2> kContexts{"osmesa", "egl"};  // as in ContextKind
 
 Quality readQuality(const std::string& text) {
   for (const Quality& quality : kQualities) {
@@ -119,6 +121,7 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
       "light (default), dark or print")
       ->group(kGroup);
   command.add_flag("-t,--transparent", options.transparent, "No background")->group(kGroup);
+  addContextOption(command);
 }
 
 void addFileOptions(CLI::App& command, RenderOptions& options) {
@@ -170,6 +173,21 @@ std::pair<int, int> readSize(const std::string& text) {
     return static_cast<int>(readInteger(option, digits, kLeastSide, Canvas::kMaxSide));
   };
   return {side("width", text.substr(0, x)), side("height", text.substr(x + 1))};
+}
+
+void addContextOption(CLI::App& command) {
+  addOption(
+      command, "--context", "osmesa|egl",
+      [](const std::string& s) {
+        const auto found = std::ranges::find(kContexts, s);
+        if (found == kContexts.end()) {
+          throw UsageError(fmt::format("--context must be one of {}, but is '{}'{}",
+                                       fmt::join(kContexts, ", "), s, didYouMean(s, kContexts)));
+        }
+        chooseContext(static_cast<ContextKind>(found - kContexts.begin()));
+      },
+      "The library that OpenGL comes from (default: OSMesa, or else EGL)")
+      ->group("Pictures");
 }
 
 void addRenderOptions(CLI::App& command, RenderOptions& options) {

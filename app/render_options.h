@@ -49,6 +49,8 @@ struct RenderOptions : SceneOptions {
 };
 
 void addRenderOptions(CLI::App& command, RenderOptions& options);
+/// --context, for all commands that draw: it holds for the whole process.
+void addContextOption(CLI::App& command);
 
 /// Throws UsageError for options that contradict each other.
 void check(const RenderOptions& options);

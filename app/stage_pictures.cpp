@@ -26,8 +26,7 @@ StagePictures::StagePictures(const Scene& scene, Mode mode, FrameStyle style)
     : scene_(scene),
       mode_(mode),
       start_(scene, {.mode = mode, .timings = false}),
-      style_(adapted(std::move(style), start_)),
-      drawer_(start_.bodies(), style_) {}
+      style_(adapted(std::move(style), start_)) {}
 
 const Snapshot* StagePictures::reference(std::int64_t step) {
   if (mode_ == kReference) return nullptr;
@@ -55,11 +54,12 @@ std::string StagePictures::save(const StepRecord* record, Stage stage, const std
             {.alpha = style_.transparent, .description = text});
     return text;
   }
-  drawer_.look(cameraFor(record->before));
+  if (!drawer_) drawer_.emplace(start_.bodies(), style_);
+  drawer_->look(cameraFor(record->before));
   const bool compare = stage == Stage::AdvanceVelocities;
   const StageCaption caption = captionOf(*record, stage);
   const std::string text = describeStage(*record, stage, caption, style_);
-  savePng(file, drawer_.draw(*record, stage, caption, compare ? reference(record->step) : nullptr),
+  savePng(file, drawer_->draw(*record, stage, caption, compare ? reference(record->step) : nullptr),
           {.alpha = style_.transparent, .description = text});
   return text;
 }

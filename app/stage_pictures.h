@@ -34,7 +34,7 @@ class StagePictures {
   Mode mode_;
   World start_;  ///< before the first step
   FrameStyle style_;
-  StageDrawer drawer_;
+  std::optional<StageDrawer> drawer_;  ///< made for the first picture of a stage
   std::optional<World> reference_;
   Snapshot reference_state_;
 };

@@ -8,6 +8,7 @@
 #include "app/console.h"
 #include "app/line_editor.h"
 #include "app/picture_file.h"
+#include "app/render_options.h"
 #include "app/simulation.h"
 #include "app/stage_pictures.h"
 #include "app/usage_error.h"
@@ -85,6 +86,7 @@ void addStepCommand(CLI::App& program, Action& action) {
   command->footer(kStepExamples);
   const auto options = std::make_shared<SceneOptions>();
   addSceneOptions(*command, *options);
+  addContextOption(*command);
   addGeneralOptions(*command, *options);
   command->callback([&action, options] { action = [options] { step(*options); }; });
 }

@@ -26,8 +26,8 @@ merge2d_export(engine Eigen3::Eigen box2d::box2d fmt::fmt $<LINK_ONLY:PNG::PNG>)
 merge2d_install_headers(src2d)
 if(MERGE2D_APP)
   merge2d_export(render merge2d_engine $<LINK_ONLY:PNG::PNG> $<LINK_ONLY:Freetype::Freetype>
-                 $<LINK_ONLY:Threads::Threads> $<LINK_ONLY:PkgConfig::OSMESA>
-                 $<LINK_ONLY:PkgConfig::DEFLATE>)
+                 $<LINK_ONLY:Threads::Threads> $<LINK_ONLY:PkgConfig::DEFLATE>
+                 $<LINK_ONLY:${CMAKE_DL_LIBS}>)
   merge2d_install_headers(render)
   install(TARGETS merge2d RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/
@@ -62,8 +62,9 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
   set(CPACK_DEBIAN_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)
+  # OpenGL is loaded at run time, so that no tool finds it by itself.
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, libosmesa6 | libegl-mesa0, libosmesa6 | libegl1")
   set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-      "ffmpeg, libbox2d-dev, libeigen3-dev, libfmt-dev, libpng-dev, libosmesa6-dev, libfreetype-dev, libdeflate-dev")
+      "ffmpeg, libbox2d-dev, libeigen3-dev, libfmt-dev, libpng-dev, libfreetype-dev, libdeflate-dev")
   include(CPack)
 endif()

@@ -1,26 +1,28 @@
-#include "render/context.h"  // first: its OpenGL header must come before OSMesa's
+#include "render/context.h"
 
-#include <GL/osmesa.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <mutex>
+#include <string_view>
 
 #include "src2d/core/error.h"
-
-#ifdef __SANITIZE_ADDRESS__
-// OSMesa keeps a few bytes of each context when it is destroyed.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so"; }
-#endif
+#include "src2d/core/suggest.h"
 
 namespace merge2d {
 namespace {
 
-constexpr int kSide = 16;  // of the default framebuffer [px]
+constexpr std::array<const char*, 2> kTitles{"OSMesa", "EGL"};  // as in ContextKind
+constexpr std::array<std::string_view, 2> kDrivers{"llvmpipe", "softpipe"};
 
-/// OSMesa sets itself up when the first context is made, and does not say that it may be called by
+std::optional<ContextKind>& choice() {
+  static std::optional<ContextKind> kind;
+  return kind;
+}
+
+/// Mesa sets itself up when the first context is made, and does not say that it may be called by
 /// several threads then. What makes, switches or destroys contexts takes turns.
 std::mutex& turn() {
   static std::mutex mutex;
@@ -31,59 +33,84 @@ std::mutex& turn() {
 /// to make none of its own. It reads the variable when the first context is created.
 void keepDriverSingleThreaded() { setenv("LP_NUM_THREADS", "0", 0); }
 
-OSMesaContext createContext() {
-  const std::lock_guard lock(turn());
-  keepDriverSingleThreaded();
-  // clang-format off
-  constexpr std::array<int, 11> attributes = {
-      OSMESA_FORMAT, OSMESA_RGBA,
-      OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-      OSMESA_CONTEXT_MAJOR_VERSION, 3,
-      OSMESA_CONTEXT_MINOR_VERSION, 3,
-      OSMESA_DEPTH_BITS, 0,
-      0};
-  // clang-format on
-  return OSMesaCreateContextAttribs(attributes.data(), nullptr);
+/// With a driver that it does not know, OSMesa 22.3 ends the process by a null pointer.
+void requireKnownDriver() {
+  const char* driver = std::getenv("GALLIUM_DRIVER");
+  if (!driver || std::ranges::find(kDrivers, driver) != kDrivers.end()) return;
+  throw IoError(
+      fmt::format("GALLIUM_DRIVER is '{}', but Mesa's software drivers are {}{}; unset it", driver,
+                  fmt::join(kDrivers, " and "), didYouMean(driver, kDrivers)));
 }
 
-Gl loadFunctions() {
+std::unique_ptr<ContextBackend> make(ContextKind kind) {
+  return kind == ContextKind::Osmesa ? makeOsmesaContext() : makeEglContext();
+}
+
+/// A context of the kind that was chosen, or of the first that there is; says which.
+std::unique_ptr<ContextBackend> makeChosen(std::optional<ContextKind>& kind) {
+  kind = choice();
+  if (kind) return make(*kind);
+  std::string reason;
+  try {
+    kind = ContextKind::Osmesa;
+    return make(*kind);
+  } catch (const IoError& error) {
+    reason = error.what();
+  }
+  try {
+    kind = ContextKind::Egl;
+    return make(*kind);
+  } catch (const IoError& error) {
+    throw IoError(fmt::format(
+        "no OpenGL in software: {}; {} (install libosmesa6, or libegl1 and libegl-mesa0)", reason,
+        error.what()));
+  }
+}
+
+Gl loadFunctions(const ContextBackend& backend) {
   Gl gl;
 #define MERGE2D_GL_LOAD(TYPE, NAME) \
-  gl.NAME = reinterpret_cast<PFN##TYPE##PROC>(OSMesaGetProcAddress("gl" #NAME));
+  gl.NAME = reinterpret_cast<PFN##TYPE##PROC>(backend.function("gl" #NAME));
   MERGE2D_GL_FUNCTIONS(MERGE2D_GL_LOAD)
 #undef MERGE2D_GL_LOAD
   return gl;
 }
 
-/// OSMesa returns an address for any name at all, so the version has to tell what is there.
+/// Both libraries return an address for any name at all, so the version has to tell what is there.
 void requireVersion(const Gl& gl) {
   int major = 0, minor = 0;
   gl.GetIntegerv(GL_MAJOR_VERSION, &major);
   gl.GetIntegerv(GL_MINOR_VERSION, &minor);
   if (major * 10 + minor < 33) {
-    throw IoError(fmt::format("OpenGL 3.3 is needed, but OSMesa has {}.{}", major, minor));
+    throw IoError(fmt::format("OpenGL 3.3 is needed, but the driver has {}.{}", major, minor));
   }
 }
 
 }  // namespace
 
-void Context::Release::operator()(void* handle) const {
+void chooseContext(std::optional<ContextKind> kind) { choice() = kind; }
+
+std::optional<ContextKind> chosenContext() { return choice(); }
+
+Context::Context() {
   const std::lock_guard lock(turn());
-  OSMesaDestroyContext(static_cast<OSMesaContext>(handle));
+  keepDriverSingleThreaded();
+  requireKnownDriver();
+  backend_ = makeChosen(kind_);
+  backend_->makeCurrent();
+  gl_ = loadFunctions(*backend_);
+  requireVersion(gl_);
 }
 
-Context::Context() : handle_(createContext()), pixels_(4 * kSide * kSide), gl_(loadFunctions()) {
-  if (!handle_) throw IoError("cannot create an off-screen OpenGL 3.3 context with OSMesa");
-  requireVersion(makeCurrent());
+Context::~Context() {
+  const std::lock_guard lock(turn());
+  backend_.reset();
 }
 
 const Gl& Context::makeCurrent() {
-  auto* context = static_cast<OSMesaContext>(handle_.get());
-  if (OSMesaGetCurrentContext() == context) return gl_;
+  if (backend_->isCurrent()) return gl_;
   const std::lock_guard lock(turn());
-  if (!OSMesaMakeCurrent(context, pixels_.data(), GL_UNSIGNED_BYTE, kSide, kSide)) {
-    throw IoError("cannot make the OSMesa context current");
-  }
+  backend_->makeCurrent();
   return gl_;
 }
 
@@ -92,7 +119,8 @@ std::string Context::description() {
   const auto text = [&](GLenum what) {
     return std::string(reinterpret_cast<const char*>(gl.GetString(what)));
   };
-  return fmt::format("{}, {}", text(GL_VERSION), text(GL_RENDERER));
+  return fmt::format("{}, {}, {}", kTitles[static_cast<std::size_t>(*kind_)], text(GL_VERSION),
+                     text(GL_RENDERER));
 }
 
 }  // namespace merge2d

@@ -7,6 +7,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 class Doctor : public ProgramTest {
  protected:
@@ -39,7 +40,65 @@ TEST_F(Doctor, FailsWithoutWhatIsNeeded) {
   const Outcome outcome = run({"doctor", "--json"});
   EXPECT_EQ(outcome.code, 4);
   EXPECT_FALSE(check(outcome.json(), "scenes")["ok"]);
-  EXPECT_THAT(outcome.err, HasSubstr("1 of 7 checks failed"));
+  EXPECT_THAT(outcome.err, HasSubstr("1 of 9 checks failed"));
+}
+
+TEST_F(Doctor, TellsWhereOpenGlComesFrom) {
+  const Json report = run({"doctor", "--json", "--context", "egl"}).json();
+  EXPECT_THAT(check(report, "OpenGL")["detail"].get<std::string>(), StartsWith("EGL, "));
+  EXPECT_TRUE(check(report, "EGL")["ok"]);
+  EXPECT_FALSE(check(report, "EGL")["needed"]);
+}
+
+TEST_F(Doctor, NamesADriverThatMesaDoesNotHave) {
+  setEnvironment("GALLIUM_DRIVER", "foo");
+  for (const Words& words : {Words{"doctor"}, {"render", "books", "-s"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.out + outcome.err, HasSubstr("GALLIUM_DRIVER is 'foo'"));
+  }
+}
+
+/// A machine whose OpenGL libraries cannot be loaded.
+class WithoutOpenGl : public Doctor {
+ protected:
+  WithoutOpenGl() { setEnvironment("LD_LIBRARY_PATH", folder().string()); }
+  void spoil(const Words& libraries) const {
+    for (const std::string& library : libraries) write(library, "no library\n");
+  }
+  const Words osmesa_{"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
+  const Words egl_{"libEGL.so.1", "libEGL.so"};
+};
+
+TEST_F(WithoutOpenGl, EglDrawsWhereOsmesaIsMissing) {
+  spoil(osmesa_);
+  const Json report = run({"doctor", "--json"}).json();
+  EXPECT_FALSE(check(report, "OSMesa")["ok"]);
+  EXPECT_THAT(check(report, "OpenGL")["detail"].get<std::string>(), StartsWith("EGL, "));
+  EXPECT_EQ(run({"render", "books", "-s", "-r", "160x90"}).code, 0);
+}
+
+TEST_F(WithoutOpenGl, RenderingSaysWhatIsMissing) {
+  spoil(osmesa_);
+  spoil(egl_);
+  const Outcome outcome = run({"render", "books", "-s"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_THAT(outcome.err, HasSubstr("cannot load libOSMesa.so.8"));
+  EXPECT_THAT(outcome.err, HasSubstr("cannot load libEGL.so.1"));
+  EXPECT_THAT(outcome.err, HasSubstr("install libosmesa6"));
+}
+
+TEST_F(WithoutOpenGl, ProgramsThatDoNotDrawNeedNone) {
+  spoil(osmesa_);
+  spoil(egl_);
+  sendInput("next\nquit\n");
+  for (const Words& words : {Words{"list"},
+                             {"run", "books", "--steps", "3"},
+                             {"explain", "books", "--at", "3"},
+                             {"step", "books"},
+                             {"compare", "books", "--steps", "3", "--no-charts"}}) {
+    EXPECT_EQ(run(words).code, 0) << words[0];
+  }
 }
 
 TEST_F(Doctor, MissingFontsAreNoMatterOfOpenGl) {

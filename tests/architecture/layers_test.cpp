@@ -47,7 +47,7 @@ const std::vector<Rule> kRules = {
      kEverywhere,
      {"nlohmann/"},
      {"src2d/trace/", "lessons/", "app/", "bench/", "tests/"}},
-    {"OpenGL is behind the canvas", kEverywhere, {"GL/"}, {"render/"}},
+    {"OpenGL is behind the canvas", kEverywhere, {"GL/", "EGL/"}, {"render/"}},
     {"the command line is the app's", kEverywhere, {"CLI/"}, {"app/", "bench/"}},
 };
 
