@@ -57,10 +57,9 @@ class PartialSink : public FrameSink {
       ++counts_.kept;
       return;
     }
-    const auto image =
-        canvas_.draw(composeFrame(canvas_.text(), snapshot, bodies_, looks_, style_, slots));
-    const auto png =
-        encodePng(image, {.alpha = style_.transparent, .description = describe(snapshot, style_)});
+    canvas_.draw(composeFrame(canvas_.text(), snapshot, bodies_, looks_, style_, slots), picture_);
+    const auto png = encoder_.encode(
+        picture_, {.alpha = style_.transparent, .description = describe(snapshot, style_)});
     constexpr bool kDurable = false;  // a damaged one is drawn again
     writeAtomically(file, png, kDurable);
     digests_.note(frame, png);
@@ -76,6 +75,8 @@ class PartialSink : public FrameSink {
   BodyLooks looks_;
   CollectionColors colors_;
   Canvas canvas_;
+  Picture picture_;
+  PngEncoder encoder_;
   fs::path folder_;
   std::int64_t from_;
   FrameDigests& digests_;

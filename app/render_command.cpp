@@ -173,7 +173,7 @@ fs::path Rendering::makeAnimation() {
     const fs::path file = folder_ / (scene().name + ".apng");
     ApngWriter writer(file, film_.fps);
     for (std::int64_t k = film_.from; k <= film_.to; ++k) {
-      writer.add(readFileBytes(folder_ / frameName(k)));
+      writer.add(readFileBytes(folder_ / frameName(k)), options_.transparent);
     }
     writer.finish();
     return file;

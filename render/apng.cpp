@@ -27,13 +27,18 @@ ApngWriter::ApngWriter(const std::filesystem::path& file, int frames_per_second)
       frames_per_second_(static_cast<std::uint16_t>(std::clamp(frames_per_second, 1, 1000))) {}
 
 void ApngWriter::add(const Picture& picture, bool alpha) {
-  add(encodePng(picture, {.alpha = alpha}));
+  add(encodePng(picture, {.alpha = alpha, .palette = false}));
 }
 
-void ApngWriter::add(std::span<const std::uint8_t> png) {
+void ApngWriter::add(std::span<const std::uint8_t> png, bool alpha) {
   PngChunks chunks(png);
   const auto header = chunks.next();
   if (!header || header->type != "IHDR") throw IoError("not a PNG file");
+  constexpr std::size_t kColorType = 9;  // its place in IHDR
+  constexpr std::uint8_t kPalette = 3;   // of which an animation has only one for all frames
+  if (header->data.size() > kColorType && header->data[kColorType] == kPalette) {
+    return add(decodePng(png), alpha);
+  }
   if (frames_ == 0) writeHeader(header->data);
   if (!std::ranges::equal(header->data, header_)) {
     throw IoError("the frames of an animation must have the same size and kind of pixels");

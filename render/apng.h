@@ -19,8 +19,9 @@ class ApngWriter {
   ApngWriter(const std::filesystem::path& file, int frames_per_second);
 
   /// A frame as the bytes of a PNG file. Throws IoError for another size or kind of pixels than
-  /// the first frame's, and for odd sizes.
-  void add(std::span<const std::uint8_t> png);
+  /// the first frame's, and for odd sizes. A frame with a palette is encoded anew, with or without
+  /// alpha.
+  void add(std::span<const std::uint8_t> png, bool alpha = false);
   void add(const Picture& picture, bool alpha = false);
   void finish();
 

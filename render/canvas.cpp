@@ -177,7 +177,7 @@ void Canvas::describeInstances() {
   gl_->GenTextures(1, &atlas_texture_);
 }
 
-Picture Canvas::draw(const Drawing& drawing) {
+void Canvas::draw(const Drawing& drawing, Picture& picture) {
   gl_ = &context_->makeCurrent();
   const Color c = drawing.background;
   const float alpha = static_cast<float>(c.a) / 255.0F;
@@ -188,7 +188,7 @@ Picture Canvas::draw(const Drawing& drawing) {
   uploadEdges(drawing.edges);
   uploadAtlas();
   for (const Layer& layer : drawing.layers) drawLayer(layer);
-  return read(drawing.background.a == 255);
+  read(picture, drawing.background.a == 255);
 }
 
 void Canvas::uploadEdges(const std::vector<Edge>& edges) {
@@ -237,14 +237,14 @@ void Canvas::drawInstances(Kind kind, const std::vector<Instance>& instances) {
   gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
 }
 
-Picture Canvas::read(bool opaque) {
-  Picture picture(width_, height_);
+void Canvas::read(Picture& picture, bool opaque) {
+  picture.width = width_, picture.height = height_;
+  picture.rgba.resize(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
   if (!opaque) unpremultiply(picture.rgba);
   if (const GLenum error = gl_->GetError(); error != GL_NO_ERROR) {
     throw IoError(fmt::format("OpenGL error 0x{:04x} while drawing", error));
   }
-  return picture;
 }
 
 }  // namespace merge2d

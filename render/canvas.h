@@ -34,7 +34,13 @@ class Canvas {
   /// What draws: "4.5 (Core Profile) Mesa 22.3.6, llvmpipe (…)".
   std::string description();
 
-  Picture draw(const Drawing& drawing);
+  Picture draw(const Drawing& drawing) {
+    Picture picture;
+    draw(drawing, picture);
+    return picture;
+  }
+  /// The same into a picture of any size, whose memory is used again.
+  void draw(const Drawing& drawing, Picture& picture);
 
  private:
   enum Kind : std::size_t { Shapes, Arrows, Glyphs, kKinds };
@@ -47,7 +53,7 @@ class Canvas {
   void drawLayer(const Layer& layer);
   template <class Instance>
   void drawInstances(Kind kind, const std::vector<Instance>& instances);
-  Picture read(bool opaque);
+  void read(Picture& picture, bool opaque);
 
   int width_, height_;
   std::unique_ptr<Context> context_;

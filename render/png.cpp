@@ -1,7 +1,6 @@
 #include "render/png.h"
 
 #include <fmt/format.h>
-#include <libdeflate.h>
 #include <png.h>
 
 #include <algorithm>
@@ -23,7 +22,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr int kLevel = 1;               // higher levels cost much and gain little on flat pictures
 constexpr png_uint_32 kMaxSide = 8192;  // [px]
 
 // The text that tells what a picture shows: its key, its language, and the key in that language.
@@ -36,41 +34,6 @@ constexpr const char* kTextLanguage = "en";
 }
 void onWarning(png_structp, png_const_charp) {}
 
-struct Compressor {
-  libdeflate_compressor* handle = libdeflate_alloc_compressor(kLevel);
-  ~Compressor() { libdeflate_free_compressor(handle); }
-};
-
-/// Rows as PNG stores them: a filter byte (0, none) and the pixels.
-Bytes rawRows(const Picture& picture, bool alpha) {
-  const auto width = static_cast<std::size_t>(picture.width);
-  const std::size_t channels = alpha ? 4 : 3;
-  Bytes raw(static_cast<std::size_t>(picture.height) * (1 + channels * width));
-  const std::uint8_t* from = picture.rgba.data();
-  std::uint8_t* to = raw.data();
-  for (int y = 0; y < picture.height; ++y) {
-    *to++ = 0;
-    if (alpha) {
-      std::memcpy(to, from, 4 * width);
-      to += 4 * width, from += 4 * width;
-      continue;
-    }
-    for (std::size_t x = 0; x < width; ++x, from += 4, to += 3) {
-      to[0] = from[0], to[1] = from[1], to[2] = from[2];
-    }
-  }
-  return raw;
-}
-
-/// libdeflate compresses such pictures almost twice as fast as zlib.
-Bytes compressed(const Bytes& raw) {
-  thread_local const Compressor compressor;
-  Bytes out(libdeflate_zlib_compress_bound(compressor.handle, raw.size()));
-  out.resize(
-      libdeflate_zlib_compress(compressor.handle, raw.data(), raw.size(), out.data(), out.size()));
-  return out;
-}
-
 void setDescription(png_structp png, png_infop info, const std::string& description) {
   if (description.empty()) return;
   std::string key = kTextKey, value = description;
@@ -82,6 +45,21 @@ void setDescription(png_structp png, png_infop info, const std::string& descript
   text.lang = language.data();
   text.lang_key = translated.data();
   png_set_text(png, info, &text, 1);
+}
+
+void setPalette(png_structp png, png_infop info, std::span<const std::uint32_t> palette) {
+  std::vector<png_color> colors;
+  Bytes opacities;
+  const auto channel = [](std::uint32_t color, int shift) {
+    return static_cast<png_byte>(color >> shift & 0xff);
+  };
+  for (const std::uint32_t c : palette) {
+    colors.push_back({channel(c, 0), channel(c, 8), channel(c, 16)});
+    opacities.push_back(channel(c, 24));
+  }
+  png_set_PLTE(png, info, colors.data(), static_cast<int>(colors.size()));
+  if (std::ranges::all_of(opacities, [](int a) { return a == 255; })) return;
+  png_set_tRNS(png, info, opacities.data(), static_cast<int>(opacities.size()), nullptr);
 }
 
 /// PNG counts per metre.
@@ -122,24 +100,82 @@ void appendBytes(png_structp png, png_bytep data, std::size_t size) {
 
 }  // namespace
 
-std::vector<std::uint8_t> encodePng(const Picture& picture, const PngOptions& options) {
-  Bytes data = compressed(rawRows(picture, options.alpha));
-  Bytes out;
-  out.reserve(data.size() + 1024);
+/// What the pixels of a file are.
+struct PngEncoder::Image {
+  int color_type = PNG_COLOR_TYPE_RGB;
+  std::span<const std::uint32_t> pixels;
+  std::size_t bytes = 3;  ///< of a pixel
+  std::span<const std::uint32_t> palette;
+};
+
+std::span<const std::uint8_t> PngEncoder::encode(const Picture& picture,
+                                                 const PngOptions& options) {
+  loadPixels(picture, options.alpha);
+  Image image{.pixels = pixels_, .palette = {}};
+  if (options.alpha) image.color_type = PNG_COLOR_TYPE_RGB_ALPHA, image.bytes = 4;
+  write(image, picture, options, out_);
+  if (options.palette && findPalette()) {
+    write({PNG_COLOR_TYPE_PALETTE, indices_, 1, palette_}, picture, options, smaller_);
+    if (smaller_.size() < out_.size()) out_.swap(smaller_);
+  }
+  return out_;
+}
+
+/// Red in the lowest byte; without alpha all are opaque.
+void PngEncoder::loadPixels(const Picture& picture, bool alpha) {
+  const std::size_t count = picture.rgba.size() / 4;
+  const std::uint32_t opaque = alpha ? 0 : 0xff000000U;
+  pixels_.resize(count);
+  const std::uint8_t* p = picture.rgba.data();
+  for (std::size_t i = 0; i < count; ++i, p += 4) {
+    pixels_[i] =
+        (p[0] | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 | std::uint32_t{p[3]} << 24) |
+        opaque;
+  }
+}
+
+/// Numbers the colours; false when there are more than a palette holds.
+bool PngEncoder::findPalette() {
+  constexpr std::size_t kMost = 256, kSlots = 1024;
+  std::array<std::uint16_t, kSlots> slots{};  // by hash of the colour: its number, from 1
+  palette_.clear();
+  indices_.resize(pixels_.size());
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    const std::uint32_t color = pixels_[i];
+    if (i > 0 && color == pixels_[i - 1]) {
+      indices_[i] = indices_[i - 1];
+      continue;
+    }
+    std::size_t slot = color * 0x9e3779b1U >> 22;
+    while (slots[slot] != 0 && palette_[slots[slot] - 1U] != color) slot = (slot + 1) % kSlots;
+    if (slots[slot] == 0) {
+      if (palette_.size() == kMost) return false;
+      palette_.push_back(color);
+      slots[slot] = static_cast<std::uint16_t>(palette_.size());
+    }
+    indices_[i] = slots[slot] - 1U;
+  }
+  return true;
+}
+
+void PngEncoder::write(const Image& image, const Picture& picture, const PngOptions& options,
+                       Bytes& out) {
+  out.clear();
   const Writer writer;
   png_structp png = writer.png;
   png_infop info = writer.info;
   png_set_write_fn(png, &out, appendBytes, nullptr);
   png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width),
-               static_cast<png_uint_32>(picture.height), 8,
-               options.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               static_cast<png_uint_32>(picture.height), 8, image.color_type, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (!image.palette.empty()) setPalette(png, info, image.palette);
   setResolution(png, info, options.dots_per_inch);
   setDescription(png, info, options.description);
   png_write_info(png, info);
+  const std::span<const std::uint8_t> data =
+      deflate_.compress(image.pixels, static_cast<std::size_t>(picture.width), image.bytes);
   png_write_chunk(png, reinterpret_cast<png_const_bytep>("IDAT"), data.data(), data.size());
   png_write_chunk(png, reinterpret_cast<png_const_bytep>("IEND"), nullptr, 0);
-  return out;
 }
 
 Picture decodePng(std::span<const std::uint8_t> bytes) {
@@ -182,7 +218,7 @@ PngSummary inspectPng(std::span<const std::uint8_t> bytes) {
 }
 
 bool isOurPng(const std::filesystem::path& file) {
-  constexpr std::size_t kHead = 128;  // bytes in which the text begins
+  constexpr std::size_t kHead = 2048;  // bytes in which the text begins, behind a palette
   // After the key two zeros say that the text is not compressed.
   const std::string text =
       fmt::format("iTXt{0}{1}{1}{1}{2}{1}{0}{1}", kTextKey, '\0', kTextLanguage);

@@ -8,17 +8,44 @@
 #include <vector>
 
 #include "render/picture.h"
+#include "render/pixel_deflate.h"
 
 namespace merge2d {
 
 struct PngOptions {
   bool alpha = false;          ///< keep the alpha channel
+  bool palette = true;         ///< may have a palette: not where several pictures share a header
   std::string description{};   ///< text for those who cannot see the picture
   double dots_per_inch = 0.0;  ///< how large it is in print; 0: not said
 };
 
-/// The bytes of a PNG file: fast rather than small, and nothing but the picture in them (no dates).
-std::vector<std::uint8_t> encodePng(const Picture& picture, const PngOptions& options = {});
+/// Encodes pictures one after the other, in the same memory.
+class PngEncoder {
+ public:
+  /// The bytes of a PNG file: fast rather than small, and nothing but the picture in them (no
+  /// dates). A picture of few colours has a palette where that takes fewer bytes. The result is
+  /// valid until the next call.
+  std::span<const std::uint8_t> encode(const Picture& picture, const PngOptions& options = {});
+
+ private:
+  struct Image;
+
+  void loadPixels(const Picture& picture, bool alpha);
+  bool findPalette();
+  void write(const Image& image, const Picture& picture, const PngOptions& options,
+             std::vector<std::uint8_t>& out);
+
+  PixelDeflate deflate_;
+  std::vector<std::uint32_t> pixels_, indices_;
+  std::vector<std::uint32_t> palette_;  ///< colours in the order in which they appear
+  std::vector<std::uint8_t> out_, smaller_;
+};
+
+inline std::vector<std::uint8_t> encodePng(const Picture& picture, const PngOptions& options = {}) {
+  PngEncoder encoder;
+  const std::span<const std::uint8_t> bytes = encoder.encode(picture, options);
+  return {bytes.begin(), bytes.end()};
+}
 
 /// Throws IoError for what is not a PNG, is damaged, or is larger than 8192 pixels a side.
 Picture decodePng(std::span<const std::uint8_t> bytes);

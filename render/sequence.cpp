@@ -74,6 +74,15 @@ class Queue {
   bool closed_ = false;
 };
 
+/// What a worker draws with: memory that all its frames share.
+struct Studio {
+  explicit Studio(const FrameStyle& style) : canvas(style.width, style.height) {}
+
+  Canvas canvas;
+  Picture picture;
+  PngEncoder encoder;
+};
+
 }  // namespace
 
 std::string frameName(std::int64_t number) { return fmt::format("frame_{:06}.png", number); }
@@ -118,10 +127,10 @@ struct SequenceWriter::Impl {
   /// A worker: draws and writes one job after the other until there are none.
   void work() {
     try {
-      std::unique_ptr<Canvas> canvas;
+      std::unique_ptr<Studio> studio;
       for (Job job; queue.pop(job);) {
-        if (!canvas) canvas = std::make_unique<Canvas>(style.width, style.height);
-        drawAndWrite(*canvas, job);
+        if (!studio) studio = std::make_unique<Studio>(style);
+        drawAndWrite(*studio, job);
       }
     } catch (...) {
       const std::lock_guard lock(mutex);
@@ -130,13 +139,14 @@ struct SequenceWriter::Impl {
     }
   }
 
-  void drawAndWrite(Canvas& canvas, const Job& job) {
+  void drawAndWrite(Studio& studio, const Job& job) {
     const Clock::time_point start = Clock::now();
-    const Picture picture =
-        canvas.draw(composeFrame(canvas.text(), job.snapshot, bodies, looks, style, job.slots));
+    Canvas& canvas = studio.canvas;
+    canvas.draw(composeFrame(canvas.text(), job.snapshot, bodies, looks, style, job.slots),
+                studio.picture);
     const double draw_seconds = secondsSince(start);
-    const std::vector<std::uint8_t> png = encodePng(
-        picture, {.alpha = style.transparent, .description = describe(job.snapshot, style)});
+    const std::span<const std::uint8_t> png = studio.encoder.encode(
+        studio.picture, {.alpha = style.transparent, .description = describe(job.snapshot, style)});
     constexpr bool kDurable = false;  // thousands of files; a damaged one is drawn again
     writeAtomically(options.folder / frameName(job.frame), png, kDurable);
     if (options.digests != nullptr) options.digests->note(job.frame, png);

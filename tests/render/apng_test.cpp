@@ -82,6 +82,21 @@ TEST(Apng, RefusesOddSizesAndFramesThatDiffer) {
   EXPECT_THROW(writer.add(Picture(16, 8), true), IoError);
 }
 
+TEST(Apng, TakesFramesOfFewColoursTogetherWithOthers) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.png";
+  const Picture flat(64, 64, rgb(0x336699));
+  Picture colorful(64, 64);
+  for (std::size_t i = 0; i < colorful.rgba.size(); ++i) {
+    colorful.rgba[i] = i % 4 == 3 ? 255 : static_cast<std::uint8_t>(i * 37 + i / 91);
+  }
+  ApngWriter writer(file, 30);
+  writer.add(encodePng(flat));  // has a palette
+  writer.add(encodePng(colorful));
+  writer.finish();
+  EXPECT_EQ(loadPng(file).rgba, flat.rgba);
+}
+
 TEST(Apng, LeavesNothingBehindWhenItIsNotFinished) {
   const TemporaryFolder folder;
   {

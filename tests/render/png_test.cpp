@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "render/png_chunks.h"
@@ -43,6 +44,54 @@ TEST(Png, WithoutAlphaOnlyColoursAreKept) {
   for (std::size_t i = 3; i < picture.rgba.size(); i += 4) EXPECT_EQ(picture.rgba[i], 255);
 }
 
+/// Areas of one colour, slopes, and noise: rows and pixels that repeat near and far.
+Picture patchwork(int width, int height, unsigned seed, unsigned colors) {
+  Picture picture(width, height);
+  std::uint32_t state = seed * 2654435761U + 1;
+  const auto next = [&] { return (state = state * 1664525U + 1013904223U) >> 8; };
+  std::uint32_t color = 0;
+  unsigned run = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x<width; ++x, run -= run> 0 ? 1 : 0) {
+      if (run == 0) {
+        run = next() % 5 == 0 ? next() % 700 : next() % 4;
+        color = next() % colors * 0x010305U;
+      }
+      std::uint8_t* p = picture.rgba.data() + picture.offset(x, y);
+      for (int c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>(color >> 8 * c);
+      p[3] = static_cast<std::uint8_t>(255 - color % 3);
+      if (y > 0 && next() % 50 > 0) std::copy_n(p - 4 * width, 4, p);
+    }
+  }
+  return picture;
+}
+
+TEST(Png, AnyPictureComesBackAsItWas) {
+  PngEncoder encoder;  // one for all: nothing of a picture may stay for the next one
+  for (const int width : {1, 2, 86, 87, 300, 1301}) {
+    for (const int height : {1, 9, 40}) {
+      for (const unsigned colors : {1U, 2U, 200U, 60000U}) {
+        const Picture picture = patchwork(width, height, 7, colors);
+        const Picture back = decodePng(encoder.encode(picture, {.alpha = true}));
+        ASSERT_EQ(back.rgba, picture.rgba) << width << "x" << height << ", " << colors;
+      }
+    }
+  }
+}
+
+/// The kind of pixels: 2 colour, 3 palette, 6 colour and alpha.
+int colorType(std::span<const std::uint8_t> png) { return PngChunks(png).next()->data[9]; }
+
+TEST(Png, FewColoursAreAPaletteWhereThatIsSmaller) {
+  const Picture few = patchwork(200, 100, 3, 40), many = gradient(200, 100, false);
+  EXPECT_EQ(colorType(encodePng(few, {.alpha = true})), 3);
+  EXPECT_LT(encodePng(few).size(), encodePng(few, {.palette = false}).size());
+  EXPECT_EQ(colorType(encodePng(few, {.palette = false})), 2);
+  EXPECT_EQ(colorType(encodePng(many, {.alpha = true})), 6);
+  EXPECT_EQ(colorType(encodePng(gradient(16, 16, true))), 2)
+      << "a palette of as many colours as pixels";
+}
+
 TEST(Png, HoldsNothingButThePicture) {
   EXPECT_EQ(chunkTypes(encodePng(gradient(8, 8, true))),
             (std::vector<std::string>{"IHDR", "IDAT", "IEND"}));
@@ -60,6 +109,8 @@ TEST(Png, IsKnownAsOursByItsDescription) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "picture.png";
   savePng(file, gradient(8, 8, true), {.description = "a box", .dots_per_inch = 300.0});
+  EXPECT_TRUE(isOurPng(file));
+  savePng(file, patchwork(200, 100, 3, 255), {.description = "with a palette"});
   EXPECT_TRUE(isOurPng(file));
   savePng(file, gradient(8, 8, true));
   EXPECT_FALSE(isOurPng(file)) << "any program could have written it";
