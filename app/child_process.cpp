@@ -22,7 +22,7 @@
 namespace merge2d {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using WaitClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kWait{50};  ///< between two looks at the child
 constexpr std::chrono::seconds kPatience{5};    ///< with a child that was asked to end
@@ -86,14 +86,14 @@ class Messages {
 
 /// Waits for the child's end, and hands on what interrupts this program.
 int statusOf(pid_t child, Messages& messages) {
-  std::optional<Clock::time_point> asked;
+  std::optional<WaitClock::time_point> asked;
   for (int status = 0;; messages.wait()) {
     if (waitpid(child, &status, WNOHANG) == child) return status;
     if (interruptSignal() != 0 && !asked) {
       kill(child, interruptSignal());
-      asked = Clock::now();
+      asked = WaitClock::now();
     }
-    if (asked && Clock::now() > *asked + kPatience) kill(child, SIGKILL);
+    if (asked && WaitClock::now() > *asked + kPatience) kill(child, SIGKILL);
   }
 }
 

@@ -44,7 +44,7 @@ what happens; those of --stages have captions in step_000599.vtt, a second for e
 folder is used only when it is empty or holds an earlier rendering, which is replaced; --force puts
 the frames among other files.)";
 
-using Clock = std::chrono::steady_clock;
+using RenderClock = std::chrono::steady_clock;
 
 /// run.json is written so often: what a kill costs.
 constexpr std::chrono::seconds kNotedEvery{1};
@@ -96,7 +96,7 @@ class Rendering {
   std::optional<MadeFolder> made_;
   std::optional<FolderLock> lock_;
   std::optional<FrameDigests> digests_;
-  Clock::time_point noted_ = Clock::now();  ///< when run.json was written
+  RenderClock::time_point noted_ = RenderClock::now();  ///< when run.json was written
   Captions captions_;
   FrameCounts counts_;
   double seconds_ = 0.0;  ///< that the frames took
@@ -129,16 +129,16 @@ void Rendering::stepTo(std::int64_t step) {
 
 /// What a kill leaves can be told from what somebody else put there.
 void Rendering::noteProgress() {
-  if (Clock::now() < noted_ + kNotedEvery) return;
+  if (RenderClock::now() < noted_ + kNotedEvery) return;
   run_file_.write(false, *digests_);
-  noted_ = Clock::now();
+  noted_ = RenderClock::now();
 }
 
 void Rendering::drawFrames() {
   const auto sink =
       makeFrameSink(world().bodies(), style_, folder_, film_, *digests_, options_.resume);
   Progress progress(console_, "frame", film_.to + 1);
-  const Clock::time_point start = Clock::now();
+  const RenderClock::time_point start = RenderClock::now();
   for (std::int64_t frame = 0; frame <= film_.to; ++frame) {
     stepTo(film_.stepOf(frame));
     stopIfInterrupted();
@@ -149,7 +149,7 @@ void Rendering::drawFrames() {
   }
   sink->finish();
   counts_ = sink->counts();
-  seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
+  seconds_ = std::chrono::duration<double>(RenderClock::now() - start).count();
 }
 
 void Rendering::finish(bool complete, const std::string& failure) {

@@ -53,6 +53,7 @@ class Egl {
   }
 
   EglLibrary egl;
+// NOLINTNEXTLINE(bugprone-macro-parentheses): names cannot stand in parentheses.
 #define MERGE2D_EGL(NAME, function) decltype(&NAME) function = egl.find<decltype(&NAME)>(#NAME)
   MERGE2D_EGL(eglGetError, error);
   MERGE2D_EGL(eglInitialize, initialize);

@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kStart = ".merge2d-", kLetters = "abcdefghijklmnopqrstuvwxyz012345";
+constexpr std::string_view kTemporaryStart = ".merge2d-",
+                           kNameLetters = "abcdefghijklmnopqrstuvwxyz012345";
 constexpr std::size_t kRandomLetters = 12;
 
 /// The temporary names that exist, in memory that handlers of signals may read. With more of them
@@ -32,15 +33,15 @@ struct Slot {
   std::atomic<int> state{Free};
   std::array<char, PATH_MAX> path{};
 };
-std::array<Slot, 64> slots;  // NOLINT: handlers of signals have no arguments
+std::array<Slot, 64> temporary_names;  // NOLINT: handlers of signals have no arguments
 
 int takeSlot(const std::string& path) {
   if (path.size() >= PATH_MAX) return -1;
-  for (std::size_t i = 0; i < slots.size(); ++i) {
+  for (std::size_t i = 0; i < temporary_names.size(); ++i) {
     int expected = Slot::Free;
-    if (!slots[i].state.compare_exchange_strong(expected, Slot::Changing)) continue;
-    std::memcpy(slots[i].path.data(), path.c_str(), path.size() + 1);
-    slots[i].state = Slot::Used;
+    if (!temporary_names[i].state.compare_exchange_strong(expected, Slot::Changing)) continue;
+    std::memcpy(temporary_names[i].path.data(), path.c_str(), path.size() + 1);
+    temporary_names[i].state = Slot::Used;
     return static_cast<int>(i);
   }
   return -1;
@@ -57,8 +58,8 @@ fs::path randomName(const fs::path& target) {
   if (getrandom(random.data(), random.size(), 0) != static_cast<ssize_t>(random.size())) {
     throw IoError("the operating system gives no random numbers");
   }
-  std::string name(kStart);
-  for (const unsigned char byte : random) name += kLetters[byte % kLetters.size()];
+  std::string name(kTemporaryStart);
+  for (const unsigned char byte : random) name += kNameLetters[byte % kNameLetters.size()];
   return folderOf(target) / (name + target.extension().string());
 }
 
@@ -88,7 +89,7 @@ TemporaryName& TemporaryName::operator=(TemporaryName&& other) noexcept {
 }
 
 void TemporaryName::keep() {
-  if (slot_ >= 0) slots[static_cast<std::size_t>(slot_)].state = Slot::Free;
+  if (slot_ >= 0) temporary_names[static_cast<std::size_t>(slot_)].state = Slot::Free;
   slot_ = -1;
   path_.clear();
 }
@@ -99,16 +100,17 @@ void TemporaryName::remove() {
 }
 
 void removeTemporaryFiles() {
-  for (Slot& slot : slots) {
+  for (Slot& slot : temporary_names) {
     if (slot.state == Slot::Used) unlink(slot.path.data());
   }
 }
 
 bool isTemporaryName(std::string_view name) {
-  if (!name.starts_with(kStart) || name.size() < kStart.size() + kRandomLetters) return false;
-  const std::string_view letters = name.substr(kStart.size(), kRandomLetters);
-  const std::string_view rest = name.substr(kStart.size() + kRandomLetters);
-  return letters.find_first_not_of(kLetters) == std::string_view::npos &&
+  if (!name.starts_with(kTemporaryStart) || name.size() < kTemporaryStart.size() + kRandomLetters)
+    return false;
+  const std::string_view letters = name.substr(kTemporaryStart.size(), kRandomLetters);
+  const std::string_view rest = name.substr(kTemporaryStart.size() + kRandomLetters);
+  return letters.find_first_not_of(kNameLetters) == std::string_view::npos &&
          (rest.empty() || rest.front() == '.');
 }
 
@@ -163,6 +165,7 @@ void NewFile::createNamed(mode_t mode) {
   if (descriptor_ < 0) fail(errno);
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const): the file changes.
 void NewFile::write(std::span<const std::uint8_t> bytes) {
   if (!writeAll(descriptor_, bytes)) fail(errno);
 }

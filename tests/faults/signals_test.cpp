@@ -29,14 +29,6 @@ std::vector<int> endingSignals() {
   return signals;
 }
 
-bool sanitized() {
-#ifdef __SANITIZE_ADDRESS__
-  return true;
-#else
-  return false;
-#endif
-}
-
 TEST_F(Signals, WhatWasIgnoredStaysIgnored) {
   for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGQUIT, SIGUSR1, SIGXCPU, SIGALRM}) {
     beforeStart([&] { ::signal(signal, SIG_IGN); });
@@ -52,10 +44,6 @@ TEST_F(Signals, WhatWasIgnoredStaysIgnored) {
 
 TEST_F(Signals, TheEndBySignalLeavesNothing) {
   for (const int signal : endingSignals()) {
-    if (sanitized() && (signal == SIGSEGV || signal == SIGBUS || signal == SIGFPE ||
-                        signal == SIGABRT || signal == SIGILL || signal == SIGTRAP)) {
-      continue;  // the sanitizers' own
-    }
     beforeStart([] {
       const rlimit none{0, 0};
       setrlimit(RLIMIT_CORE, &none);
