@@ -234,6 +234,18 @@ BodyId appendBody(Setup& setup, const BodyDesc& desc) {
   return id;
 }
 
+namespace {
+
+/// In a joint the second body moves against the first, but of one to the world the user sees the
+/// body alone: its turn and its way are the opposite of the world's.
+void turnRound(Joint& joint) {
+  if (joint.motor) joint.motor->speed = -joint.motor->speed;
+  const bool length = joint.kind == JointKind::Distance;  // the same from both ends
+  if (joint.limits && !length) joint.limits = {-joint.limits->upper, -joint.limits->lower};
+}
+
+}  // namespace
+
 void appendJoint(State& s, const JointDesc& desc) {
   const auto local = [&](BodyIndex body, const Vec2& at) {
     const Pose pose = s.pose(BodyId{static_cast<std::uint32_t>(body)});
@@ -260,6 +272,7 @@ void appendJoint(State& s, const JointDesc& desc) {
   joint.damping = desc.damping;
   joint.limits = desc.limits;
   joint.motor = desc.motor;
+  if (joint.to_world) turnRound(joint);
   joint.break_force = desc.break_force;
   joint.break_torque = desc.break_torque;
   joint.collide = desc.collide;

@@ -204,7 +204,7 @@ kind = "prismatic"
 bodies = ["cart"]
 at = [0, 0]
 axis = [0, 1]
-limits = [-1, 1]
+limits = [-1, 2]
 [[body]]
 name = "flap"
 at = [3, 0]
@@ -213,10 +213,9 @@ box = [2, 0.1]
 kind = "revolute"
 bodies = ["flap"]
 at = [2, 0]
-limits = [-30, 30]
+limits = [-30, 60]
 )");
   run(world, 3.0);
-  // The way is that of the world's end against the cart: + 1 when the cart hangs 1 m below.
   EXPECT_NEAR(body(world, "cart").x.y(), -1.0, 0.01);
   EXPECT_NEAR(body(world, "flap").angle, -30 * kDegree, 0.5 * kDegree);
 }
@@ -231,10 +230,9 @@ box = [2, 0.2]
 kind = "revolute"
 bodies = ["arm"]
 at = [1, 0]
-motor = { speed = -90, torque = 100 }
+motor = { speed = 90, torque = 100 }
 )");
   run(world, 1.0);
-  // The world turns against the arm by -90°/s: the arm turns forward.
   EXPECT_NEAR(body(world, "arm").omega, 0.5 * std::numbers::pi, 1e-3);
 }
 
@@ -250,7 +248,7 @@ mass = 3
 kind = "revolute"
 bodies = ["arm"]
 at = [0, 0]
-motor = { speed = -9000, torque = 2 }
+motor = { speed = 9000, torque = 2 }
 )");
   const double inertia = world.bodies()[0].inertia;
   run(world, 1.0);
