@@ -24,6 +24,7 @@ constexpr const char* kLessonExamples = R"(Examples:
   merge2d lesson tower-platform
   merge2d lesson my-lesson/
   merge2d lesson my-scene.toml -o page.html
+  merge2d lesson books --no-live
 
 The page is one file with everything in it: it needs no network, and sends nothing anywhere.)";
 
@@ -34,6 +35,7 @@ constexpr std::string_view kPageStart =
 
 struct LessonOptions : SceneOptions {
   std::string output;  ///< empty: frames/<name>/lesson.html
+  bool live = true;
 };
 
 /// A built-in lesson's folder, or a folder that holds one.
@@ -82,8 +84,8 @@ class PageFile {
     file_.emplace(path_, Replaces{.everything = options.force, .ours = kPageStart});
   }
 
-  void write(const PageContent& content) {
-    file_->stream() << makePage(content);
+  void write(const PageContent& content, bool live) {
+    file_->stream() << makePage(content, live);
     file_->finish();
     if (path_ != "-") print(fmt::format("{}\n", path_));
   }
@@ -138,7 +140,7 @@ void run(const LessonOptions& options) {
   const auto folder = lessonNamed(options.scene);
   const PageContent content =
       folder ? lessonPage(*folder, options, console, file) : scenePage(options, console, file);
-  file->write(content);
+  file->write(content, options.live);
 }
 
 }  // namespace
@@ -153,6 +155,9 @@ void addLessonCommand(CLI::App& program, Action& action) {
       *command, "-o,--output", "FILE.html",
       [options](const std::string& s) { options->output = readPath("--output", s); },
       "The page; by default frames/NAME/lesson.html; - is the standard output");
+  command->add_flag("!--no-live", options->live,
+                    "Leave the engine out (0.7 MB): the page plays the prepared run, and nobody "
+                    "can take it over");
   addGeneralOptions(*command, *options);
   command->callback([&action, options] { action = [options] { run(*options); }; });
 }

@@ -12,11 +12,15 @@ if(CMAKE_SCRIPT_MODE_FILE)
     if(text MATCHES "\\)embedded\"")
       message(FATAL_ERROR "${FOLDER}/${file}: the text may not contain )embedded\"")
     endif()
-    string(APPEND entries "    {\"${file}\", R\"embedded(${text})embedded\"},\n")
+    # With its length: to count that of a large file is too much for a compiler.
+    string(LENGTH "${text}" length)
+    string(APPEND entries
+           "    {\"${file}\", std::string_view(R\"embedded(${text})embedded\", ${length})},\n")
   endforeach()
   file(WRITE ${OUTPUT}
 "// Written by cmake/embed.cmake.
 #include <span>
+#include <string_view>
 
 #include \"src2d/scene/data_folder.h\"
 

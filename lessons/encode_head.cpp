@@ -2,41 +2,39 @@
 
 #include <utility>
 
+#include "lessons/body_text.h"
 #include "lessons/encode.h"
 #include "lessons/ledger.h"
-#include "render/silhouette.h"
+#include "src2d/scene/load.h"
 #include "src2d/trace/json_text.h"
 #include "src2d/trace/parameters.h"
 
 namespace merge2d {
 namespace {
 
-void writeBody(JsonText& out, const BodyInfo& body) {
-  out.open('{').field("name", body.name).field("motion", name(body.motion));
-  out.field("mass", body.mass).field("inertia", body.inertia);
-  const Silhouette looks = silhouette(body.shapes);
-  out.array("pieces", looks.pieces, [&](const Piece& piece) {
-    out.open('[');
-    if (piece.kind == Piece::Kind::Disc) {
-      out.value(piece.frame.position.x()).value(piece.frame.position.y()).value(piece.radius);
-    } else {
-      for (const Vec2& v : piece.vertices) out.value(v);
-    }
-    out.close(']');
-  });
-  out.array("boundary", looks.boundary,
-            [&](const Segment& s) { out.row(s.from.x(), s.from.y(), s.to.x(), s.to.y()); });
-  out.close('}');
+/// Points are given in the body's own frame, the page knows the one at its centre of mass.
+Vec2 fromCentre(const Scene& scene, BodyIndex body, const Vec2& point) {
+  return point - areaProperties(scene.bodies[body].shapes).centroid;
 }
 
-/// Anchors are given in the body's own frame, the page knows the one at its centre of mass.
 void writeSpring(JsonText& out, const Scene& scene, const SpringDesc& s) {
-  const auto local = [&](BodyIndex body, const Vec2& anchor) -> Vec2 {
-    return anchor - areaProperties(scene.bodies[body].shapes).centroid;
+  const auto local = [&](BodyIndex body, const Vec2& anchor) {
+    return fromCentre(scene, body, anchor);
   };
   const Vec2 from = local(s.body, s.anchor), to = s.to_body ? local(*s.to_body, s.to) : s.to;
   out.row(s.body, from.x(), from.y(), s.to_body ? static_cast<std::int64_t>(*s.to_body) : -1,
           to.x(), to.y());
+}
+
+/// What the scene pushes and pulls at bodies with.
+void writeLoads(JsonText& out, const Scene& scene) {
+  out.array("forces", scene.forces, [&](const ForceDesc& f) {
+    const Vec2 at = fromCentre(scene, f.body, f.at);
+    out.row(f.body, at.x(), at.y(), f.force.x(), f.force.y(), f.from, f.until);
+  });
+  out.array("impulses", scene.impulses, [&](const ImpulseDesc& i) {
+    out.row(i.body, i.at.x(), i.at.y(), i.impulse.x(), i.impulse.y(), i.time);
+  });
 }
 
 }  // namespace
@@ -51,7 +49,7 @@ std::string headOf(const Recording& r, const ColumnLegend& legend) {
   out.key("camera").row(camera.center.x(), camera.center.y(), camera.height);
   out.field("length", legend.length.quantum).field("angle", legend.angle.quantum);
   out.key("amount").row(legend.amount.floor, legend.amount.steps);
-  out.key("parameters");
+  out.field("toml", toToml(r.scene)).key("parameters");
   writeParameters(out, r.scene);
   out.array("bodies", r.bodies, [&](const BodyInfo& body) { writeBody(out, body); });
   out.array("criteria", legend.criteria, [&](const DecisionTrack* t) {
@@ -72,6 +70,7 @@ std::string headOf(const Recording& r, const ColumnLegend& legend) {
   });
   out.array("inside", legend.inside,
             [&](const ImpulsesInside* inside) { out.row(inside->step, inside->contact.size()); });
+  writeLoads(out, r.scene);
   out.array("springs", r.scene.springs, [&](const SpringDesc& s) { writeSpring(out, r.scene, s); });
   out.close('}');
   return std::string(out.text());

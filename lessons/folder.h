@@ -10,7 +10,8 @@ namespace merge2d {
 
 /// The files of `lessons/` as they were when the program was built.
 std::span<const EmbeddedFile> embeddedLessons();
-/// `player.js` and `player.css`. They read what this program writes, so nothing replaces them.
+/// `player.js`, `player.css` and the engine, `engine.b64`. They read what this program writes, so
+/// nothing replaces them.
 std::span<const EmbeddedFile> embeddedPlayer();
 
 /// Where lessons are looked for, in this order.

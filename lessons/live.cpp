@@ -37,6 +37,10 @@ Vec2 Live::force(BodyId body) const {
   return out.norm() > most ? Vec2(out * (most / out.norm())) : out;
 }
 
+void Live::letGo(BodyId body) {
+  if (drags_.erase(body) > 0) world().wake(body);
+}
+
 void Live::pull() {
   for (const auto& [body, held] : drags_) {
     const Vec2 pull = force(body);
@@ -47,16 +51,43 @@ void Live::pull() {
   }
 }
 
+void Live::skip() {
+  pull();
+  recorder_.skip();
+  choose(world().capture());
+}
+
 void Live::skipTo(std::int64_t step) {
-  while (world().steps() < step) {
-    pull();
-    recorder_.skip();
-  }
+  while (world().steps() < step) skip();
 }
 
 StepRecord Live::step() {
   pull();
-  return recorder_.record();
+  StepRecord record = recorder_.record();
+  choose(record.after);
+  return record;
+}
+
+Live::Saved Live::save() const {
+  const World& w = world();
+  return {.bytes = w.save(),
+          .settings = w.settings(),
+          .gravity = w.gravity(),
+          .mode = w.mode(),
+          .drags = drags_,
+          .chosen = chosen_,
+          .slots = slots_};
+}
+
+void Live::restore(const Saved& saved) {
+  World& w = world();
+  w.setMode(saved.mode);
+  w.setSettings(saved.settings);
+  w.setGravity(saved.gravity);
+  w.restore(saved.bytes, "a saved state", SavedUnder::AnySettings);
+  drags_ = saved.drags;
+  chosen_ = saved.chosen;
+  slots_ = saved.slots;
 }
 
 }  // namespace merge2d

@@ -39,6 +39,10 @@ std::string dataOf(const PageContent& content, const Encoding& encoding) {
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: "
     "blob:; base-uri 'none'; form-action 'none'";
+/// The engine is WebAssembly, which a policy must allow by name.
+constexpr const char* kLivePolicy =
+    "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src "
+    "'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'";
 
 constexpr const char* kPage = R"(<!DOCTYPE html>
 <html lang="en">
@@ -55,7 +59,7 @@ constexpr const char* kPage = R"(<!DOCTYPE html>
 <noscript><p>This page draws a recorded simulation; it needs JavaScript, but no network.</p></noscript>
 <div id="app"></div>
 <script type="application/json" id="data">{data}</script>
-<script>
+{engine}<script>
 {program}</script>
 </body>
 </html>
@@ -89,16 +93,20 @@ std::string escapedHtml(std::string_view text) {
   return out;
 }
 
-std::string makePage(const PageContent& content) {
+std::string makePage(const PageContent& content, bool live) {
   const DataFolder player("built-in/player", embeddedPlayer());
   const std::string style = player.read("player.css"), program = player.read("player.js");
+  const std::string engine =
+      live ? fmt::format("<script type=\"text/plain\" id=\"engine\">{}</script>\n",
+                         player.read("engine.b64"))
+           : std::string();
   std::string page;
   for (const Encoding& encoding : encodings()) {
-    page = fmt::format(kPage, fmt::arg("policy", kPolicy),
+    page = fmt::format(kPage, fmt::arg("policy", live ? kLivePolicy : kPolicy),
                        fmt::arg("title", escapedHtml(content.title)), fmt::arg("style", style),
                        fmt::arg("data", forScript(dataOf(content, encoding))),
-                       fmt::arg("program", program));
-    if (page.size() <= kPageBytes) break;
+                       fmt::arg("engine", engine), fmt::arg("program", program));
+    if (page.size() <= kPageBytes + engine.size()) break;
   }
   return page;
 }

@@ -24,8 +24,9 @@ struct PageContent {
 /// Built-in pages stay below this size [bytes].
 inline constexpr std::size_t kPageBytes = 3'000'000;
 
-/// The page, as fine as fits into kPageBytes.
-std::string makePage(const PageContent& content);
+/// The page, as fine as fits into kPageBytes. With the engine in it one can take over a run; its
+/// size counts extra.
+std::string makePage(const PageContent& content, bool live = true);
 
 /// The text with the characters that mean something to HTML written as references.
 std::string escapedHtml(std::string_view text);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lessons/hand.h"
 #include "lessons/player_words.h"
 #include "src2d/core/error.h"
 #include "src2d/core/suggest.h"
@@ -34,6 +35,8 @@ const std::vector<Player::Command>& Player::commands() {
       {"pair", "", "A B", "the contacts and tests of a pair", &Player::pair, 2, false},
       {"events", "e", "", "what happened in this step", &Player::events, 0, false},
       {"picture", "p", "FILE.png", "draw the stage", &Player::picture, 1, false},
+      {"changes", "", "", "what was changed by hand", &Player::changed, 0, false},
+      {"undo", "u", "[N]", "take back the last N changes", &Player::undo, 1, false},
       {"help", "?", "", "this list", &Player::help, 0, false},
       {"quit", "q", "", "the end", &Player::quit, 0, false},
   };
@@ -46,6 +49,7 @@ const Player::Command& Player::find(std::string_view word) const {
     if (word == command.name || (word == command.short_name && !word.empty())) return command;
     names.push_back(command.name);
   }
+  for (const HandCommand& command : handCommands()) names.push_back(command.name);
   throw Refusal(
       fmt::format("there is no command '{}'{}; 'help' lists them", word, didYouMean(word, names)));
 }
@@ -74,6 +78,7 @@ Answer Player::run(std::string_view line) {
       const bool comment = line.find('#') != std::string_view::npos;
       return comment ? Answer{} : Answer{.text = (this->*find(last_motion_).run)({}), .ok = true};
     }
+    if (isHandCommand(words[0])) return {.text = byHand(words), .ok = true};
     const Command& command = find(words[0]);
     words.erase(words.begin());
     if (words.size() > command.most) {
@@ -101,6 +106,7 @@ std::vector<std::string> Player::completions(std::string_view line) const {
   };
   if (blank == std::string_view::npos) {
     for (const Command& command : commands()) offer(command.name);
+    for (const HandCommand& command : handCommands()) offer(command.name);
     return all;
   }
   const std::string_view command = line.substr(0, line.find_first_of(" \t"));
@@ -126,6 +132,11 @@ std::string Player::help(const Arguments&) {
   for (const Command& command : commands()) {
     const std::string usage = fmt::format("{} {}", command.name, command.arguments);
     out += fmt::format("  {:<22}{:<3} {}\n", usage, command.short_name, command.meaning);
+  }
+  out += "Changes by hand, before the next step:\n";
+  for (const HandCommand& command : handCommands()) {
+    out += fmt::format("  {:<25} {}\n", fmt::format("{} {}", command.name, command.arguments),
+                       command.meaning);
   }
   return out + "An empty line repeats the last motion. Names with blanks stand in quotes.\n";
 }

@@ -64,6 +64,9 @@ class Player {
   std::string pair(const Arguments& arguments);
   std::string events(const Arguments& arguments);
   std::string picture(const Arguments& arguments);
+  std::string changed(const Arguments& arguments);
+  std::string undo(const Arguments& arguments);
+  std::string byHand(const Arguments& words);
   std::string help(const Arguments& arguments);
   std::string quit(const Arguments& arguments);
 

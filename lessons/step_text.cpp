@@ -5,6 +5,7 @@
 
 #include "lessons/ledger.h"
 #include "lessons/snapshot_feed.h"
+#include "lessons/tables.h"
 #include "src2d/trace/json_text.h"
 
 namespace merge2d {
@@ -77,6 +78,13 @@ void writeOrder(JsonText& out, const Notes& notes) {
   out.close(']');
 }
 
+/// The colour of each collection.
+void writeColors(JsonText& out, const CollectionSlots& colors) {
+  out.key("colors").open('[');
+  for (const auto& [id, slot] : colors) out.row(id, slot);
+  out.close(']');
+}
+
 void writeState(JsonText& out, const Recording& r, std::int64_t step) {
   out.field("step", step);
   writeBodies(out, r);
@@ -88,23 +96,29 @@ void writeState(JsonText& out, const Recording& r, std::int64_t step) {
 
 }  // namespace
 
-std::string stateText(const Snapshot& seen, const std::vector<BodyInfo>& bodies) {
+std::string stateText(const Snapshot& seen, const std::vector<BodyInfo>& bodies,
+                      const CollectionSlots& colors) {
   JsonText out;
   out.open('{');
   writeState(out, recordingOf(seen, bodies), seen.step);
+  writeColors(out, colors);
   out.close('}');
   return std::string(out.text());
 }
 
-std::string stepText(const StepRecord& record, const std::vector<BodyInfo>& bodies) {
+std::string stepText(const StepRecord& record, const std::vector<BodyInfo>& bodies,
+                     const CollectionSlots& colors) {
   const Recording r = recordingOf(record.after, bodies);
   JsonText out;
   out.open('{');
   writeState(out, r, record.step);
+  writeColors(out, colors);
   writeInside(out, impulsesInside(record, r));
   writeOrder(out, record.notes);
   out.key("ledger").open('[');
   for (const LedgerEntry& entry : ledgerOf(record, bodies)) writeLedger(out, entry);
+  out.close(']').key("results").open('[');
+  for (std::size_t i = 0; i < kStages; ++i) out.value(result(record, static_cast<Stage>(i)));
   out.close(']').close('}');
   return std::string(out.text());
 }

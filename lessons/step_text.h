@@ -5,14 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "render/palette.h"
 #include "src2d/trace/recorder.h"
 
 namespace merge2d {
 
 /// The state alone, before anything has moved on from it.
-std::string stateText(const Snapshot& seen, const std::vector<BodyInfo>& bodies);
+std::string stateText(const Snapshot& seen, const std::vector<BodyInfo>& bodies,
+                      const CollectionSlots& colors = {});
 
-/// A step with its decisions, events, impulses before and after the single sweep, and ledger.
-std::string stepText(const StepRecord& record, const std::vector<BodyInfo>& bodies);
+/// A step with its decisions, events, impulses before and after the single sweep, ledger, and the
+/// result of each stage in a few words.
+std::string stepText(const StepRecord& record, const std::vector<BodyInfo>& bodies,
+                     const CollectionSlots& colors = {});
 
 }  // namespace merge2d

@@ -50,5 +50,7 @@ const char* purpose(Stage stage);
 
 /// What a stage did in this step, in one line: "2 welds ended; C1 came apart into 2".
 std::string summary(const StepRecord& record, Stage stage);
+/// The same in at most 26 characters: "34 found", "nothing to do".
+std::string result(const StepRecord& record, Stage stage);
 
 }  // namespace merge2d

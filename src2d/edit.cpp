@@ -151,6 +151,11 @@ void release(Setup& setup, Scratch& scratch, BodyId body) {
   detach(setup, scratch, body);
 }
 
+void setFriction(Setup& setup, BodyId body, double friction) {
+  setup.state[body].friction = friction;
+  stirAround(setup, body);
+}
+
 void wake(Setup& setup, BodyId body) { stirAround(setup, body); }
 
 void wakeAll(Setup& setup) {

@@ -23,6 +23,8 @@ void pin(Setup& setup, Scratch& scratch, BodyId body);
 void unpin(Setup& setup, Scratch& scratch, BodyId body);
 /// Takes a body out of its collection; it may merge again.
 void release(Setup& setup, Scratch& scratch, BodyId body);
+/// Of its surface: contacts have the geometric mean of both.
+void setFriction(Setup& setup, BodyId body, double friction);
 /// Neither it nor what touches it sleeps through the next step.
 void wake(Setup& setup, BodyId body);
 void wakeAll(Setup& setup);

@@ -224,6 +224,11 @@ void World::unpin(BodyId body) {
 void World::release(BodyId body) {
   merge2d::release(impl_->setup, impl_->scratch, impl_->checked(body));
 }
+void World::setFriction(BodyId body, double friction) {
+  checkNumbers("friction", {friction});
+  if (friction < 0.0) throw InputError("friction must be 0 or more");
+  merge2d::setFriction(impl_->setup, impl_->checked(body), friction);
+}
 void World::wake(BodyId body) { merge2d::wake(impl_->setup, impl_->checked(body)); }
 
 BodyId World::addBody(const BodyDesc& desc) {

@@ -141,5 +141,20 @@ TEST_F(PlayerTest, CompletesCommandsEventsStagesAndBodies) {
   EXPECT_THAT(player.completions("pair body1 b"), Contains("body2"));
 }
 
+TEST_F(PlayerTest, ChangesARunByHandAndTakesThatBack) {
+  say("jump 20 unm");
+  EXPECT_THAT(say("push @1 5 0"), HasSubstr(", from step 21 on"));
+  EXPECT_EQ(player.stage(), Stage::Merge);
+  const std::string pushed = say("step 5");
+  EXPECT_THAT(say("changes"), HasSubstr("after step 20: pushed body1 with (5.00, 0) N s"));
+  EXPECT_THAT(say("undo"), HasSubstr("1 change is taken back\nstep 20, "));
+  say("step 5");
+  EXPECT_EQ(say("changes"), "nothing was changed\n");
+  EXPECT_THAT(refused("undo"), HasSubstr("nothing was changed"));
+  EXPECT_THAT(refused("push @1"), HasSubstr("it should read: push BODY X Y"));
+  EXPECT_THAT(refused("pushh @1 1 0"), HasSubstr("did you mean 'push'?"));
+  EXPECT_THAT(say("help"), HasSubstr("set key=value"));
+}
+
 }  // namespace
 }  // namespace merge2d

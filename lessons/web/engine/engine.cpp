@@ -11,9 +11,13 @@
 #include <string>
 #include <string_view>
 
-#include "lessons/live.h"
+#include "lessons/body_text.h"
+#include "lessons/player_words.h"
 #include "lessons/step_text.h"
+#include "lessons/timeline.h"
+#include "lessons/why.h"
 #include "src2d/scene/load.h"
+#include "src2d/scene/settings_list.h"
 #include "src2d/trace/trace_writer.h"
 
 #define MERGE2D_EXPORT extern "C" __attribute__((used, visibility("default")))
@@ -22,7 +26,10 @@ namespace {
 
 using namespace merge2d;
 
-std::map<int, std::unique_ptr<Live>> worlds;
+constexpr std::int64_t kNoEnd = 1'000'000'000;
+
+std::map<int, std::unique_ptr<Timeline>> worlds;
+std::map<int, std::unique_ptr<World>> traced;
 int last_handle = 0;
 std::string buffer;  ///< what the last call gave
 
@@ -37,7 +44,18 @@ int guarded(Work&& work) {
   }
 }
 
-Live& at(int handle) { return *worlds.at(handle); }
+/// Leaves the JSON that `write` writes.
+template <class Write>
+int leave(Write&& write) {
+  return guarded([&] {
+    JsonText out;
+    write(out);
+    buffer = std::string(out.text());
+    return 1;
+  });
+}
+
+Timeline& at(int handle) { return *worlds.at(handle); }
 BodyId id(int body) { return BodyId{static_cast<std::uint32_t>(body)}; }
 
 Mode modeNamed(std::string_view text) {
@@ -45,6 +63,29 @@ Mode modeNamed(std::string_view text) {
     if (text == name(mode)) return mode;
   }
   return Mode::MergeSleep;
+}
+
+/// The scene in the buffer: the mode's name, a line break, TOML.
+template <class Make>
+int openScene(Make&& make) {
+  return guarded([&] {
+    const std::string text = buffer;
+    const std::size_t line = text.find('\n');
+    const Scene scene = parseScene(std::string_view(text).substr(line + 1), "scene.toml");
+    make(++last_handle, scene, modeNamed(text.substr(0, line)));
+    return last_handle;
+  });
+}
+
+void writeSettings(JsonText& out, const World& world) {
+  out.open('{').field("mode", name(world.mode())).key("gravity").value(world.gravity());
+  forEachSetting(world.settings(),
+                 [&](std::string_view table, std::string_view key, const auto& value, const auto&) {
+                   if constexpr (!std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
+                     out.field(std::string(table) + "." + std::string(key), value);
+                   }
+                 });
+  out.close('}');
 }
 
 }  // namespace
@@ -57,38 +98,95 @@ MERGE2D_EXPORT char* reserve(int size) {
 MERGE2D_EXPORT const char* result() { return buffer.data(); }
 MERGE2D_EXPORT int resultSize() { return static_cast<int>(buffer.size()); }
 
-/// A world of the scene in the buffer: the mode's name, a line break, TOML. Gives its handle.
+/// A run of the scene in the buffer. Gives its handle.
 MERGE2D_EXPORT int openWorld() {
-  return guarded([] {
-    const std::string text = buffer;
-    const std::size_t line = text.find('\n');
-    const Scene scene = parseScene(std::string_view(text).substr(line + 1), "scene.toml");
-    worlds[++last_handle] = std::make_unique<Live>(scene, modeNamed(text.substr(0, line)));
-    return last_handle;
+  return openScene([](int handle, const Scene& scene, Mode mode) {
+    worlds[handle] = std::make_unique<Timeline>(scene, mode, kNoEnd);
   });
 }
 MERGE2D_EXPORT void closeWorld(int handle) { worlds.erase(handle); }
 
-/// Takes steps without looking inside until `step` are done.
-MERGE2D_EXPORT int skipTo(int handle, int step) {
+/// Leaves the text of step `k` = 1, 2, …
+MERGE2D_EXPORT int stepWorld(int handle, int k) {
   return guarded([&] {
-    at(handle).skipTo(step);
+    Timeline& run = at(handle);
+    const StepRecord& record = run.step(k);
+    buffer = stepText(record, run.bodies(), run.colors(k));
     return 1;
   });
 }
-/// Takes a step and leaves its text.
-MERGE2D_EXPORT int stepWorld(int handle) {
+/// Leaves the text of the state after step `k` and what was changed there.
+MERGE2D_EXPORT int seeWorld(int handle, int k) {
   return guarded([&] {
-    Live& live = at(handle);
-    const StepRecord record = live.step();
-    buffer = stepText(record, live.world().bodies());
+    const Live& live = at(handle).at(k);
+    buffer = stateText(live.world().capture(), at(handle).bodies(), live.colors());
     return 1;
   });
 }
+/// Changes the run after step `k` as the words in the buffer say (lessons/hand.h), and leaves what
+/// was done.
+MERGE2D_EXPORT int changeWorld(int handle, int k) {
+  return guarded([&] {
+    const std::string line = buffer;
+    buffer = at(handle).change(k, wordsOf(line));
+    return 1;
+  });
+}
+/// Takes back the last changes; gives 1 more than the step of the first of them.
+MERGE2D_EXPORT int undoWorld(int handle, int count) {
+  return guarded([&] {
+    const auto step = at(handle).undo(static_cast<std::size_t>(count));
+    return step ? static_cast<int>(*step) + 1 : 0;
+  });
+}
+/// Leaves the bodies, also those that were added.
+MERGE2D_EXPORT int bodiesOfWorld(int handle) {
+  return leave([&](JsonText& out) {
+    out.open('[');
+    for (const BodyInfo& body : at(handle).bodies()) writeBody(out, body);
+    out.close(']');
+  });
+}
+/// Leaves the settings in force after step `k`.
+MERGE2D_EXPORT int settingsOfWorld(int handle, int k) {
+  return leave([&](JsonText& out) { writeSettings(out, at(handle).at(k).world()); });
+}
+/// Leaves why two bodies are one, or not, in step `k`.
+MERGE2D_EXPORT int whyInWorld(int handle, int k, int a, int b) {
+  return leave([&](JsonText& out) {
+    Timeline& run = at(handle);
+    const Words words(run.bodies());
+    writeReason(out, words, reasonFor(words, run.state(k), id(a), id(b)));
+  });
+}
+/// Leaves the forces of the hands after step `k`: body, grip and target in the world, force.
+MERGE2D_EXPORT int handsOnWorld(int handle, int k) {
+  return leave([&](JsonText& out) {
+    const Live& live = at(handle).at(k);
+    const Snapshot now = live.world().capture();
+    out.open('[');
+    for (const auto& [body, drag] : live.drags()) {
+      for (const BodyState& seen : now.bodies) {
+        if (seen.id != body) continue;
+        const Vec2 grip = seen.pose() * drag.grip, force = live.force(body);
+        out.row(body, grip.x(), grip.y(), drag.target.x(), drag.target.y(), force.x(), force.y());
+      }
+    }
+    out.close(']');
+  });
+}
+
+/// A world of the scene in the buffer whose trace is wanted. Gives its handle.
+MERGE2D_EXPORT int openTraced() {
+  return openScene([](int handle, const Scene& scene, Mode mode) {
+    traced[handle] = std::make_unique<World>(scene, WorldOptions{.mode = mode, .timings = false});
+  });
+}
+MERGE2D_EXPORT void closeTraced(int handle) { traced.erase(handle); }
 /// Takes steps until `step` are done and leaves their lines of the trace.
 MERGE2D_EXPORT int traceWorld(int handle, int step) {
   return guarded([&] {
-    World& world = at(handle).world();
+    World& world = *traced.at(handle);
     std::ostringstream out;
     TraceWriter writer(out, world.scene(), world.mode(), world.bodies(), {.timings = false});
     out.str({});  // without the header
@@ -99,37 +197,4 @@ MERGE2D_EXPORT int traceWorld(int handle, int step) {
     buffer = out.str();
     return 1;
   });
-}
-/// Leaves the text of the state.
-MERGE2D_EXPORT int seeWorld(int handle) {
-  return guarded([&] {
-    buffer = stateText(at(handle).world().capture(), at(handle).world().bodies());
-    return 1;
-  });
-}
-
-MERGE2D_EXPORT int saveWorld(int handle) {
-  return guarded([&] {
-    buffer = at(handle).world().save();
-    return 1;
-  });
-}
-/// Takes over the bytes in the buffer.
-MERGE2D_EXPORT int restoreWorld(int handle) {
-  return guarded([&] {
-    at(handle).world().restore(buffer, "a saved state");
-    at(handle).letAllGo();
-    return 1;
-  });
-}
-
-MERGE2D_EXPORT void pushBody(int handle, int body, double x, double y, double px, double py) {
-  at(handle).world().applyImpulse(id(body), {x, y}, {px, py});
-}
-MERGE2D_EXPORT void dragBody(int handle, int body, double gx, double gy, double x, double y) {
-  at(handle).drag(id(body), {.grip = {gx, gy}, .target = {x, y}});
-}
-MERGE2D_EXPORT void letGo(int handle, int body) { at(handle).letGo(id(body)); }
-MERGE2D_EXPORT double dragForce(int handle, int body, int axis) {
-  return at(handle).force(id(body))[axis];
 }

@@ -1,5 +1,6 @@
 // The engine itself, compiled to WebAssembly: lessons/web/engine/engine.cpp.
 import { unzlibSync } from 'fflate';
+import type { BodyInfo, EventRow } from './head';
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -9,16 +10,17 @@ interface Exports {
   resultSize(): number;
   openWorld(): number;
   closeWorld(world: number): void;
-  skipTo(world: number, step: number): number;
-  stepWorld(world: number): number;
-  seeWorld(world: number): number;
+  stepWorld(world: number, step: number): number;
+  seeWorld(world: number, step: number): number;
+  changeWorld(world: number, step: number): number;
+  undoWorld(world: number, count: number): number;
+  bodiesOfWorld(world: number): number;
+  settingsOfWorld(world: number, step: number): number;
+  whyInWorld(world: number, step: number, a: number, b: number): number;
+  handsOnWorld(world: number, step: number): number;
+  openTraced(): number;
+  closeTraced(world: number): void;
   traceWorld(world: number, step: number): number;
-  saveWorld(world: number): number;
-  restoreWorld(world: number): number;
-  pushBody(world: number, body: number, x: number, y: number, px: number, py: number): void;
-  dragBody(world: number, body: number, gx: number, gy: number, x: number, y: number): void;
-  letGo(world: number, body: number): void;
-  dragForce(world: number, body: number, axis: number): number;
 }
 
 /** All that the engine asks of its surroundings: room, and a place for a last word. */
@@ -61,56 +63,103 @@ export class Engine {
     return result;
   }
 
-  open(toml: string, mode: string): World {
+  private opened(toml: string, mode: string, open: () => number): number {
     this.write(new TextEncoder().encode(`${mode}\n${toml}`));
-    return new World(this, this.done(this.exports.openWorld()));
+    return this.done(open());
+  }
+  open(toml: string, mode: string): World {
+    return new World(this, this.opened(toml, mode, this.exports.openWorld));
+  }
+  /** For its trace alone. */
+  traced(toml: string, mode: string): TracedWorld {
+    return new TracedWorld(this, this.opened(toml, mode, this.exports.openTraced));
+  }
+  json<T>(result: number): T {
+    this.done(result);
+    return JSON.parse(this.text()) as T;
   }
 }
 
+/** What lessons/step_text.cpp writes. */
+export interface StateText {
+  step: number;
+  bodies: number[][];
+  contacts: number[][];
+  decisions: [a: number, b: number, stage: string, criterion: string, equation: string, threshold: number, needed: number,
+    value: number, count: number, passed: number][];
+  events: EventRow[];
+  stats: number[];
+  colors: [number, number][];
+}
+export interface StepText extends StateText {
+  sweeping: boolean;
+  inside: number[][];
+  order: [number, number, number][];
+  ledger: number[][];
+  results: string[];
+}
+
+/** What lessons/why.cpp writes. */
+export interface Reason {
+  heading: string;
+  text: string;
+  outlook: string;
+  tests: {
+    criterion: string; stage: string; equation: string; verdict: string; value: number; threshold: number;
+    count: number; needed: number; unit: string; text: string;
+  }[];
+}
+
+/** A drag that holds: body, grip, target [m], force [N]. */
+export type Hand = [body: number, x: number, y: number, tx: number, ty: number, fx: number, fy: number];
+
+/** A run in the engine: steps in any order, and changes by hand between them (lessons/timeline.h). */
 export class World {
   constructor(private readonly engine: Engine, private readonly handle: number) {}
 
-  /** A step, with all that the page shows of one: lessons/step_text.cpp. */
-  step(): unknown {
-    this.engine.done(this.engine.exports.stepWorld(this.handle));
-    return JSON.parse(this.engine.text());
+  step(step: number): StepText {
+    return this.engine.json(this.engine.exports.stepWorld(this.handle, step));
   }
-  see(): unknown {
-    this.engine.done(this.engine.exports.seeWorld(this.handle));
-    return JSON.parse(this.engine.text());
+  /** The state after a step and what was changed there. */
+  see(step: number): StateText {
+    return this.engine.json(this.engine.exports.seeWorld(this.handle, step));
   }
-  skipTo(step: number): void {
-    this.engine.done(this.engine.exports.skipTo(this.handle, step));
+  /** Does after a step what a line of lessons/hand.h says; gives what was done. Throws a refusal. */
+  change(step: number, line: string): string {
+    this.engine.write(new TextEncoder().encode(line));
+    this.engine.done(this.engine.exports.changeWorld(this.handle, step));
+    return this.engine.text();
   }
-  /** The lines of the trace up to a step. */
-  traceBytes(step: number): Uint8Array {
-    this.engine.done(this.engine.exports.traceWorld(this.handle, step));
-    return this.engine.read();
+  /** Takes back the last changes; gives the step of the first of them. */
+  undo(count: number): number {
+    return this.engine.exports.undoWorld(this.handle, count) - 1;
   }
-  trace(step: number): string {
-    return new TextDecoder().decode(this.traceBytes(step));
+  bodies(): BodyInfo[] {
+    return this.engine.json(this.engine.exports.bodiesOfWorld(this.handle));
   }
-  save(): Uint8Array {
-    this.engine.done(this.engine.exports.saveWorld(this.handle));
-    return this.engine.read();
+  settings(step: number): Record<string, number | string | boolean | number[]> {
+    return this.engine.json(this.engine.exports.settingsOfWorld(this.handle, step));
   }
-  restore(bytes: Uint8Array): void {
-    this.engine.write(bytes);
-    this.engine.done(this.engine.exports.restoreWorld(this.handle));
+  why(step: number, a: number, b: number): Reason {
+    return this.engine.json(this.engine.exports.whyInWorld(this.handle, step, a, b));
   }
-  push(body: number, at: [number, number], impulse: [number, number]): void {
-    this.engine.exports.pushBody(this.handle, body, ...at, ...impulse);
-  }
-  drag(body: number, grip: [number, number], target: [number, number]): void {
-    this.engine.exports.dragBody(this.handle, body, ...grip, ...target);
-  }
-  letGo(body: number): void {
-    this.engine.exports.letGo(this.handle, body);
-  }
-  force(body: number): [number, number] {
-    return [0, 1].map((axis) => this.engine.exports.dragForce(this.handle, body, axis)) as [number, number];
+  hands(step: number): Hand[] {
+    return this.engine.json(this.engine.exports.handsOnWorld(this.handle, step));
   }
   close(): void {
     this.engine.exports.closeWorld(this.handle);
+  }
+}
+
+export class TracedWorld {
+  constructor(private readonly engine: Engine, private readonly handle: number) {}
+
+  /** The lines of the trace up to a step. */
+  bytes(step: number): Uint8Array {
+    this.engine.done(this.engine.exports.traceWorld(this.handle, step));
+    return this.engine.read();
+  }
+  close(): void {
+    this.engine.exports.closeTraced(this.handle);
   }
 }

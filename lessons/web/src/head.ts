@@ -33,10 +33,15 @@ export interface Head {
   angle: number;
   amount: Vec;
   parameters: Record<string, unknown>;
+  toml: string; // the scene, for the engine
   bodies: BodyInfo[];
   criteria: Criterion[];
   events: EventRow[];
   colors: [number, number][];
+  /** What the scene itself pulls with: body, point in its frame, force, from, until (null: for ever). */
+  forces?: [number, number, number, number, number, number, number | null][];
+  /** And hits with: body, point in the world, impulse, time. */
+  impulses?: [number, number, number, number, number, number][];
   springs: [number, number, number, number, number, number][];
   ledger?: number[][];
   inside?: [step: number, contacts: number][];
