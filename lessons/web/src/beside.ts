@@ -1,33 +1,50 @@
-// The reference beside the picture, at the same step and stage.
+// Another run beside the picture, at the same step and stage: the reference, or the paper's rule.
 import { h } from './dom';
 import { Picture } from './picture';
 import { State } from './state';
+import type { Trace } from './trace';
+
+function nameOf(state: State): string {
+  return state.live && state.besideKind === 'paper' ? 'The paper’s rule' : 'Reference: nothing merged';
+}
+
+/** The largest distance of a body between the two runs [m]. */
+function offset(one: Trace, other: Trace, step: number): number {
+  let most = 0;
+  for (let body = 0; body < Math.min(one.bodies.length, other.bodies.length); ++body) {
+    if (!one.present(body, step) || !other.present(body, step)) continue;
+    const [p, q] = [one.pose(body, step), other.pose(body, step)];
+    most = Math.max(most, Math.hypot(p.x - q.x, p.y - q.y));
+  }
+  return most;
+}
 
 export function beside(state: State, frame: HTMLElement): HTMLElement {
   const root = h('div', { class: 'frames' }, frame);
-  const { reference } = state;
-  if (!reference) return root;
   const shown = new State(state.traces);
-  shown.trace = reference;
-  let other: { picture: Picture; frame: HTMLElement } | null = null; // only while it is seen
+  let other: { of: Trace; picture: Picture; frame: HTMLElement; label: HTMLElement } | null = null; // only while it is seen
   state.onChange(() => {
-    const wanted = state.layers.has('beside') && state.trace !== reference;
+    const reference = state.layers.has('beside') ? state.reference : undefined;
+    const wanted = reference !== undefined && state.trace !== reference;
     root.classList.toggle('two', wanted);
-    if (!wanted) {
+    if (!wanted || other?.of !== reference) {
       other?.frame.remove();
       other = null;
-      return;
     }
+    if (!wanted) return;
     if (!other) {
       const picture = new Picture(reference, false);
-      other = { picture, frame: h('div', { class: 'frame' }, picture.root, h('div', { class: 'badge' }, 'Reference: nothing merged')) };
+      const label = h('div', { class: 'badge' });
+      other = { of: reference, picture, label, frame: h('div', { class: 'frame' }, picture.root, label) };
       root.append(other.frame);
     }
-    Object.assign(shown, { stage: state.stage, playing: state.playing, selection: state.selection });
+    Object.assign(shown, { stage: state.stage, playing: state.playing, selection: state.selection, trace: reference });
     shown.step = Math.min(state.step, shown.steps);
     shown.layers.clear();
     for (const layer of state.layers) shown.layers.add(layer);
     other.picture.draw(shown);
+    const s = reference.stats(shown.step);
+    other.label.textContent = `${nameOf(state)} · ${s.active} bodies, ${s.contacts} contacts · largest offset ${(1000 * offset(state.trace, reference, shown.step)).toFixed(0)} mm`;
   });
   return root;
 }

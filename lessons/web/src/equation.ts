@@ -137,7 +137,7 @@ function line(state: State): Line | null {
     default: {
       const merged = (trace.eventsAt.get(step) ?? []).find((e) => e[1] === 'merge');
       const symbols = row(sub('v', 'c'), mo('='), math('mfrac', row(sub('m', 'c'), sub('v', 'c'), mo('+'), sub('m', 'b'), sub('v', 'b')), row(sub('m', 'c'), mo('+'), sub('m', 'b'))));
-      if (!merged) return { symbols, numbers: null, note: 'Eqs. (10)–(14). Nothing merges in this step.' };
+      if (!merged) return null; // there is nothing to be filled in
       const members = trace.members(merged[4], step);
       const mass = members.reduce((sum, b) => sum + trace.head.bodies[b].mass, 0);
       const v = (axis: 'vx' | 'vy') => members.reduce((sum, b) => sum + trace.head.bodies[b].mass * trace.velocity(b, step)[axis], 0) / mass;
@@ -148,14 +148,13 @@ function line(state: State): Line | null {
 
 export function equationCard(state: State): HTMLElement {
   const body = h('div', { class: 'equation' });
+  const root = h('section', { class: 'card equation-card', 'aria-label': 'Equation of this stage' }, h('h2', {}, 'Equation'), body);
   state.onChange(() => {
     if (state.playing) return;
-    const found = line(state);
-    if (!found) {
-      body.replaceChildren(h('p', { class: 'hint' }, 'This stage only decides an order: breadth first from what is new.'));
-      return;
-    }
+    const found = state.veiled ? null : line(state);
+    root.hidden = !found;
+    if (!found) return body.replaceChildren();
     body.replaceChildren(block(found.symbols), ...(found.numbers ? [block(found.numbers)] : []), ...(found.more ? [block(found.more)] : []), h('p', { class: 'hint' }, found.note));
   });
-  return h('section', { class: 'card', 'aria-label': 'Equation of this stage' }, h('h2', {}, 'Equation'), body);
+  return root;
 }

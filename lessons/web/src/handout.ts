@@ -1,6 +1,6 @@
 // The page on paper: a comic strip of the key states, with their text and questions.
 import { h } from './dom';
-import { type Lesson, prose, selectionOf, stageIndex } from './lesson';
+import { type Lesson, prose, type Question, selectionOf, shownOrder, stageIndex } from './lesson';
 import { describe } from './now';
 import { Picture } from './picture';
 import { kLast } from './stages';
@@ -13,9 +13,16 @@ function keySteps(trace: Trace): number[] {
   return [...new Set([0, ...busiest, trace.head.steps])].sort((a, b) => a - b);
 }
 
+/** With its choices, to be ticked; of many there is a line to write on. */
+function questionOnPaper(question: Question | null): HTMLElement | null {
+  if (!question) return null;
+  const choices = question.options.length <= 6 ? shownOrder(question).map((i) => h('li', {}, `☐ ${question.options[i].text}`)) : [];
+  return h('div', { class: 'blank' }, h('p', {}, choices.length > 0 ? question.ask : `${question.ask} ______________________________`), h('ul', {}, ...choices));
+}
+
 export function handout(title: string, lesson: Lesson | null, traces: Trace[]): HTMLElement {
   const strip = h('div', { class: 'strip' });
-  const panel = (heading: string, step: number, stage: number, trace: number, set: (state: State) => void, text: HTMLElement | null, question: string) => {
+  const panel = (heading: string, step: number, stage: number, trace: number, set: (state: State) => void, text: HTMLElement | null, question: HTMLElement | null) => {
     const state = new State(traces);
     state.trace = traces[trace];
     state.step = step;
@@ -24,7 +31,7 @@ export function handout(title: string, lesson: Lesson | null, traces: Trace[]): 
     const picture = new Picture(state.trace, false);
     picture.draw(state);
     strip.append(h('article', {}, h('h3', {}, heading), picture.root, h('p', { class: 'caption' }, describe(state)), text,
-      question ? h('p', { class: 'blank' }, question) : null));
+      question));
   };
   if (lesson) {
     for (const [i, part] of lesson.parts.entries()) {
@@ -32,11 +39,11 @@ export function handout(title: string, lesson: Lesson | null, traces: Trace[]): 
         if (part.layers.length > 0) state.layers.clear();
         for (const layer of part.layers) state.layers.add(layer);
         state.selection = selectionOf(part.select);
-      }, prose(part.html), part.question ? `${part.question.ask} ______________________________` : '');
+      }, prose(part.html), questionOnPaper(part.question));
     }
   } else {
     for (const step of keySteps(traces[0])) {
-      panel(`${(step * traces[0].head.h).toFixed(2)} s`, step, kLast, 0, () => {}, null, '');
+      panel(`${(step * traces[0].head.h).toFixed(2)} s`, step, kLast, 0, () => {}, null, null);
     }
   }
   return h('div', { class: 'handout', 'aria-hidden': true }, h('h1', {}, title), lesson?.intro ? prose(lesson.intro) : null, strip);

@@ -2,7 +2,7 @@
 import { h } from './dom';
 import type { Transport } from './controls';
 import { toggleLayer } from './controls';
-import type { State } from './state';
+import { kLayers, type State } from './state';
 
 const kKeys: [string, string][] = [
   ['Space', 'play and pause'],
@@ -11,7 +11,13 @@ const kKeys: [string, string][] = [
   ['M', 'to the next merge or unmerge'],
   ['[ ]', 'to the previous, next event'],
   ['Home End', 'to the start, to the end'],
-  ['R', 'from the start again'],
+  ['R', 'the reference beside it'],
+  ['T', 'take over; again: show the prepared run'],
+  ['Z', 'undo what you did last'],
+  ['W', 'why'],
+  ['Q', 'to the question'],
+  ['D', 'more numbers'],
+  ['F', 'fit the picture; + − with Shift zoom'],
   ['+ −', 'faster, slower'],
   ['1 … 9', 'layers of the picture'],
   ['N P', 'next, previous part of the lesson'],
@@ -30,14 +36,22 @@ export function helpDialog(): HTMLDialogElement {
 export interface KeyActions {
   help: () => void;
   part: (by: number) => void;
+  takeOver: () => void;
+  why: () => void;
+  question: () => void;
+  fit: () => void;
+  more: () => void;
 }
 
 export function listenToKeys(state: State, transport: Transport, actions: KeyActions): void {
   const onKey = (event: KeyboardEvent) => {
     const target = event.target as HTMLElement;
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (target.closest('dialog, textarea, select, input:not([type=range])')) return;
-    // Buttons keep Space and Enter, the slider its own arrows.
+    if (target.closest('dialog, textarea, select, input:not([type=range], [type=radio], [type=checkbox])')) return;
+    // A slider has its own arrows, a choice too.
+    if (target.closest('input, [role=tablist]') && /^(Arrow|Home|End|Page| )/.test(event.key)) return;
+    if (target.closest('summary') && (event.key === ' ' || event.key === 'Enter')) return;
+    // Buttons keep Space and Enter.
     if (target.closest('button, a') && (event.key === ' ' || event.key === 'Enter')) return;
     const action = actionOf(event.key);
     if (!action) return;
@@ -58,9 +72,15 @@ export function listenToKeys(state: State, transport: Transport, actions: KeyAct
       case 'm': case 'M': return still(() => state.nextEvent(['merge', 'unmerge'], 1));
       case '[': return still(() => state.nextEvent(undefined, -1));
       case ']': return still(() => state.nextEvent(undefined, 1));
-      case 'Home': return still(() => state.goTo(0));
+      case 'Home': return still(() => state.goTo(state.first));
       case 'End': return still(() => state.goTo(state.steps));
-      case 'r': case 'R': return still(() => state.goTo(0));
+      case 'r': case 'R': return () => toggleLayer(state, kLayers.findIndex((layer) => layer.id === 'beside') + 1);
+      case 't': case 'T': return actions.takeOver;
+      case 'z': case 'Z': return () => state.undo();
+      case 'w': case 'W': return actions.why;
+      case 'q': case 'Q': return actions.question;
+      case 'f': case 'F': return actions.fit;
+      case 'd': case 'D': return actions.more;
       case '+': case '=': return () => transport.faster(1);
       case '-': return () => transport.faster(-1);
       case 'n': case 'N': return () => actions.part(1);

@@ -12,6 +12,8 @@ const kRows = [0, 1, -1, 2, -2, 3, -3];
 
 export class Labels {
   readonly root = svg('g', { class: 'labels' });
+  /** Units of the picture per pixel: words keep their size on the screen. */
+  unit = 1;
   private taken: Box[] = [];
 
   clear(): void {
@@ -23,7 +25,7 @@ export class Labels {
   put(x: number, y: number, text: string, kind: keyof typeof kSizes): void {
     const characters = [...text];
     const shown = characters.length > kLongest ? `${characters.slice(0, kLongest - 1).join('')}…` : text;
-    const size = kSizes[kind], half = 0.31 * size * [...shown].length + 2, height = 1.2 * size;
+    const size = kSizes[kind] * this.unit, half = 0.31 * size * [...shown].length + 2, height = 1.2 * size;
     const middle = Math.min(Math.max(x, half), kWidth - half);
     for (const rows of kRows) {
       const base = Math.min(Math.max(y + rows * height, 0.6 * height), kHeight - 0.6 * height);

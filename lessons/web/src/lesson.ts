@@ -1,5 +1,6 @@
 // The lesson beside the picture: parts, and questions that are asked before they are shown.
 import { h } from './dom';
+import { roving } from './rail';
 import { kLast, stageAt } from './stages';
 import type { LayerId, Selection, State } from './state';
 
@@ -56,36 +57,80 @@ interface Given {
   skipped: boolean;
 }
 
+/** Answers and place, between two visits; a page whose storage is shut goes without. */
+class Memory {
+  constructor(private readonly key: string) {}
+  read(): { part: number; given: { chosen: number[]; done: boolean; skipped: boolean }[] } | null {
+    try {
+      return JSON.parse(localStorage.getItem(this.key) ?? 'null');
+    } catch {
+      return null;
+    }
+  }
+  write(part: number, given: Given[]): void {
+    try {
+      localStorage.setItem(this.key, JSON.stringify({ part, given: given.map((one) => ({ ...one, chosen: [...one.chosen] })) }));
+    } catch { /* as in a sandbox */ }
+  }
+}
+
+/** The order in which choices are shown: by the question, not by the one who wrote it. Numbers stay in order. */
+export function shownOrder(question: Question): number[] {
+  const order = question.options.map((_, i) => i);
+  if (question.several || question.options.some((option) => option.bodies.length > 0 || /^\d+$/.test(option.text))) return order;
+  let seed = 0;
+  for (const c of question.ask) seed = (seed * 31 + (c.codePointAt(0) ?? 0)) >>> 0;
+  for (let i = order.length - 1; i > 0; --i) {
+    seed = (seed * 1664525 + 1013904223) >>> 0;
+    const j = Math.floor((seed / 2 ** 32) * (i + 1));
+    [order[i], order[j]] = [order[j], order[i]];
+  }
+  return order;
+}
+
 export class LessonPanel {
   readonly root: HTMLElement;
+  readonly dots: HTMLElement;
   private current = 0;
   private readonly given: Given[];
+  private readonly memory: Memory;
   private readonly place = h('p', { class: 'place' });
   private readonly title = h('h2', { tabindex: -1 });
   private readonly text = h('div');
-  private readonly ask = h('div', { class: 'ask' });
+  private readonly ask = h('div', { class: 'ask', id: 'question', tabindex: -1 });
+  private readonly partsList = h('ol', { class: 'parts' });
   private readonly back: HTMLButtonElement;
   private readonly next: HTMLButtonElement;
-  private readonly copied = h('span', { class: 'copied', role: 'status' });
+  private readonly skip: HTMLButtonElement;
 
   constructor(private readonly lesson: Lesson, private readonly state: State, private readonly pageTitle: string) {
     this.given = lesson.parts.map(() => ({ chosen: new Set(), done: false, skipped: false }));
-    this.back = h('button', { type: 'button', class: 'plain', onclick: () => this.move(-1) }, '← Back');
-    this.next = h('button', { type: 'button', class: 'primary', onclick: () => this.move(1) }, 'Next →');
-    const copy = lesson.parts.some((part) => part.question)
-      ? h('button', { type: 'button', class: 'link', onclick: () => this.copy() }, 'Copy my answers') : null;
-    this.root = h('section', { class: 'card lesson', 'aria-label': 'Lesson' },
-      this.place, this.title, this.text, this.ask,
-      h('div', { class: 'turn' }, this.back, this.next, h('span', { class: 'grow' }), copy, this.copied));
-    // Playing halts where the next part begins, and before a question is answered.
-    state.stopBefore = (from, to) => {
-      const question = this.pending();
-      if (question && question.reveal > from && question.reveal <= to) return Math.max(from, question.reveal - 1);
-      const following = lesson.parts[this.current + 1];
-      return following && following.trace === state.traces.indexOf(state.trace) && following.step > from && following.step <= to
-        ? following.step : undefined;
-    };
-    this.show(0);
+    this.memory = new Memory(`merge2d ${pageTitle}`);
+    this.back = h('button', { type: 'button', class: 'plain', onclick: () => this.move(-1) }, 'Back');
+    this.skip = h('button', { type: 'button', class: 'link', onclick: () => this.answer(true) }, 'Show me instead');
+    this.next = h('button', { type: 'button', class: 'primary', onclick: () => this.primary() });
+    this.dots = h('div', { class: 'dots', role: 'group', 'aria-label': 'Parts of the lesson' });
+    this.root = h('section', { class: 'words panel lesson', 'aria-label': 'Lesson' },
+      h('div', { class: 'scrolls', tabindex: 0 }, this.place, this.title, this.text, this.ask, this.partsList),
+      h('div', { class: 'actions' }, this.back, this.skip, this.next));
+    state.stopBefore = (from, to) => this.stop(from, to);
+    const kept = this.memory.read();
+    if (kept && kept.given.length === this.given.length) {
+      this.given.forEach((given, i) => Object.assign(given, { ...kept.given[i], chosen: new Set(kept.given[i].chosen) }));
+    }
+    this.show(Math.min(Math.max(0, kept?.part ?? 0), lesson.parts.length - 1));
+  }
+
+  /** Playing halts where the next part begins, and before a question is answered; it says so. */
+  private stop(from: number, to: number): { step: number; why: string } | undefined {
+    if (this.state.live) return undefined;
+    const question = this.pending();
+    if (question && question.reveal >= from && question.reveal <= to) {
+      return { step: Math.max(from, question.reveal - 1), why: 'Stopped: a question first. Answer it, or choose “Show me instead”.' };
+    }
+    const following = this.lesson.parts[this.current + 1];
+    return following && following.trace === this.state.traces.indexOf(this.state.trace) && following.step > from && following.step <= to
+      ? { step: following.step, why: `Stopped: here begins part ${this.current + 2}, “${following.title}”. N goes there, Space plays on.` } : undefined;
   }
 
   private pending(): Question | null {
@@ -93,10 +138,19 @@ export class LessonPanel {
     return given.done || given.skipped ? null : this.lesson.parts[this.current].question;
   }
 
+  /** Parts on the time line of the run that is shown. */
+  flags(): { step: number; label: string }[] {
+    const run = this.state.traces.indexOf(this.state.prepared);
+    return this.lesson.parts.flatMap((part, i) => (part.trace === run ? [{ step: part.step, label: String(i + 1) }] : []));
+  }
+  get part(): number {
+    return this.current;
+  }
+
   /** A click in the picture that means an option. True when it was one. */
   pick(bodies: number[]): boolean {
     const question = this.pending();
-    if (!question) return false;
+    if (!question || this.state.live) return false;
     const same = (option: Option) => option.bodies.length > 0 && option.bodies.length === bodies.length
       && option.bodies.every((body) => bodies.includes(body));
     const at = question.options.findIndex(same);
@@ -111,12 +165,18 @@ export class LessonPanel {
     const out = new Map<number, string>();
     const question = this.lesson.parts[this.current].question;
     const given = this.given[this.current];
-    if (!question) return out;
+    if (!question || this.state.live) return out;
     for (const [i, option] of question.options.entries()) {
       const look = given.done && option.right ? 'right' : given.chosen.has(i) ? 'chosen' : '';
       if (look) for (const body of option.bodies) out.set(body, look);
     }
     return out;
+  }
+
+  /** To the question, or to the first thing that one can do. */
+  focusQuestion(): void {
+    const first = this.ask.querySelector<HTMLElement>('input:not(:disabled)');
+    (first ?? this.next).focus();
   }
 
   move(by: number): void {
@@ -126,17 +186,25 @@ export class LessonPanel {
       this.title.focus({ preventScroll: true });
     }
   }
+  goToPart(index: number): void {
+    this.move(index - this.current);
+  }
+
+  private primary(): void {
+    if (this.pending()) this.answer(false);
+    else if (this.current + 1 < this.lesson.parts.length) this.move(1);
+    else this.goToPart(0);
+  }
 
   private show(index: number): void {
     this.current = index;
     const part = this.lesson.parts[index];
     const { state } = this;
     const n = this.lesson.parts.length;
+    if (state.live) state.giveBack();
     this.place.textContent = `Part ${index + 1} of ${n}${index === 0 && this.lesson.minutes ? ` · about ${this.lesson.minutes} minutes` : ''}`;
     this.title.textContent = part.title;
     this.text.replaceChildren(...(index === 0 && this.lesson.intro ? [prose(this.lesson.intro)] : []), prose(part.html));
-    this.back.disabled = index === 0;
-    this.next.disabled = index === n - 1;
     state.playing = false;
     state.trace = state.traces[part.trace];
     if (part.layers.length > 0) {
@@ -144,8 +212,30 @@ export class LessonPanel {
       for (const layer of part.layers) state.layers.add(layer);
     }
     state.selection = selectionOf(part.select);
+    this.root.querySelector('.scrolls')?.scrollTo(0, 0);
+    this.drawParts();
     this.drawQuestion();
+    this.remember();
     state.goTo(part.step, part.stage ? stageIndex(part.stage) : kLast);
+  }
+
+  private remember(): void {
+    this.memory.write(this.current, this.given);
+  }
+
+  private drawParts(): void {
+    const state = (i: number) => {
+      const { question } = this.lesson.parts[i];
+      return i === this.current ? 'current' : i < this.current || (question && this.given[i].done) ? 'done' : 'ahead';
+    };
+    this.dots.replaceChildren(...this.lesson.parts.map((part, i) => h('button', {
+      type: 'button', class: `dot-part ${state(i)}`, 'aria-label': `Part ${i + 1}: ${part.title}`, title: part.title,
+      'aria-current': i === this.current ? 'step' : undefined, tabindex: i === this.current ? 0 : -1, onclick: () => this.goToPart(i),
+    }, state(i) === 'done' ? '✓' : String(i + 1))));
+    roving([...this.dots.querySelectorAll('button')]);
+    this.partsList.replaceChildren(...this.lesson.parts.map((part, i) => h('li', { class: state(i) },
+      h('button', { type: 'button', tabindex: -1, onclick: () => this.goToPart(i) }, h('span', { class: 'mark' }, state(i) === 'done' ? '✓' : String(i + 1)),
+        part.title, part.question ? h('small', {}, 'question') : null))));
   }
 
   private choose(index: number, on: boolean): void {
@@ -153,6 +243,8 @@ export class LessonPanel {
     if (!this.lesson.parts[this.current].question?.several) chosen.clear();
     if (on) chosen.add(index);
     else chosen.delete(index);
+    this.drawActions();
+    this.remember();
     this.state.changed();
   }
 
@@ -162,7 +254,9 @@ export class LessonPanel {
     if (!question) return;
     given.skipped = skip;
     given.done = true;
+    this.drawParts();
     this.drawQuestion();
+    this.remember();
     this.reveal(question);
     this.ask.querySelector<HTMLElement>('.verdict')?.focus({ preventScroll: false });
   }
@@ -177,10 +271,10 @@ export class LessonPanel {
       state.goTo(question.reveal);
       return;
     }
-    const pace = Math.max(30, Math.min(250, 2500 / (question.reveal - start)));
+    const pace = Math.max(30, Math.min(250, 1500 / (question.reveal - start)));
     let due = start;
     const tick = () => {
-      if (due !== start && state.step !== due) return; // the reader has taken over
+      if (state.live || (due !== start && state.step !== due)) return; // the reader has taken over
       due = Math.min(question.reveal, state.step + 1);
       state.goTo(due);
       if (due < question.reveal) window.setTimeout(tick, pace);
@@ -188,60 +282,74 @@ export class LessonPanel {
     tick();
   }
 
+  /** The one primary button names what it does. */
+  private drawActions(): void {
+    const question = this.pending();
+    const given = this.given[this.current];
+    this.skip.hidden = !question;
+    this.back.hidden = this.current === 0;
+    this.next.disabled = question !== null && given.chosen.size === 0 && !question.several;
+    const following = this.lesson.parts[this.current + 1];
+    this.next.textContent = question ? (question.several && given.chosen.size > 0 ? `Check ${given.chosen.size}` : 'Check')
+      : following ? `Next: ${following.title}` : 'From the start again';
+  }
+
   private drawQuestion(): void {
     const question = this.lesson.parts[this.current].question;
     const given = this.given[this.current];
+    this.state.veiled = this.pending() !== null;
+    this.drawActions();
     if (!question) {
       this.ask.replaceChildren();
       return;
     }
-    const options = question.options.map((option, i) => {
+    const options = shownOrder(question).map((i) => {
+      const option = question.options[i];
       const input = h('input', {
         type: question.several ? 'checkbox' : 'radio', name: 'answer', value: i, checked: given.chosen.has(i), disabled: given.done,
-        onchange: () => {
-          this.choose(i, input.checked);
-          submit.disabled = given.chosen.size === 0 && !question.several;
-        },
+        onchange: () => this.choose(i, input.checked),
       });
       const mark = given.done ? (option.right ? ' ✓' : given.chosen.has(i) ? ' ✗' : '') : '';
       const look = given.done ? (option.right ? 'option right' : given.chosen.has(i) ? 'option wrong' : 'option') : 'option';
       return h('label', { class: look }, input, h('span', {}, option.text, mark && h('strong', {}, mark)));
     });
-    const submit = h('button', {
-      type: 'button', class: 'primary', disabled: given.chosen.size === 0 && !question.several, onclick: () => this.answer(false),
-    }, 'Answer, then watch');
     const inPicture = question.options.some((option) => option.bodies.length > 0);
     const field = h('fieldset', {},
-      h('legend', {}, question.ask), inPicture && !given.done ? h('p', { class: 'hint' }, 'Answer here or by a click in the picture.') : null,
+      h('legend', {}, question.ask), inPicture && !given.done ? h('p', { class: 'hint' }, 'Choose in the picture or here. Nothing is counted.') : null,
       h('div', { class: question.options.length > 6 ? 'options many' : 'options' }, ...options));
-    const wrong = question.options.some((option, i) => option.right !== given.chosen.has(i));
-    const verdict = given.done
-      ? h('p', { class: given.skipped ? 'verdict' : wrong ? 'verdict wrong' : 'verdict right', tabindex: -1 },
-        h('strong', {}, given.skipped ? 'The answer: ' : wrong ? 'Not quite. ' : 'Right. '), question.because)
-      : h('div', { class: 'turn' }, submit, h('button', { type: 'button', class: 'link', onclick: () => this.answer(true) }, 'Just show me'));
-    this.ask.replaceChildren(field, verdict);
+    this.ask.replaceChildren(field, ...(given.done ? [this.verdict(question, given)] : []));
   }
 
-  private copy(): void {
-    const lines = [this.pageTitle, ''];
-    for (const [i, part] of this.lesson.parts.entries()) {
-      const { question } = part;
-      if (!question) continue;
-      const given = this.given[i];
-      const chosen = [...given.chosen].sort((a, b) => a - b).map((at) => question.options[at].text).join('; ');
-      const right = question.options.filter((option) => option.right).map((option) => option.text).join('; ');
-      lines.push(`${i + 1}. ${question.ask}`, `   My answer: ${given.skipped ? '(skipped)' : chosen || '(none)'}`,
-        ...(given.done ? [`   The simulation: ${right || 'none'}`] : []));
-    }
-    const text = lines.join('\n');
-    const done = () => { this.copied.textContent = 'Copied.'; };
-    const byHand = () => {
-      const area = h('textarea', { readonly: true, rows: Math.min(12, lines.length), 'aria-label': 'My answers' });
-      area.value = text;
-      this.copied.replaceChildren(area);
-      area.select();
+  private verdict(question: Question, given: Given): HTMLElement {
+    const rights = question.options.filter((option) => option.right).length;
+    const found = question.options.filter((option, i) => option.right && given.chosen.has(i)).length;
+    const falses = given.chosen.size - found;
+    const wrong = found !== rights || falses > 0;
+    const words = given.skipped ? 'The answer: ' : !wrong ? 'Right. '
+      : question.several ? `${found} of ${rights}, ${falses === 0 ? 'no false ones' : `${falses} false`}. ` : 'Not quite. ';
+    return h('p', { class: given.skipped ? 'verdict' : wrong ? 'verdict wrong' : 'verdict right', tabindex: -1 },
+      h('strong', {}, words), question.because);
+  }
+
+  /** The answers, for oneself or a teacher. */
+  answers(): { title: string; answers: { part: number; ask: string; mine: string[]; skipped: boolean; simulation: string[] | null }[] } {
+    return {
+      title: this.pageTitle,
+      answers: this.lesson.parts.flatMap(({ question }, i) => {
+        if (!question) return [];
+        const given = this.given[i];
+        const texts = (wanted: (option: Option, at: number) => boolean) => question.options.filter(wanted).map((option) => option.text);
+        return [{
+          part: i + 1, ask: question.ask, mine: texts((_, at) => given.chosen.has(at)), skipped: given.skipped,
+          simulation: given.done ? texts((option) => option.right) : null,
+        }];
+      }),
     };
-    if (navigator.clipboard) navigator.clipboard.writeText(text).then(done, byHand);
-    else byHand();
+  }
+  answersAsText(): string {
+    const { title, answers } = this.answers();
+    return [title, '', ...answers.flatMap((one) => [`${one.part}. ${one.ask}`,
+      `   My answer: ${one.skipped ? '(skipped)' : one.mine.join('; ') || '(none)'}`,
+      ...(one.simulation ? [`   The simulation: ${one.simulation.join('; ') || 'none'}`] : [])])].join('\n');
   }
 }

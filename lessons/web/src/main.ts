@@ -1,21 +1,27 @@
-// A lesson page: reads the recorded runs inside it and shows them.
+// A lesson page: reads the recorded runs inside it and shows them; with its engine one can take over.
 import { beside } from './beside';
+import { closesOutside, iconButton, layerSwitches, transport } from './controls';
+import { h, svg } from './dom';
+import { Engine } from './engine';
 import { equationCard } from './equation';
 import { familyTree } from './family';
+import { clickLine, handText, listenToHands } from './hands';
 import { handout } from './handout';
-import { ledger } from './ledger';
-import { type Lesson, LessonPanel } from './lesson';
-import { layerSwitches, ribbon, transport } from './controls';
-import { h } from './dom';
 import type { Packed } from './head';
 import { impulseCard } from './impulses';
 import { inspector } from './inspector';
 import { helpDialog, listenToKeys } from './keys';
+import { ledger } from './ledger';
+import { type Lesson, LessonPanel } from './lesson';
+import { copied, follow, linkTo, listenToAddress } from './link';
 import { nowCard } from './now';
 import { Picture } from './picture';
+import { ribbon } from './rail';
 import { State } from './state';
-import { Trace } from './trace';
+import { livePanel } from './take_over';
+import { partsOf, Trace } from './trace';
 import { badge, thresholdSlider, whatIf } from './whatif';
+import { whyCard } from './why';
 
 interface PageData {
   title: string;
@@ -24,18 +30,83 @@ interface PageData {
 }
 
 function themeButton(): HTMLButtonElement {
-  const button = h('button', { type: 'button', class: 'plain', onclick: () => turn() }, 'Light or dark');
+  const button = h('button', { type: 'button', class: 'item', onclick: () => turn() }, 'Dark colours');
   const root = document.documentElement;
   const system = matchMedia('(prefers-color-scheme: dark)');
   let chosen = false;
-  const follow = () => { if (!chosen) root.dataset.theme = system.matches ? 'dark' : 'light'; };
+  const follow = () => {
+    if (!chosen) root.dataset.theme = system.matches ? 'dark' : 'light';
+    button.setAttribute('aria-pressed', String(root.dataset.theme === 'dark'));
+  };
   const turn = () => {
     chosen = true;
     root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
+    follow();
   };
   system.addEventListener('change', follow);
   follow();
   return button;
+}
+
+/** What a page of a scene alone says where a lesson would be. */
+function sceneWords(state: State, title: string, now: HTMLElement): HTMLElement {
+  const next = h('button', { type: 'button', class: 'primary', onclick: () => { if (!state.nextEvent(['merge', 'unmerge'], 1)) state.goTo(0); } });
+  state.onChange(() => {
+    next.textContent = state.trace.eventSteps(['merge', 'unmerge']).some((step) => step > state.step) ? 'Watch the next merge or unmerge' : 'From the start again';
+  });
+  return h('section', { class: 'words panel', 'aria-label': 'The run' },
+    h('div', { class: 'scrolls', tabindex: 0 }, h('h2', {}, title),
+      h('p', {}, 'Bodies that move as one are simulated as one. Play, step, choose two bodies to read why they are merged or not, or take over.'), now),
+    h('div', { class: 'actions' }, next));
+}
+
+function menu(...items: (Node | null)[]): HTMLElement {
+  const details = h('details', { class: 'menu' }, h('summary', { 'aria-label': 'Menu', title: 'Menu' }, '☰'), h('div', { class: 'popover' }, ...items));
+  closesOutside(details);
+  return details;
+}
+
+/** Shows the panel of the lesson, or that of a run that was taken over. */
+function switchPanels(state: State, usual: HTMLElement, live: HTMLElement): void {
+  let was = false;
+  state.onChange(() => {
+    const now = state.live !== null;
+    usual.hidden = now;
+    live.hidden = !now;
+    if (was !== now) document.documentElement.classList.toggle('taken-over', now);
+    was = now;
+  });
+}
+
+function liveHeader(state: State): HTMLElement {
+  const words = h('p', { class: 'live-words' });
+  state.onChange(() => {
+    if (!state.live) return;
+    words.replaceChildren(h('span', { class: 'red', 'aria-hidden': true }, '●'), h('strong', {}, 'You have taken over'), ` at ${(state.live.fork * state.trace.head.h).toFixed(2)} s. The prepared run is kept.`);
+  });
+  return words;
+}
+
+/** Two bodies in turn make a pair. */
+function choose(state: State, hit: { body?: number; a?: number; b?: number }): void {
+  const s = state.selection;
+  if (hit.a !== undefined && hit.b !== undefined) state.selection = { kind: 'pair', a: hit.a, b: hit.b };
+  else if (hit.body === undefined) state.selection = null;
+  else if (s?.kind === 'body' && s.body !== hit.body) {
+    state.selection = { kind: 'pair', a: Math.min(s.body, hit.body), b: Math.max(s.body, hit.body) };
+  } else state.selection = { kind: 'body', body: hit.body };
+  state.changed();
+}
+
+function counts(state: State): HTMLElement {
+  const root = h('p', { class: 'counts' });
+  state.onChange(() => {
+    root.hidden = state.veiled;
+    const s = state.trace.stats(state.step);
+    const part = (n: number, one: string, many: string) => [h('strong', {}, String(n)), ` ${n === 1 ? one : many}`];
+    root.replaceChildren(...part(s.collections, 'collection', 'collections'), ' · ', ...part(s.active, 'body', 'bodies'), ' · ', ...part(s.contacts, 'contact to solve', 'contacts to solve'));
+  });
+  return root;
 }
 
 function start(): void {
@@ -43,36 +114,113 @@ function start(): void {
   const app = document.getElementById('app');
   if (!source || !app) return;
   const data = JSON.parse(source.textContent ?? '') as PageData;
-  const state = new State(data.traces.map((packed) => new Trace(packed)));
+  const state = new State(data.traces.map((packed) => new Trace(partsOf(packed))));
   const picture = new Picture(state.trace);
-  const controls = transport(state);
-  const help = helpDialog();
   const panel = data.lesson ? new LessonPanel(data.lesson, state, data.title) : null;
-  picture.onPick = ({ body, contact }) => {
+  const takeOver = h('button', { type: 'button', class: 'plain take-over', onclick: () => toggleLive() }, 'Take over here');
+  const controls = transport(state, () => panel?.flags() ?? [], takeOver);
+  const toggleLive = () => {
+    if (state.live) state.giveBack();
+    else if (!state.takeOver()) state.pause('This page has no engine in it: it was made with --no-live.');
+  };
+  const live = livePanel(state, panel ? 'Back to the lesson' : 'Back to the prepared run');
+  const help = helpDialog();
+  const now = nowCard(state);
+  const words = panel?.root ?? sceneWords(state, data.title, now);
+  const frame = h('div', { class: 'frame', id: 'picture', tabindex: -1 }, picture.root, counts(state), badge(state), lensButtons(picture));
+
+  picture.onPick = ({ body, contact, at }) => {
+    if (state.live) {
+      const line = clickLine(state, body, at);
+      if (line) return void state.act(line);
+    }
     const bodies = contact ? [contact.a, contact.b] : body !== undefined ? [body] : [];
     if (panel?.pick(bodies) || (body !== undefined && panel?.pick([body]))) return;
-    state.selection = contact ? { kind: 'pair', a: contact.a, b: contact.b }
-      : body !== undefined ? { kind: 'body', body } : null;
-    state.changed();
+    choose(state, contact ? { a: contact.a, b: contact.b } : { body });
   };
+  listenToHands(picture, state, controls.play, live.say);
   state.onChange(() => {
     picture.draw(state);
     picture.show(panel?.marked());
+    if (state.live && state.layers.size >= 0) live.say(handText(state));
+    takeOver.textContent = state.live ? 'The prepared run' : state.hasKept ? 'Take over anew' : 'Take over here';
+    takeOver.disabled = !state.live && !state.engine;
   });
+
+  const drawer = h('section', { class: 'drawer', hidden: true, 'aria-label': 'More numbers', tabindex: -1 },
+    h('div', { class: 'drawer-head' }, h('h2', {}, 'More numbers'), h('button', { type: 'button', class: 'plain', onclick: () => more() }, 'Close')),
+    h('div', { class: 'drawer-cards' }, panel ? now : null, inspector(state), impulseCard(state), familyTree(state), ledger(state)));
+  const moreButton = h('button', { type: 'button', class: 'plain more-button', 'aria-expanded': false, onclick: () => more() }, 'More numbers');
+  const more = () => {
+    drawer.hidden = !drawer.hidden;
+    moreButton.setAttribute('aria-expanded', String(!drawer.hidden));
+    (drawer.hidden ? moreButton : drawer).focus();
+  };
+  const others = whatIf(state);
+  const status = h('span', { class: 'copied', role: 'status' });
+  const link = h('button', { type: 'button', class: 'plain link-button', onclick: () => copied(linkTo(state, panel?.part), status) },
+    svg('svg', { viewBox: '0 0 24 24', 'aria-hidden': true }, svg('path', { d: 'M10 14a4 4 0 0 0 6 0l3 -3a4 4 0 0 0 -6 -6l-1.5 1.5M14 10a4 4 0 0 0 -6 0l-3 3a4 4 0 0 0 6 6l1.5 -1.5' })), h('span', {}, 'Link to this moment'));
+  const kept = h('button', { type: 'button', class: 'item', onclick: () => state.showKept() }, 'Your last run');
+  state.onChange(() => { kept.hidden = !state.hasKept; });
+  const answers = panel && data.lesson?.parts.some((part) => part.question) ? [
+    h('button', { type: 'button', class: 'item', onclick: () => copied(panel.answersAsText(), status) }, 'Copy my answers'),
+    h('button', { type: 'button', class: 'item', onclick: () => copied(JSON.stringify(panel.answers(), null, 2), status) }, 'Copy my answers as JSON')] : [];
   app.append(
-    h('header', {}, h('h1', {}, h('span', { class: 'kicker' }, data.lesson ? 'A lesson on adaptive merging' : 'Adaptive merging, step by step'), data.title),
-      h('div', { class: 'tools' }, thresholdSlider(state), whatIf(state), themeButton(),
-        h('button', { type: 'button', class: 'plain', onclick: () => help.showModal() }, 'Keys', h('kbd', { 'aria-hidden': true }, '?')))),
-    h('main', {},
-      h('div', { class: 'left' }, h('div', { class: 'stage-area' },
-        beside(state, h('div', { class: 'frame' }, picture.root, badge(state))),
-        controls.root, layerSwitches(state), ribbon(state)), familyTree(state), ledger(state)),
-      h('div', { class: 'side' }, panel?.root ?? null, nowCard(state), equationCard(state), impulseCard(state), inspector(state))),
-    help);
-  listenToKeys(state, controls, { help: () => help.showModal(), part: (by) => panel?.move(by) });
+    panel ? h('a', { class: 'skip', href: '#question', onclick: (event) => { event.preventDefault(); panel.focusQuestion(); } }, 'To the question') : h('span'),
+    h('a', { class: 'skip', href: '#picture', onclick: (event) => { event.preventDefault(); frame.focus(); } }, 'To the picture'),
+    h('header', {},
+      h('h1', {}, h('span', { class: 'kicker' }, data.lesson ? 'Lesson' : 'Scene'), data.title),
+      liveHeader(state), panel?.dots ?? null, h('div', { class: 'compare' }), status, moreButton, link,
+      menu(kept, themeButton(), h('button', { type: 'button', class: 'item', onclick: () => help.showModal() }, 'Keys'),
+        h('label', { class: 'item' }, 'Speed ', controls.speed), h('div', { class: 'item compare' }), thresholdSlider(state),
+        ...answers, h('button', { type: 'button', class: 'item', onclick: () => window.print() }, 'Print'))),
+    h('main', {}, words, live.root,
+      h('section', { class: 'world panel', 'aria-label': 'World' }, beside(state, frame), layerSwitches(state)),
+      whyCard(state, equationCard(state)), ribbon(state), controls.root),
+    drawer, help);
+  if (others) placeByWidth(others);
+  switchPanels(state, words, live.root);
+  listenToKeys(state, controls, {
+    help: () => help.showModal(), part: (by) => panel?.move(by), takeOver: toggleLive, more, question: () => panel?.focusQuestion(),
+    why: () => document.querySelector<HTMLElement>('.why')?.focus(), fit: () => picture.lens.fit(),
+  });
   printing(data, state);
+  follow(state, picture);
+  listenToAddress(state, panel);
   state.changed();
   document.documentElement.dataset.ready = 'true';
+  void loadEngine(state);
+}
+
+/** In the header where there is room, else in the menu. */
+function placeByWidth(node: HTMLElement): void {
+  const wide = matchMedia('(min-width: 1360px)');
+  const [header, inMenu] = document.querySelectorAll('.compare');
+  const place = () => (wide.matches ? header : inMenu).append(node);
+  wide.addEventListener('change', place);
+  place();
+}
+
+function lensButtons(picture: Picture): HTMLElement {
+  const fit = iconButton('Fit', 'M4 4h6v2H6v4H4zM14 4h6v6h-2V6h-4zM4 14h2v4h4v2H4zM18 14h2v6h-6v-2h4z', () => picture.lens.fit(), 'F');
+  picture.lens.onChange = () => { fit.hidden = picture.lens.isWhole; };
+  fit.hidden = true;
+  return h('div', { class: 'lens', role: 'group', 'aria-label': 'Zoom' }, fit,
+    iconButton('Closer', 'M11 5h2v6h6v2h-6v6h-2v-6H5v-2h6z', () => picture.lens.zoomBy(1.4)),
+    iconButton('Farther', 'M5 11h14v2H5z', () => picture.lens.zoomBy(1 / 1.4)));
+}
+
+/** After the page is there: nobody waits for the engine. */
+async function loadEngine(state: State): Promise<void> {
+  const packed = document.getElementById('engine');
+  if (!packed?.textContent) return;
+  try {
+    state.setEngine(await Engine.load(packed.textContent));
+    document.documentElement.dataset.engine = 'true';
+  } catch (error) {
+    state.notice = `The engine could not be started: ${String(error)}`;
+  }
+  state.changed();
 }
 
 function printing(data: PageData, state: State): void {

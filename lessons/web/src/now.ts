@@ -38,6 +38,14 @@ function eventsShown(state: State): EventRow[] {
   });
 }
 
+/** Those of the selected body come first. */
+function chosenFirst(state: State, rows: EventRow[]): EventRow[] {
+  const s = state.selection;
+  if (s?.kind !== 'body') return rows;
+  const concerns = (row: EventRow) => Number(row[2] === s.body || row[3] === s.body);
+  return [...rows].sort((p, q) => concerns(q) - concerns(p));
+}
+
 /** One paragraph that says what can be seen. */
 export function describe(state: State): string {
   const s = state.trace.stats(state.step);
@@ -67,7 +75,7 @@ export function nowCard(state: State): HTMLElement {
     const s = state.trace.stats(state.step);
     facts.replaceChildren(fact(s.active, s.active === 1 ? 'body simulated' : 'bodies simulated'), fact(s.collections, s.collections === 1 ? 'collection' : 'collections'),
       fact(s.contacts, 'contacts solved'), fact(s.internal, 'inside'), fact(s.asleep, 'asleep'));
-    const rows = eventsShown(state);
+    const rows = chosenFirst(state, eventsShown(state));
     events.replaceChildren(...rows.slice(0, 6).map((row) => h('li', { class: row[1] },
       h('button', {
         type: 'button', class: 'link',

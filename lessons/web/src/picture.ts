@@ -1,9 +1,12 @@
 // The world as vector graphics.
 import { contactMarks, focus, forces, graph, heat } from './contacts';
-import { number, svg } from './dom';
+import { svg } from './dom';
 import { lookOf } from './groups';
+import type { Vec } from './head';
 import { Labels } from './labels';
+import { hands, loads } from './hands';
 import { boxes, corners, newCollections, springs, velocities, ways } from './motions';
+import { Lens } from './lens';
 import { type Sight, sightOf } from './sight';
 import type { State } from './state';
 import { fixed, outline } from './strokes';
@@ -12,19 +15,25 @@ import { kHeight, kWidth, type Scales, scalesOf, View } from './view';
 
 /** From back to front. */
 const kPaths = ['springs', 'boxes', 'centre', 'graph', 'welds', 'cone', 'heat-calm', 'heat-warm', 'heat-near', 'heat-over',
-  'idle', 'merged', 'active', 'broken', 'cut', 'fresh', 'earlier', 'force', 'friction', 'inner', 'velocity', 'before', 'corners', 'focus'];
-const kLayers = [springs, boxes, newCollections, graph, heat, contactMarks, forces, velocities, ways, corners, focus];
+  'idle', 'merged', 'active', 'broken', 'cut', 'fresh', 'earlier', 'force', 'friction', 'inner', 'velocity', 'before', 'corners', 'focus', 'loads', 'hand', 'aim'];
+const kLayers = [springs, boxes, newCollections, graph, heat, contactMarks, forces, velocities, ways, corners, focus, loads, hands];
+
+/** A line on a body has a rim of the background, so that it is seen on every colour. */
+const kRimmed = ['welds', 'broken', 'cut', 'force', 'friction', 'inner', 'velocity', 'loads', 'hand', 'aim', 'corners', 'before'];
 
 let pictures = 0;
 
 export class Picture {
   readonly root: SVGSVGElement;
-  onPick: (hit: { body?: number; contact?: Contact }) => void = () => {};
-  private readonly view: View;
+  onPick: (hit: { body?: number; contact?: Contact; at: Vec }) => void = () => {};
+  readonly view: View;
+  readonly lens: Lens;
   private readonly scales: Scales;
+  private shown: readonly unknown[] = []; // the bodies that there are shapes of
   private readonly bodies: SVGGElement[] = [];
   private readonly ghosts: SVGPathElement[] = [];
   private readonly paths = new Map<string, SVGPathElement>();
+  private readonly bodyRoot = svg('g', { class: 'bodies' });
   private readonly ghostGroup = svg('g', { class: 'ghosts' });
   private readonly labels = new Labels();
   private readonly numbers = svg('g', { class: 'numbers' });
@@ -37,13 +46,20 @@ export class Picture {
     this.root = svg('svg', {
       viewBox: `0 0 ${kWidth} ${kHeight}`, class: interactive ? 'picture interactive' : 'picture', role: 'img', 'aria-label': trace.head.title,
     });
-    this.root.append(this.hatch(), this.bodyGroup(trace), this.ghostGroup);
+    this.root.append(this.hatch(), this.bodyRoot, this.ghostGroup);
+    this.buildBodies(trace);
     for (const id of kPaths) {
+      if (kRimmed.includes(id)) {
+        const rim = svg('path', { class: `layer rim rim-${id}` });
+        this.paths.set(`rim ${id}`, rim);
+        this.root.append(rim);
+      }
       const path = svg('path', { class: `layer ${id}` });
       this.paths.set(id, path);
       this.root.append(path);
     }
-    this.root.append(this.numbers, this.labels.root, this.scaleBar());
+    this.lens = new Lens(this.root, this.view);
+    this.root.append(this.numbers, this.labels.root, this.lens.scaleBar);
     if (interactive) this.root.addEventListener('click', (event) => this.click(event));
   }
 
@@ -55,10 +71,13 @@ export class Picture {
       svg('rect', { width: 8, height: 8, class: 'hatch-back' }), svg('line', { x1: 0, y1: 0, x2: 0, y2: 8, class: 'hatch-line' })));
   }
 
-  /** What moves stands in front of what is fixed. */
-  private bodyGroup(trace: Trace): SVGGElement {
-    const group = svg('g', { class: 'bodies' });
+  /** What moves stands in front of what is fixed. Names and pins may come later: a live run adds bodies. */
+  private buildBodies(trace: Trace): void {
+    this.bodyRoot.replaceChildren();
+    this.ghostGroup.replaceChildren();
+    this.bodies.length = this.ghosts.length = 0;
     const all = trace.head.bodies;
+    this.shown = [...all];
     const order = all.map((_, i) => i).sort((a, b) => Number(all[a].motion === 'dynamic') - Number(all[b].motion === 'dynamic'));
     const s = this.view.scale;
     for (const i of order) {
@@ -69,25 +88,18 @@ export class Picture {
         const line = info.boundary.map(([x, y, u, v]) => `M${fixed(x * s)} ${fixed(-y * s)}L${fixed(u * s)} ${fixed(-v * s)}`).join('');
         this.bodies[i].append(svg('path', { d: line, class: 'edge' }));
       }
-      group.append(this.bodies[i]);
+      this.bodyRoot.append(this.bodies[i]);
       if (info.motion !== 'dynamic') continue;
       this.ghosts[i] = svg('path', { d });
       this.ghostGroup.append(this.ghosts[i]);
     }
-    return group;
-  }
-
-  private scaleBar(): SVGGElement {
-    const longest = (0.2 * kWidth) / this.view.scale;
-    const power = 10 ** Math.floor(Math.log10(longest));
-    const round = [5, 2, 1].map((m) => m * power).find((m) => m <= longest) ?? power;
-    const length = round * this.view.scale;
-    const text = svg('text', { x: fixed(24 + length / 2), y: kHeight - 28 }, round >= 1 ? `${round} m` : `${number(round * 100)} cm`);
-    return svg('g', { class: 'scale-bar' },
-      svg('path', { d: `M24 ${kHeight - 26}v8h${fixed(length)}v-8` }), text);
   }
 
   draw(state: State): void {
+    const all = state.trace.head.bodies;
+    if (all.length !== this.shown.length || all[all.length - 1]?.name !== (this.shown[all.length - 1] as { name: string } | undefined)?.name) {
+      this.buildBodies(state.trace);
+    }
     const sight = sightOf(state, this.view, this.scales);
     this.contacts = sight.contacts;
     this.drawBodies(sight);
@@ -100,8 +112,9 @@ export class Picture {
   }
 
   private set(id: string, d: string): void {
-    const path = this.paths.get(id);
-    if (path && path.getAttribute('d') !== d) path.setAttribute('d', d);
+    for (const path of [this.paths.get(id), this.paths.get(`rim ${id}`)]) {
+      if (path && path.getAttribute('d') !== d) path.setAttribute('d', d);
+    }
   }
 
   private drawBodies({ state, trace, posed, grouped }: Sight): void {
@@ -155,6 +168,7 @@ export class Picture {
 
   private drawLabels({ state, trace, posed, grouped, view }: Sight): void {
     this.labels.clear();
+    this.labels.unit = this.lens.unit;
     if (!state.layers.has('labels')) return;
     const sums = new Map<number, { x: number; y: number; n: number }>();
     const few = this.bodies.length <= 40;
@@ -178,13 +192,30 @@ export class Picture {
     }
   }
 
-  /** The nearest contact within reach of a finger, else the body below the pointer. */
-  private click(event: MouseEvent): void {
+  /** Where a pointer is, in units of the picture. */
+  point(event: { clientX: number; clientY: number }): DOMPoint | null {
     const matrix = this.root.getScreenCTM();
-    if (!matrix) return;
-    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix.inverse());
+    return matrix ? new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix.inverse()) : null;
+  }
+  /** The body below a pointer. */
+  bodyAt(event: Event): number | undefined {
+    const group = (event.target as Element).closest('[data-body]');
+    return group ? Number(group.getAttribute('data-body')) : undefined;
+  }
+  /** Draws the arrow that is being pulled. */
+  aim(d: string): void {
+    this.set('aim', d);
+  }
+
+  /** The nearest contact within reach of a finger or a mouse, else the body below the pointer. */
+  private click(event: MouseEvent): void {
+    if (this.lens.moved) return;
+    const at = this.point(event);
+    const matrix = this.root.getScreenCTM();
+    if (!at || !matrix) return;
+    const coarse = (event as PointerEvent).pointerType === 'touch';
     let best: Contact | undefined;
-    let least = 10;
+    let least = (coarse ? 22 : 12) / matrix.a;
     for (const c of this.contacts) {
       const distance = Math.hypot(this.view.x(c.x) - at.x, this.view.y(c.y) - at.y);
       if (distance < least) {
@@ -192,7 +223,6 @@ export class Picture {
         best = c;
       }
     }
-    const group = (event.target as Element).closest('[data-body]');
-    this.onPick({ contact: best, body: group ? Number(group.getAttribute('data-body')) : undefined });
+    this.onPick({ contact: best, body: this.bodyAt(event), at: this.view.world(at.x, at.y) });
   }
 }

@@ -1,10 +1,10 @@
 // A recorded run, to be asked what is where at a time step.
 import type { Criterion, EventRow, Head, Packed } from './head';
-import { type BodyTrack, ByPair, type ContactTrack, type DecisionTrack, type Inside, readBody, readContact, readDecision, readInside } from './tracks';
+import { type BodyTrack, ByPair, type Column, type ContactTrack, type DecisionTrack, type Inside, readBody, readContact, readDecision, readInside } from './tracks';
 import { Unpacker } from './unpack';
 
 /** A quantity that is kept in codes: some spread evenly, some over many decades. */
-type Scale = (code: number) => number;
+export type Scale = (code: number) => number;
 
 export interface Pose {
   x: number;
@@ -67,51 +67,88 @@ export interface Stats {
   angular: number;
 }
 
-const kStates = ['broken', 'sticking', 'sliding'] as const;
+const kStats = 11;
+export const kStates = ['broken', 'sticking', 'sliding'] as const;
 
 function logarithmic(floor: number, steps: number): Scale {
   return (code) => Math.sign(code) * floor * (2 ** (Math.abs(code) / steps) - 1);
 }
 
+/** All that a run is made of, and what its columns mean. */
+export interface TraceParts {
+  head: Head;
+  label: string;
+  bodies: BodyTrack[];
+  contacts: ContactTrack[];
+  decisions: DecisionTrack[];
+  insides: Map<number, Inside>;
+  stats: Column[]; // a column for each number, a sample for each step
+  amount: Scale;
+  fine: Scale;
+}
+
+/** A packed run, as it is in the page. */
+export function partsOf(packed: Packed): TraceParts {
+  const { head, label } = packed;
+  const read = new Unpacker(packed.data);
+  const { full, every, criteria } = head;
+  const parts: TraceParts = {
+    head, label, bodies: [], contacts: [], decisions: [], insides: new Map(), stats: [],
+    amount: logarithmic(head.amount[0], head.amount[1]), fine: logarithmic(1e-6, 1024),
+  };
+  for (let i = 0; i < head.bodies.length; ++i) parts.bodies.push(readBody(read, full));
+  if (full) {
+    for (let n = read.number(), i = 0; i < n; ++i) parts.contacts.push(readContact(read, every, i));
+    for (let n = read.number(); n > 0; --n) parts.decisions.push(readDecision(read, every, criteria));
+    for (let n = read.number(); n > 0; --n) {
+      const inside = readInside(read);
+      parts.insides.set(inside.step, inside);
+    }
+  }
+  for (let i = 0; i < kStats; ++i) parts.stats.push(read.column());
+  return parts;
+}
+
 export class Trace {
   readonly head: Head;
   readonly label: string;
-  readonly bodies: BodyTrack[] = [];
-  readonly contacts: ContactTrack[] = [];
-  readonly decisions: DecisionTrack[] = [];
+  readonly bodies: BodyTrack[];
+  readonly contacts: ContactTrack[];
+  readonly decisions: DecisionTrack[];
   readonly eventsAt = new Map<number, EventRow[]>();
-  private readonly statColumns: Int32Array[] = [];
+  protected readonly insides: Map<number, Inside>;
+  protected readonly slots = new Map<number, number>();
+  protected readonly contactsOf: ByPair<ContactTrack>;
+  protected readonly decisionsOf: ByPair<DecisionTrack>;
+  private readonly statColumns: Column[];
   private readonly amount: Scale;
-  private readonly fine = logarithmic(1e-6, 1024);
-  private readonly slots = new Map<number, number>();
-  private readonly insides = new Map<number, Inside>();
-  private readonly contactsOf: ByPair<ContactTrack>;
-  private readonly decisionsOf: ByPair<DecisionTrack>;
+  private readonly fine: Scale;
 
-  constructor(packed: Packed) {
-    this.head = packed.head;
-    this.label = packed.label;
-    this.amount = logarithmic(packed.head.amount[0], packed.head.amount[1]);
-    const read = new Unpacker(packed.data);
-    const { full, every, criteria } = this.head;
-    for (let i = 0; i < this.head.bodies.length; ++i) this.bodies.push(readBody(read, full));
-    if (full) {
-      for (let n = read.number(), i = 0; i < n; ++i) this.contacts.push(readContact(read, every, i));
-      for (let n = read.number(); n > 0; --n) this.decisions.push(readDecision(read, every, criteria));
-      for (let n = read.number(); n > 0; --n) {
-        const inside = readInside(read);
-        this.insides.set(inside.step, inside);
-      }
-    }
+  constructor(parts: TraceParts) {
+    this.head = parts.head;
+    this.label = parts.label;
+    this.bodies = parts.bodies;
+    this.contacts = parts.contacts;
+    this.decisions = parts.decisions;
+    this.insides = parts.insides;
+    this.statColumns = parts.stats;
+    this.amount = parts.amount;
+    this.fine = parts.fine;
     this.contactsOf = new ByPair(this.contacts);
     this.decisionsOf = new ByPair(this.decisions);
-    for (let i = 0; i < 11; ++i) this.statColumns.push(read.column());
-    for (const row of this.head.events) {
-      const list = this.eventsAt.get(row[0]);
-      if (list) list.push(row);
-      else this.eventsAt.set(row[0], [row]);
-    }
+    for (const row of this.head.events) this.addEvent(row);
     for (const [id, slot] of this.head.colors) this.slots.set(id, slot);
+  }
+
+  protected addEvent(row: EventRow): void {
+    const list = this.eventsAt.get(row[0]);
+    if (list) list.push(row);
+    else this.eventsAt.set(row[0], [row]);
+  }
+
+  /** Whether a step is known, or can be made to be: a live run goes on to it. */
+  reach(step: number): boolean {
+    return step <= this.head.steps;
   }
 
   name(body: number): string {
@@ -164,7 +201,7 @@ export class Trace {
 
   stats(step: number): Stats {
     const [active, collections, asleep, contacts, internal, penetration, kinetic, potential, px, py, angular] =
-      this.statColumns.map((column) => column[step]);
+      this.statColumns.map((column) => column[step] ?? 0);
     const fine = this.fine;
     return {
       active, collections, asleep, contacts, internal,

@@ -2,8 +2,19 @@
 import type { Criterion } from './head';
 import type { Unpacker } from './unpack';
 
-/** Samples of something that comes and goes. */
-export class Spans {
+/** A quantity over samples: codes of a packed run, numbers of a live one. */
+export type Column = ArrayLike<number>;
+
+/** When something that comes and goes was there. */
+export interface Samples {
+  /** The sample of a step, or -1. */
+  at(step: number): number;
+  /** All sampled steps with their samples. */
+  steps(): Iterable<[number, number]>;
+}
+
+/** Samples of a packed run. */
+export class Spans implements Samples {
   private readonly first: Int32Array;
   private readonly count: Int32Array;
   private readonly sample: Int32Array;
@@ -50,14 +61,14 @@ export class Spans {
 
 export interface BodyTrack {
   first: number;
-  x: Int32Array;
-  y: Int32Array;
-  angle: Int32Array;
-  collection: Int32Array;
-  asleep: Int32Array;
-  vx?: Int32Array;
-  vy?: Int32Array;
-  omega?: Int32Array;
+  x: Column;
+  y: Column;
+  angle: Column;
+  collection: Column;
+  asleep: Column;
+  vx?: Column;
+  vy?: Column;
+  omega?: Column;
 }
 
 export interface ContactTrack {
@@ -65,28 +76,28 @@ export interface ContactTrack {
   a: number;
   b: number;
   mu: number;
-  spans: Spans;
-  x: Int32Array;
-  y: Int32Array;
-  normal: Int32Array;
-  gap: Int32Array;
-  lambdaN: Int32Array;
-  lambdaT: Int32Array;
-  wN: Int32Array;
-  wT: Int32Array;
-  state: Int32Array;
-  internal: Int32Array;
-  fresh: Int32Array;
+  spans: Samples;
+  x: Column;
+  y: Column;
+  normal: Column;
+  gap: Column;
+  lambdaN: Column;
+  lambdaT: Column;
+  wN: Column;
+  wT: Column;
+  state: Column;
+  internal: Column;
+  fresh: Column;
 }
 
 export interface DecisionTrack {
   a: number;
   b: number;
   criterion: Criterion;
-  spans: Spans;
-  value: Int32Array;
-  count: Int32Array;
-  passed: Int32Array;
+  spans: Samples;
+  value: Column;
+  count: Column;
+  passed: Column;
 }
 
 /** The impulses of one step before and after its single sweep, per contact: lessons/impulses.h. */
@@ -94,13 +105,13 @@ export interface Inside {
   step: number;
   sweeping: boolean; // something was merged, so that there was a sweep
   place: Map<number, number>; // track to index
-  warmN: Int32Array;
-  warmT: Int32Array;
-  sweptN: Int32Array;
-  sweptT: Int32Array;
-  beginN: Int32Array; // of the full solve
-  beginT: Int32Array;
-  inner: Int32Array; // inside a collection during the sweep
+  warmN: Column;
+  warmT: Column;
+  sweptN: Column;
+  sweptT: Column;
+  beginN: Column; // of the full solve
+  beginT: Column;
+  inner: Column; // inside a collection during the sweep
 }
 
 /** With velocities where the whole run is recorded. */
@@ -168,7 +179,13 @@ export function readInside(read: Unpacker): Inside {
 export class ByPair<Track extends { a: number; b: number }> {
   private readonly of = new Map<string, Track[]>();
   constructor(tracks: Track[]) {
-    for (const track of tracks) this.of.set(`${track.a}-${track.b}`, [...this.find(track.a, track.b), track]);
+    for (const track of tracks) this.add(track);
+  }
+  add(track: Track): void {
+    const key = `${track.a}-${track.b}`;
+    const list = this.of.get(key);
+    if (list) list.push(track);
+    else this.of.set(key, [track]);
   }
   find(a: number, b: number): Track[] {
     return this.of.get(`${Math.min(a, b)}-${Math.max(a, b)}`) ?? [];

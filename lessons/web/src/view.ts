@@ -17,6 +17,10 @@ export class View {
   y(y: number): number {
     return kHeight / 2 - (y - this.cy) * this.scale;
   }
+  /** Back from the picture to the world. */
+  world(x: number, y: number): Vec {
+    return [this.cx + (x - kWidth / 2) / this.scale, this.cy - (y - kHeight / 2) / this.scale];
+  }
   at([x, y]: Vec): Vec {
     return [this.x(x), this.y(y)];
   }

@@ -74,15 +74,18 @@ export function whatIf(state: State): HTMLElement | null {
   if (state.traces.length < 2) return null;
   const select = h('select', {
     'aria-label': 'What if: another run of the scene', onchange: () => show(state, state.traces[Number(select.value)]),
-  }, ...state.traces.map((trace, i) => h('option', { value: i }, i === 0 ? `What if … (${trace.label})` : trace.label)));
-  state.onChange(() => { select.value = String(state.traces.indexOf(state.trace)); });
+  }, ...state.traces.map((trace, i) => h('option', { value: i }, i === 0 ? `Compare with … (${trace.label})` : trace.label)));
+  state.onChange(() => {
+    select.value = String(state.traces.indexOf(state.prepared));
+    select.disabled = state.live !== null;
+  });
   return select;
 }
 
 export function badge(state: State): HTMLElement {
   const root = h('div', { class: 'badge' });
   state.onChange(() => {
-    root.textContent = state.trace === state.traces[0] ? '' : `What if: ${state.trace.label}`;
+    root.textContent = state.live || state.trace === state.traces[0] ? '' : `What if: ${state.trace.label}`;
     root.hidden = root.textContent === '';
   });
   return root;

@@ -17,9 +17,9 @@ let folder;
 let browser;
 const files = {};
 
-function make(name, source = name) {
+function make(name, source = name, more = []) {
   files[name] = join(folder, `${name}.html`);
-  execFileSync(merge2d, ['lesson', source, '-o', files[name], '--quiet'], { cwd: folder });
+  execFileSync(merge2d, ['lesson', source, '-o', files[name], '--quiet', ...more], { cwd: folder });
 }
 
 before(async () => {
@@ -48,6 +48,8 @@ ${bodies.join('')}`);
   make('how-fast-is-still');
   make('books');
   make('evil', 'evil.toml');
+  make('tower-platform', 'tower-platform', ['--steps', '400']);
+  make('small', 'long-names.toml', ['--no-live']);
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
 });
 after(async () => {
@@ -56,7 +58,7 @@ after(async () => {
 });
 
 /** A page that is open, without a network, and complains about every error and request. */
-async function open(name, options = {}) {
+async function open(name, options = {}, hash = '') {
   const context = await browser.newContext({ offline: true, viewport: { width: 1280, height: 860 }, ...options });
   const page = await context.newPage();
   const trouble = [];
@@ -64,7 +66,7 @@ async function open(name, options = {}) {
   page.on('console', (message) => { if (message.type() === 'error') trouble.push(message.text()); });
   page.on('request', (request) => { if (!request.url().startsWith('file:')) trouble.push(`asked for ${request.url()}`); });
   const start = Date.now();
-  await page.goto(`file://${files[name]}`);
+  await page.goto(`file://${files[name]}${hash}`);
   await page.waitForSelector('html[data-ready]');
   return {
     page, took: Date.now() - start,
@@ -134,7 +136,7 @@ test('the keyboard alone does everything', async () => {
   await page.keyboard.press('Home');
   assert.equal(await step(), 0);
   await page.keyboard.press('2');
-  assert.equal(await page.getAttribute('.chip:nth-child(2)', 'aria-pressed'), 'true');
+  assert.equal(await page.getAttribute('.layers > [data-layer=forces]', 'aria-pressed'), 'true');
   await page.keyboard.press('?');
   assert.ok(await page.isVisible('dialog'));
   await page.keyboard.press('Escape');
@@ -212,9 +214,9 @@ test('a click on a contact or a body shows its numbers against their limits', as
 test('a question waits for an answer, then shows and explains', async () => {
   const { page, step, close } = await open('what-merging-is', { reducedMotion: 'reduce' });
   const asked = await step();
-  assert.ok(await page.isDisabled('.ask .primary'));
-  await page.click('.option:nth-child(2)');
-  await page.click('.ask .primary');
+  assert.ok(await page.isDisabled('.lesson .primary'));
+  await page.click('.option:has-text("no, all of them move")');
+  await page.click('.lesson .primary');
   assert.match(await page.textContent('.verdict'), /Right\./);
   assert.ok((await step()) > asked);
   await page.keyboard.press('n');
@@ -227,13 +229,14 @@ test('bodies are answers that can be clicked, and questions can be skipped', asy
   for (let i = 0; i < 3; ++i) await page.keyboard.press('n');
   await page.locator('.picture [data-body="1"]').click();
   assert.equal(await page.locator('.ask input:checked').count(), 1);
-  await page.click('text=Just show me');
+  await page.click('text=Show me instead');
   assert.match(await page.textContent('.verdict'), /The answer: Free at step/);
   await close();
 });
 
 test('what if shows another run, and says so', async () => {
   const { page, close } = await open('what-merging-is');
+  await page.click('.menu > summary');
   await page.selectOption('select[aria-label^="What if"]', '1');
   assert.match(await page.textContent('.badge'), /reference/);
   assert.equal(await page.locator('.body.c0').count(), 0);
@@ -244,6 +247,7 @@ test('a slider over a threshold shows the runs that were computed beforehand', a
   const { page, step, close } = await open('how-fast-is-still');
   await page.locator('.slider').fill('300');
   const merged = [];
+  await page.click('.menu > summary');
   for (const [at, value] of ['0.001', '0.01', '0.1', '1'].entries()) {
     await page.locator('.threshold-slider input').fill(String(at));
     assert.equal(await page.textContent('.threshold-slider output'), value);
@@ -312,6 +316,196 @@ test('no label covers another or leaves the picture', async () => {
   await close();
 });
 
+/** With the engine there, and the run taken over at a step. */
+async function takenOver(name, step, options = {}) {
+  const opened = await open(name, options);
+  await opened.page.waitForSelector('html[data-engine]');
+  await opened.page.locator('.slider').fill(String(step));
+  await opened.page.keyboard.press('t');
+  await opened.page.waitForSelector('html.taken-over');
+  return opened;
+}
+const centre = (page, body) => page.$eval(`.picture.interactive [data-body="${body}"]`, (node) => {
+  const box = node.getBoundingClientRect();
+  return [box.left + box.width / 2, box.top + box.height / 2];
+});
+const freeBodies = (page) => page.locator('.picture.interactive .body.free:visible').count();
+
+test('a brick that is dragged off the tower comes free, and the page says why', async () => {
+  const { page, step, close } = await takenOver('tower-platform', 300);
+  const names = await page.$eval('#data', (data) => JSON.parse(data.textContent).traces[0].head.bodies.map((body) => body.name));
+  const brick = names.indexOf('brick[0,26]');
+  const before = await freeBodies(page);
+  const [x, y] = await centre(page, brick);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 40, y - 30, { steps: 5 });
+  await page.mouse.move(x - 120, y - 90, { steps: 5 });
+  await page.waitForFunction(() => Number(document.querySelector('.slider').value) > 320);
+  assert.notEqual(await page.getAttribute('.layer.hand', 'd'), '');
+  await page.mouse.up();
+  await page.waitForFunction((at) => Number(document.querySelector('.slider').value) > at, await step());
+  await page.keyboard.press(' ');
+  assert.ok((await freeBodies(page)) > before, 'bodies came free');
+  assert.match(await page.textContent('.deeds'), /dragged brick\[0,26\].*let brick\[0,26\] go/s);
+
+  // To the step in which it came apart from a neighbour, and why.
+  await page.evaluate(() => { location.hash = 'step=300&bodies=brick[0,26]'; });
+  for (let i = 0; i < 40; ++i) {
+    await page.keyboard.press('m');
+    const button = page.locator('.now .events button', { hasText: /brick\[0,26\].*came apart/ });
+    if (await button.count() === 0) continue;
+    await button.first().evaluate((node) => node.click());
+    await page.waitForFunction(() => /brick\[0,26\]/.test(document.querySelector('.why h2').textContent));
+    break;
+  }
+  assert.match(await page.textContent('.why h2'), /^Came apart/);
+  assert.match(await page.textContent('.why-text'), /They came apart: .*(above|pressure|carries|edge)/);
+  assert.ok((await page.locator('.why .tests tbody tr').count()) > 0);
+  assert.match(await page.textContent('.stages .stage:nth-child(6) .result'), /welds? cut/);
+
+  await page.keyboard.press('t');
+  assert.equal(await page.locator('html.taken-over').count(), 0);
+  assert.ok(await page.evaluate(() => document.querySelector('.live-panel').hidden));
+  await close();
+});
+
+test('push, pin, add, delete, limits, back and undo in a run of one’s own', async () => {
+  const { page, step, close } = await takenOver('books', 100);
+  const told = () => page.textContent('.deeds');
+  const there = () => page.locator('.picture.interactive .body:visible').count();
+  const dynamic = Number(await page.locator('.picture.interactive .body:not(.fixed)').first().getAttribute('data-body'));
+  await page.click('[data-tool=pin]');
+  await page.mouse.click(...await centre(page, dynamic));
+  assert.match(await told(), /pinned/);
+  const bodies = await there();
+  await page.click('[data-tool=disc]');
+  const frame = await page.locator('.frame').first().boundingBox();
+  await page.mouse.click(frame.x + frame.width / 2, frame.y + 60);
+  assert.equal(await there(), bodies + 1);
+  await page.click('[data-tool=push]');
+  await page.mouse.move(...await centre(page, dynamic));
+  await page.mouse.down();
+  const [x, y] = await centre(page, dynamic);
+  await page.mouse.move(x + 50, y, { steps: 4 });
+  assert.match(await page.textContent('.aim-text'), /N s/);
+  await page.mouse.up();
+  assert.match(await told(), /pushed .* N s/);
+  await page.locator('[data-key="merging.velocity"]').focus();
+  const at = await step();
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await step(), at, 'arrows in a slider move that slider alone');
+  await page.waitForFunction(() => /merging\.velocity: 0\.01 → /.test(document.querySelector('.deeds').textContent));
+  await page.click('.live-panel h2');
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowDown');
+  assert.equal(await step(), at + 2);
+  await page.keyboard.press('Home');
+  assert.equal(await step(), 100);
+  for (let i = 0; i < 4; ++i) await page.keyboard.press('z');
+  assert.match(await told(), /Nothing yet/);
+  assert.equal(await there(), bodies);
+  await close();
+});
+
+test('the reference runs beside one’s own run, with the same pulls', async () => {
+  const { page, close } = await takenOver('what-merging-is', 300);
+  await page.selectOption('select[aria-label="Beside it"]', 'reference');
+  const other = page.locator('.frame:has(> .picture:not(.interactive))');
+  assert.match(await other.locator('.badge').textContent(), /Reference.*largest offset \d+ mm/);
+  assert.equal(await other.locator('.body.c0, .body.c1, .body.c2').count(), 0);
+  await page.selectOption('select[aria-label="Beside it"]', 'paper');
+  assert.match(await other.locator('.badge').textContent(), /paper/);
+  await close();
+});
+
+test('a link to a run of one’s own replays it', async () => {
+  const link = `#step=330&fork=300&do=${encodeURIComponent('300 pin @1')}&do=${encodeURIComponent('305 push @2 1 0')}`;
+  const { page, step, close } = await open('tower-platform', {}, link);
+  await page.waitForSelector('html.taken-over');
+  assert.equal(await step(), 330);
+  assert.match(await page.textContent('.deeds'), /pinned .*pushed/s);
+  await close();
+});
+
+test('a link opens the moment, the stage and the bodies', async () => {
+  const { page, step, stage, close } = await open('what-merging-is', {}, '#part=3&step=200&stage=5&bodies=brick[0,0]%26brick[0,1]');
+  assert.deepEqual([await step(), await stage()], [200, 5]);
+  assert.match(await page.textContent('.inspector h3'), /brick\[0,0\] and brick\[0,1\]/);
+  assert.match(await page.textContent('.place'), /Part 3/);
+  await close();
+});
+
+test('answers and place survive a reload', async () => {
+  const { page, close } = await open('what-merging-is', { reducedMotion: 'reduce' });
+  await page.click('.option:has-text("no, all of them move")');
+  await page.click('.lesson .primary');
+  await page.keyboard.press('n');
+  await page.reload();
+  await page.waitForSelector('html[data-ready]');
+  assert.match(await page.textContent('.place'), /Part 2/);
+  await page.keyboard.press('p');
+  assert.match(await page.textContent('.verdict'), /Right/);
+  await close();
+});
+
+test('play that stops says why', async () => {
+  const { page, close } = await open('what-merging-is');
+  await page.keyboard.press(' ');
+  await page.waitForFunction(() => /a question first/.test(document.querySelector('.notice').textContent));
+  await close();
+});
+
+test('what tells the answer is hidden until there is one', async () => {
+  const { page, close } = await open('what-merging-is', { reducedMotion: 'reduce' });
+  await page.waitForSelector('html[data-engine]');
+  for (let i = 0; i < 3; ++i) await page.keyboard.press('n');
+  assert.ok(!(await page.isVisible('.counts')));
+  assert.equal((await page.locator('.stage .result').allTextContents()).join(''), '');
+  const marks = await page.getAttribute('.mark.unmerge', 'd');
+  assert.equal(marks, '');
+  await page.click('text=Show me instead');
+  assert.ok(await page.isVisible('.counts'));
+  await page.waitForFunction(() => document.querySelector('.stage .result').textContent !== '');
+  await close();
+});
+
+for (const [width, height] of [[1440, 900], [1280, 720], [820, 1180], [390, 844]]) {
+  test(`picture, time and stages are in view at ${width} × ${height}`, async () => {
+    const { page, close } = await open('what-merging-is', { viewport: { width, height } });
+    for (const place of ['.picture.interactive', '.play', '.stages', '.lesson .primary', '.words h2', '.take-over']) {
+      const box = await page.locator(place).first().boundingBox();
+      assert.ok(box && box.y >= 0 && box.y + Math.min(box.height, 20) <= height && box.x >= 0 && box.x + box.width <= width + 1, `${place}: ${JSON.stringify(box)}`);
+    }
+    const last = await page.locator('.stage').last().boundingBox();
+    assert.ok(last.y + last.height <= height, 'all eleven stages');
+    await close();
+  });
+}
+
+test('the question is a few tab stops away', async () => {
+  const { page, close } = await open('what-merging-is');
+  await page.keyboard.press('Tab');
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'To the question');
+  await page.keyboard.press('Enter');
+  assert.ok(await page.evaluate(() => document.activeElement.closest('.ask') !== null));
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('q');
+  assert.ok(await page.evaluate(() => document.activeElement.closest('.ask') !== null));
+  await close();
+});
+
+test('without the engine a page plays, and says that it cannot be taken over', async () => {
+  const { page, step, close } = await open('small');
+  assert.ok(statSync(files.small).size < 400_000);
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await step(), 1);
+  assert.ok(await page.isDisabled('.take-over'));
+  await page.keyboard.press('t');
+  assert.match(await page.textContent('.notice'), /--no-live/);
+  await close();
+});
+
 test('it prints as a comic strip', async () => {
   const { page, close } = await open('what-merging-is');
   await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
@@ -349,9 +543,14 @@ for (const colorScheme of ['light', 'dark']) {
       await page.keyboard.press('n');
       await page.keyboard.press('m');
       await page.locator('.picture .body:not(.fixed)').first().click({ force: true });
-      if (name === 'contact-forces') await page.click('text=Just show me');
+      if (name === 'contact-forces') await page.click('text=Show me instead');
       if (name === 'how-fast-is-still') await page.keyboard.press('9');
       if (name === 'one-sweep') await page.click('.stage:nth-child(7)');
+      if (name === 'books' || name === 'what-merging-is') {
+        await page.waitForSelector('html[data-engine]');
+        await page.keyboard.press('t');
+        await page.click('.all-limits summary');
+      } else if (name !== 'contact-forces') await page.keyboard.press('d');
       // In the middle of a change of colours nothing is readable.
       await page.evaluate(() => Promise.all(document.getAnimations().map((animation) => animation.finished)));
       await page.evaluate(axe);

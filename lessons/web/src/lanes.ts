@@ -1,0 +1,100 @@
+// Events over time: a lane for each kind, flags for the parts of a lesson, and where a run was taken over.
+import { svg } from './dom';
+import type { State } from './state';
+
+interface Lane {
+  label: string;
+  kinds: string[];
+  mark: (x: number, y: number) => string;
+}
+
+const kLanes: Lane[] = [
+  { label: 'Hits', kinds: ['impact'], mark: (x, y) => `M${x} ${y - 4}l4 8h-8z` },
+  { label: 'Unmerges', kinds: ['unmerge', 'break'], mark: (x, y) => `M${x - 3} ${y - 3}l6 6m0 -6l-6 6` },
+  { label: 'Merges', kinds: ['merge'], mark: (x, y) => `M${x - 2.5} ${y - 3.5}h5v7h-5z` },
+  { label: 'Sleep', kinds: ['sleep', 'wake'], mark: (x, y) => `M${x - 3} ${y}a3 3 0 1 0 6 0a3 3 0 1 0 -6 0` },
+];
+const kPitch = 15;
+const kLeft = 68;
+export const kSliderInset = { left: kLeft, right: 14 };
+
+export interface Flag {
+  step: number;
+  label: string;
+}
+
+export function lanes(state: State, flags: () => Flag[]): SVGSVGElement {
+  const root = svg('svg', { class: 'marks', role: 'img', 'aria-label': 'Events over time' });
+  let width = 0;
+  let drawn = '';
+  const x = (step: number) => kLeft + ((width - kLeft - kSliderInset.right) * step) / Math.max(1, state.steps);
+
+  const draw = () => {
+    const last = state.live ? state.live.trace.known : state.steps;
+    const until = state.veiled ? state.step : last;
+    const key = [width, state.trace.label, state.trace.head.mode, until, state.steps, state.live?.deeds.length, flags().length].join('|');
+    if (width === 0 || key === drawn) return;
+    drawn = key;
+    const shown = kLanes.filter((lane, i) => i < 3 || state.trace.eventSteps(lane.kinds).length > 0);
+    const height = shown.length * kPitch + 18;
+    root.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    root.style.height = `${height}px`;
+    root.replaceChildren();
+    for (const [row, lane] of shown.entries()) {
+      const y = row * kPitch + kPitch / 2 + 1;
+      root.append(svg('text', { class: 'lane-name', x: 0, y: y + 4 }, lane.label),
+        svg('rect', { class: 'lane', x: kLeft, y: y - 6, width: Math.max(0, width - kLeft - kSliderInset.right), height: 12, rx: 2 }));
+      let d = '';
+      let before = -Infinity;
+      for (const step of state.trace.eventSteps(lane.kinds)) {
+        if (step > until) break;
+        const at = x(step);
+        if (at - before < 1.5) continue;
+        before = at;
+        d += lane.mark(Number(at.toFixed(1)), y);
+      }
+      root.append(svg('path', { d, class: `mark ${lane.kinds[0]}` }, svg('title', {}, lane.label)));
+    }
+    drawFork(height);
+    drawFlags(height);
+  };
+
+  const drawFork = (height: number) => {
+    if (!state.live) return;
+    const from = x(state.live.fork);
+    root.append(svg('path', { class: 'fork', d: `M${from} 0V${height - 14}` }),
+      svg('text', { class: 'lane-name own', x: width - kSliderInset.right - 4, y: kPitch + kPitch / 2 + 5 }, 'your run'));
+    for (const deed of state.live.deeds.filter((one, i, all) => all[i - 1]?.step !== one.step)) {
+      root.append(svg('path', { class: 'deed', d: `M${x(deed.step)} 0v3` }, svg('title', {}, deed.told)));
+    }
+  };
+
+  const drawFlags = (height: number) => {
+    let before = -Infinity;
+    for (const flag of flags()) {
+      const at = x(flag.step);
+      const shifted = Math.max(at, before + 11); // two parts of one moment stand side by side
+      before = shifted;
+      root.append(svg('path', { class: 'flag', d: `M${at} ${height - 16}v5` }),
+        svg('text', { class: 'flag-name', x: Math.min(shifted, width - 6), y: height - 1 }, flag.label));
+    }
+    if (flags().length > 0) return;
+    const seconds = state.steps * state.trace.head.h;
+    const power = 10 ** Math.floor(Math.log10(Math.max(1e-6, seconds / 4)));
+    const every = [1, 2, 5, 10].map((m) => m * power).find((m) => seconds / m <= 8) ?? power;
+    for (let t = 0; t <= seconds + 1e-9; t += every) {
+      const at = x(t / state.trace.head.h);
+      root.append(svg('path', { class: 'flag', d: `M${at} ${height - 16}v4` }),
+        svg('text', { class: 'flag-name', x: at, y: height - 1 }, `${Number(t.toPrecision(6))} s`));
+    }
+  };
+
+  new ResizeObserver(() => {
+    const now = root.getBoundingClientRect().width;
+    if (Math.abs(now - width) < 1) return;
+    width = now;
+    draw();
+  }).observe(root);
+  state.onChange(draw);
+  return root;
+}

@@ -1,0 +1,122 @@
+// Why two bodies are one, or not: one sentence, a gauge, and what would have to change. The engine says it.
+import { h, number, svg } from './dom';
+import type { Reason } from './engine';
+import { criterionName } from './inspector';
+import { describe } from './now';
+import { kStages } from './stages';
+import type { State } from './state';
+
+type Test = Reason['tests'][number];
+
+const kParting = ['unmerge', 'cut', 'apart'];
+
+/** The test that decides: the one that failed most, else the nearest to its limit. */
+function decisive(reason: Reason): Test | null {
+  let best: Test | null = null;
+  const ratio = (test: Test) => Math.abs(test.value) / test.threshold;
+  const measured = reason.tests.filter((test) => test.threshold > 0 && test.unit !== '');
+  const failed = measured.filter((test) => kParting.includes(test.verdict));
+  for (const test of failed.length > 0 ? failed : measured) {
+    if (!best || ratio(test) > ratio(best)) best = test;
+  }
+  return best;
+}
+
+const kWidth = 240;
+
+/** The value against its limit, over decades: below it on the left of the tick, above it on the right. */
+export function gauge(test: Test): HTMLElement {
+  const value = Math.abs(test.value);
+  const over = value >= test.threshold;
+  const at = (x: number) => kWidth * Math.min(1, Math.max(0.02, 0.6 + 0.2 * Math.log10(Math.max(1e-12, x) / test.threshold)));
+  const end = Math.min(kWidth - 6, at(value));
+  const limit = at(test.threshold);
+  const words = `${number(value, 3)} ${test.unit}`;
+  return h('figure', { class: `gauge ${over ? 'over' : 'under'}` },
+    svg('svg', { viewBox: `0 0 ${kWidth} 62`, role: 'img', 'aria-label': `${words}, limit ${number(test.threshold)} ${test.unit}` },
+      svg('path', { class: 'beyond', d: `M${limit} 24H${kWidth}v10H${limit}z` }),
+      svg('path', { class: 'rest', d: `M0 24H${limit}v10H0z` }),
+      svg('path', { class: 'bar', d: `M0 24H${end.toFixed(1)}v10H0z` }),
+      svg('path', { class: 'pointer', d: `M${end.toFixed(1)} 23l-5 -7h10z` }),
+      svg('path', { class: 'tick', d: `M${limit} 20V38` }),
+      svg('text', { x: Math.min(kWidth - 42, Math.max(42, end)).toFixed(1), y: 11, class: 'value' }, words),
+      svg('text', { x: limit, y: 52 }, `limit ${number(test.threshold)}`)),
+    test.needed > 1 ? steps(test) : null);
+}
+
+/** A count is drawn as dots. */
+function steps(test: Test): HTMLElement {
+  const n = Math.min(test.needed, 8);
+  return h('figcaption', {}, ...Array.from({ length: n }, (_, i) => h('span', { class: i < test.count ? 'dot full' : 'dot', 'aria-hidden': true })),
+    ` ${Math.min(test.count, test.needed)} of ${test.needed} steps`);
+}
+
+function tests(reason: Reason): HTMLElement {
+  const relation = (test: Test) => (test.threshold > 0 ? `${number(test.value)} of ${number(test.threshold)} ${test.unit}` : number(test.value));
+  return h('table', { class: 'tests' }, h('thead', {}, h('tr', {}, ...['Test', 'Equation', 'Value of limit', 'Verdict'].map((text) => h('th', { scope: 'col' }, text)))),
+    h('tbody', {}, ...reason.tests.map((test) => h('tr', {}, h('th', { scope: 'row', title: test.text }, criterionName(test.criterion)),
+      h('td', {}, test.equation), h('td', {}, relation(test)), h('td', {}, test.verdict)))));
+}
+
+/** "0.072 m/s" stands out. */
+function sentence(text: string): Node[] {
+  return text.split(/(\d[\d.,]* (?:m\/s|mm\/s|mm|m|N s|steps?)\b)/).map((part, i) => (i % 2 ? h('strong', {}, part) : document.createTextNode(part)));
+}
+
+export function whyCard(state: State, equation: HTMLElement): HTMLElement {
+  const title = h('h2', { id: 'why' });
+  const text = h('div', { class: 'why-text' });
+  const holder = h('div', { class: 'why-gauge' });
+  const all = h('details', { class: 'all-tests' });
+  const root = h('section', { class: 'why panel', 'aria-labelledby': 'why', tabindex: 0 },
+    h('div', { class: 'why-body' }, h('div', { class: 'why-words' }, title, text, all), holder), equation);
+  let waiting = 0;
+
+  const empty = (heading: string, words: string) => {
+    title.textContent = heading;
+    text.replaceChildren(h('p', { class: 'hint' }, words));
+    holder.replaceChildren();
+    all.hidden = true;
+  };
+  const show = (reason: Reason, names: string) => {
+    title.replaceChildren(reason.heading, h('span', { class: 'names' }, `${names}, step ${state.step}`));
+    const told = reason.text.replace(`The weld of ${names}`, 'Their weld').replace(names, 'They').replace(` at step ${state.step}`, '');
+    text.replaceChildren(h('p', {}, ...sentence(told)), ...(reason.outlook ? [h('p', { class: 'outlook' }, ...sentence(reason.outlook))] : []));
+    const test = decisive(reason);
+    holder.replaceChildren(...(test ? [gauge(test)] : []));
+    all.hidden = reason.tests.length === 0;
+    all.replaceChildren(h('summary', {}, `All ${reason.tests.length} tests of this pair`), tests(reason));
+  };
+  const ask = (a: number, b: number) => {
+    const { probe, step, trace } = state;
+    if (!probe) return empty('Why?', 'This page has no engine in it; the numbers of the pair are below.');
+    const still = () => state.step === step && state.trace === trace && state.selection?.kind === 'pair' && !state.playing;
+    const go = () => {
+      if (!still()) return;
+      try {
+        if (probe.approach(step)) show(probe.why(step, a, b), `${trace.name(a)} and ${trace.name(b)}`);
+        else waiting = window.setTimeout(go, 0);
+      } catch (error) {
+        empty('Why?', String(error instanceof Error ? error.message : error));
+      }
+    };
+    waiting = window.setTimeout(go, state.live ? 0 : 60);
+  };
+
+  const look = () => {
+    window.clearTimeout(waiting);
+    const s = state.selection;
+    const stage = kStages[state.stage];
+    if (state.veiled) return empty('Why?', 'The reasons are hidden until you have answered. Then choose any pair to see its value against the limit.');
+    if (s?.kind === 'pair' && state.step > 0) {
+      if (state.playing) return;
+      return ask(s.a, s.b);
+    }
+    if (s?.kind === 'body') return empty(state.trace.name(s.body), 'Choose a second body to read why the two are merged, or not.');
+    if (state.step > 0 && state.stage !== kStages.length - 1) return empty(`${state.stage + 1} · ${stage.label}`, stage.what);
+    empty('Why?', state.step === 0 ? 'Choose two bodies that touch, or the contact between them: here stands why they are merged, or not.' : describe(state));
+  };
+  state.onChange(look);
+  state.onEngine(look);
+  return root;
+}
