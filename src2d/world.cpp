@@ -23,6 +23,7 @@
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/unmerge.h"
 #include "src2d/merging/warm_start.h"
+#include "src2d/scene/check.h"
 #include "src2d/state_file.h"
 #include "src2d/trace/capture.h"
 
@@ -33,6 +34,7 @@ struct World::Impl {
 
   Impl(std::shared_ptr<const Scene> of, const WorldOptions& with)
       : scene(std::move(of)), options(with) {
+    checkSimulated(*scene);
     setUp(*scene, options.mode, setup);
     countBodies(setup.state, scratch);
   }
@@ -232,6 +234,7 @@ void World::setFriction(BodyId body, double friction) {
 void World::wake(BodyId body) { merge2d::wake(impl_->setup, impl_->checked(body)); }
 
 BodyId World::addBody(const BodyDesc& desc) {
+  checkBody(desc);
   const BodyId body = merge2d::addBody(impl_->setup, desc);
   // What is kept of the last step is numbered as the bodies were.
   std::vector<Event> events = std::move(impl_->scratch.events);
@@ -249,8 +252,7 @@ void World::removeBody(BodyId body) {
 std::uint32_t World::addSpring(const SpringDesc& desc) {
   const Vec2 center = impl_->centerOf(impl_->checked(desc.body));
   const Vec2 other = desc.to_body ? impl_->centerOf(impl_->checked(*desc.to_body)) : Vec2::Zero();
-  checkNumbers("a spring", {desc.anchor.x(), desc.anchor.y(), desc.to.x(), desc.to.y(),
-                            desc.stiffness, desc.damping, desc.rest_length});
+  merge2d::checkSpring(desc);
   return merge2d::addSpring(impl_->setup, desc, center, other);
 }
 
@@ -277,8 +279,7 @@ void World::checkSpring(std::uint32_t spring) const {
 std::uint32_t World::addJoint(const JointDesc& desc) {
   impl_->checked(desc.a);
   if (desc.b) impl_->checked(*desc.b);
-  if (desc.b == desc.a) throw InputError("a joint needs two bodies, or one and the world");
-  checkNumbers("a joint", {desc.at.x(), desc.at.y(), desc.to.x(), desc.to.y()});
+  checkJoint(desc);
   return merge2d::addJoint(impl_->setup, impl_->scratch, desc);
 }
 
@@ -290,7 +291,10 @@ void World::removeJoint(std::uint32_t joint) {
 }
 
 const Settings& World::settings() const { return impl_->setup.state.settings; }
-void World::setSettings(const Settings& settings) { impl_->setup.state.settings = settings; }
+void World::setSettings(const Settings& settings) {
+  checkSettings(settings);
+  impl_->setup.state.settings = settings;
+}
 Vec2 World::gravity() const { return impl_->setup.state.gravity; }
 
 void World::setGravity(const Vec2& gravity) {

@@ -24,11 +24,22 @@ inline std::size_t characterBytes(std::string_view text, std::size_t at) {
   return byte(1) >= least && byte(1) <= most ? bytes : 0;
 }
 
-/// Whether a terminal obeys the character rather than showing it (C0, DEL and C1).
+/// The number of a whole UTF-8 character.
+inline char32_t codePoint(std::string_view character) {
+  const auto lead = static_cast<unsigned char>(character[0]);
+  constexpr unsigned kLeadBits[] = {0x7Fu, 0x1Fu, 0x0Fu, 0x07u};
+  char32_t code = lead & kLeadBits[std::min<std::size_t>(character.size(), 4) - 1];
+  for (const char c : character.substr(1)) code = code << 6u | (static_cast<unsigned>(c) & 0x3Fu);
+  return code;
+}
+
+/// Whether a terminal obeys the character rather than showing it (C0, DEL and C1), or shows what
+/// follows in another place than it stands in (marks of writing direction, breaks of lines).
 inline bool isControl(std::string_view character) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
-  if (character.size() == 1) return byte(0) < 0x20u || byte(0) == 0x7Fu;
-  return character.size() == 2 && byte(0) == 0xC2u && byte(1) < 0xA0u;
+  const char32_t code = codePoint(character);
+  if (code < 0x20u || (code >= 0x7Fu && code < 0xA0u)) return true;
+  return code == 0x61Cu || (code >= 0x200Eu && code <= 0x200Fu) ||
+         (code >= 0x2028u && code <= 0x202Eu) || (code >= 0x2066u && code <= 0x2069u);
 }
 
 /// Whether any of its characters is one.
@@ -48,8 +59,10 @@ inline std::string escapedControl(std::string_view character) {
                              kHex = "0123456789abcdef";
   const std::size_t known = kControls.find(character);
   if (known != std::string_view::npos) return {'\\', kLetters[known]};
-  const auto code = static_cast<unsigned char>(character.back());
-  return std::string("\\u00") + kHex[code / 16u] + kHex[code % 16u];
+  const char32_t code = codePoint(character);
+  std::string out = "\\u";
+  for (const unsigned shift : {12u, 8u, 4u, 0u}) out += kHex[code >> shift & 0xFu];
+  return out;
 }
 
 /// The text without what a terminal would obey: for messages, which quote what others wrote.
@@ -69,6 +82,21 @@ inline std::string escaped(std::string_view text, std::string_view kept = {}) {
     }
   }
   return out;
+}
+
+/// The text as one line: breaks of lines and tabs become a space, and it is `escaped`.
+inline std::string asOneLine(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    const bool gap = c == '\n' || c == '\r' || c == '\t';
+    if (!gap) {
+      line += c;
+    } else if (!line.empty() && line.back() != ' ') {
+      line += ' ';
+    }
+  }
+  while (line.ends_with(' ')) line.pop_back();
+  return escaped(line);
 }
 
 /// As many whole characters from its beginning as fit into so many bytes.

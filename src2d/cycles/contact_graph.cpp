@@ -33,7 +33,12 @@ struct Line {
 };
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20u || c == 0x7F; }
+
+/// "0x1b", or "U+202E" of what is more than a byte.
+std::string shownControl(std::string_view character) {
+  const auto code = static_cast<std::uint32_t>(codePoint(character));
+  return character.size() == 1 ? fmt::format("0x{:02x}", code) : fmt::format("U+{:04X}", code);
+}
 
 template <class Number>
 std::optional<Number> numberIn(std::string_view text) {
@@ -80,9 +85,9 @@ class GraphReader {
         inside = false;
         continue;
       }
-      if (isControl(text[i])) {
-        fail(column, fmt::format("expected text, got the control character 0x{:02x}",
-                                 static_cast<unsigned char>(text[i])));
+      if (const std::string_view character = text.substr(i, bytes); isControl(character)) {
+        fail(column, fmt::format("expected text, got the control character {}",
+                                 shownControl(character)));
       }
       if (!inside) line.words.push_back({text.substr(i, 0), column});
       inside = true;

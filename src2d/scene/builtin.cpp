@@ -4,6 +4,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "src2d/core/utf8.h"
 #include "src2d/scene/load.h"
 #include "src2d/scene/toml_parse.h"
 
@@ -20,7 +21,8 @@ std::vector<DataFolder> sceneFolders() {
 std::string sceneTitle(const DataFolder& folder, const std::string& file, const std::string& name) {
   try {
     const std::string text = folder.read(file);
-    return parseToml(SourceText(folder.pathOf(file).string(), text))["title"].value_or(name);
+    return asOneLine(
+        parseToml(SourceText(folder.pathOf(file).string(), text))["title"].value_or(name));
   } catch (const std::runtime_error&) {
     return name;
   }

@@ -371,8 +371,11 @@ Overrides forPixels(const Overrides& overrides) {
 }  // namespace
 
 Scene loadDrawing(const std::filesystem::path& png, const Overrides& overrides) {
-  const std::string file = png.string();
-  const Image image = decodePng(readFile(png), file);
+  return parseDrawing(readFile(png), nameOfFile(png), overrides);
+}
+
+Scene parseDrawing(const std::string& bytes, const std::string& file, const Overrides& overrides) {
+  const Image image = decodePng(bytes, file);
   Scene drawn = parseScene("", file, forPixels(overrides));
   drawn.warnings.clear();
   drawn.duration = 20.0;

@@ -1,28 +1,87 @@
 #include "src2d/scene/file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include <fstream>
+#include <algorithm>
+#include <cerrno>
 #include <system_error>
 
 #include "src2d/core/error.h"
 #include "src2d/scene/scene.h"
 
 namespace merge2d {
+namespace {
 
-std::string readFile(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw IoError(fmt::format("{}: {}", name, error.message()));
-  if (size > SceneLimits::kFileBytes) {
-    throw InputError(fmt::format("{}: a scene file has at most {} MB, this one has {} MB", name,
-                                 SceneLimits::kFileBytes >> 20u, size >> 20u));
+[[noreturn]] void failReading(const std::string& name, int error) {
+  throw IoError(fmt::format("{}: {}", name, std::generic_category().message(error)));
+}
+
+/// An open file that closes itself.
+class OpenFile {
+ public:
+  OpenFile(const std::filesystem::path& path, const std::string& name) : name_(name) {
+    file_ = isStandardInput(path) ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file_ < 0) failReading(name_, errno);
   }
-  std::string bytes(size, '\0');
-  std::ifstream in(path, std::ios::binary);
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!in) throw IoError(fmt::format("{}: cannot be read", name));
+  ~OpenFile() { close(file_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  /// Its size where it has one; pipes and devices have 0.
+  std::size_t size() const {
+    struct stat state {};
+    const bool regular = fstat(file_, &state) == 0 && S_ISREG(state.st_mode);
+    return regular ? static_cast<std::size_t>(state.st_size) : 0;
+  }
+
+  /// Fills as much of the range as there is; returns how much that was.
+  std::size_t read(char* to, std::size_t most) const {
+    std::size_t done = 0;
+    while (done < most) {
+      const ssize_t bytes = ::read(file_, to + done, most - done);
+      if (bytes < 0 && errno == EINTR) continue;
+      if (bytes < 0) failReading(name_, errno);
+      if (bytes == 0) break;
+      done += static_cast<std::size_t>(bytes);
+    }
+    return done;
+  }
+
+ private:
+  const std::string& name_;
+  int file_ = -1;
+};
+
+}  // namespace
+
+bool isStandardInput(const std::filesystem::path& path) { return path == "-"; }
+
+std::string nameOfFile(const std::filesystem::path& path) {
+  return isStandardInput(path) ? "<stdin>" : path.string();
+}
+
+std::string readFile(const std::filesystem::path& path, const FileKind& kind) {
+  const std::string name = nameOfFile(path);
+  const OpenFile file(path, name);
+  const auto failSize = [&](std::string_view has) {
+    throw InputError(fmt::format("{}: {} has at most {} MB, this one has {}", name, kind.what,
+                                 kind.most >> 20u, has));
+  };
+  if (file.size() > kind.most) failSize(fmt::format("{} MB", file.size() >> 20u));
+  std::string bytes(std::max(file.size(), kind.start.size()), '\0');
+  bytes.resize(file.read(bytes.data(), bytes.size()));
+  // What has no end, such as /dev/zero, is known by its start or by its size.
+  constexpr std::size_t kBlock = 1u << 20;
+  for (std::size_t more = kBlock; bytes.starts_with(kind.start) && more == kBlock;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + kBlock);
+    more = file.read(bytes.data() + before, kBlock);
+    bytes.resize(before + more);
+    if (bytes.size() > kind.most) failSize("more");
+  }
   return bytes;
 }
 

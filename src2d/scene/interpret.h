@@ -4,6 +4,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "src2d/scene/rules.h"
 #include "src2d/scene/toml_reader.h"
 
 namespace merge2d {
@@ -24,6 +25,8 @@ BodyNames readBodies(TableReader& root, Scene& scene);
 BodyDesc readBody(TableReader& table, const BodyDesc& defaults);
 /// What only a whole table can tell: a scripted body needs a script. Call after `done`.
 void checkBody(const TableReader& table, const BodyDesc& body);
+/// Throws the complaint, if there is one, at its key.
+void obey(const TableReader& table, const Verdict& verdict);
 
 /// box, circle, polygon or shapes.
 std::vector<ConvexShape> readShapes(TableReader& table);

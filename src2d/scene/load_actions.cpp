@@ -46,11 +46,7 @@ class ActionReader {
     table.read("from", force.from, kNotNegative);
     table.read("until", force.until, kNotNegative);
     table.done();
-    if (force.until <= force.from) {
-      table.failAt("until", fmt::format("a force must end after it begins, but it begins at {} s "
-                                        "and ends at {} s",
-                                        force.from, force.until));
-    }
+    obey(table, judgeTimes("a force", force.from, force.until));
     checkMoves(table, force.body, "a force");
     scene_.forces.push_back(force);
   }
@@ -76,13 +72,8 @@ class ActionReader {
     return value ? bodyNamed(*value, scene_, names_) : 0;  // missing, which `done` reports
   }
 
-  bool moves(BodyIndex index) const { return scene_.bodies[index].motion == Motion::Dynamic; }
-
   void checkMoves(const TableReader& table, BodyIndex index, std::string_view what) const {
-    if (moves(index)) return;
-    const BodyDesc& body = scene_.bodies[index];
-    table.failAt("body", fmt::format("{} has no effect on '{}', which is {}", what, body.name,
-                                     nameOf(body.motion)));
+    obey(table, judgeMoves(what, scene_.bodies[index]));
   }
 
   void checkEnds(TableReader& table, const SpringDesc& spring) const {
@@ -101,31 +92,18 @@ class ActionReader {
     if (spring.to_body == spring.body) {
       table.failAt("to_body", "both ends of the spring are on the same body");
     }
-    if (!spring.to_body || !moves(*spring.to_body)) checkMoves(table, spring.body, "a spring");
-  }
-
-  static void checkInterval(const Value& row, double from, double until,
-                            const std::vector<MagnetDesc::Interval>& before) {
-    if (from < 0.0) row.fail(fmt::format("time begins at 0, but this interval at {} s", from));
-    if (until <= from) {
-      row.fail(
-          fmt::format("an interval must end after it begins, but it begins at {} s and ends "
-                      "at {} s",
-                      from, until));
-    }
-    if (before.empty() || from >= before.back().until) return;
-    row.fail(
-        fmt::format("the intervals of a magnet must follow one another, but this one begins "
-                    "at {} s, and the one before ends at {} s",
-                    from, before.back().until));
+    if (!spring.to_body || !moves(scene_.bodies[*spring.to_body]))
+      checkMoves(table, spring.body, "a spring");
   }
 
   static std::vector<MagnetDesc::Interval> intervals(const Value& on) {
     std::vector<MagnetDesc::Interval> result;
     for (const Value& row : on.elements("[[from, until], …]")) {
       const std::vector<double> ends = row.numbers(2, "a pair, as in on = [[0, 2], [4, 6]]");
-      checkInterval(row, ends[0], ends[1], result);
-      result.push_back({ends[0], ends[1]});
+      const MagnetDesc::Interval next{ends[0], ends[1]};
+      const Verdict verdict = judgeInterval(next, result.empty() ? nullptr : &result.back());
+      if (verdict) row.fail(verdict->sentence);
+      result.push_back(next);
     }
     if (result.empty()) {
       on.fail("this magnet is never on: write on = [[from, until]], or leave 'on' out for always");

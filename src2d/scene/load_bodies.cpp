@@ -153,25 +153,14 @@ BodyDesc readBody(TableReader& table, const BodyDesc& defaults) {
 }
 
 void checkBody(const TableReader& table, const BodyDesc& body) {
-  const bool dynamic = body.motion == Motion::Dynamic;
-  const bool scripted = body.motion == Motion::Scripted;
   if (body.shapes.empty()) {
     table.fail(fmt::format("{} needs a shape: box, circle, polygon or shapes", table.title()));
   }
-  if (scripted && !body.script) {
-    table.failAt("motion",
-                 "a scripted body needs a script, such as script = { velocity = [1, 0] }");
-  }
-  if (body.script && !scripted) {
-    table.failAt("script", "a script needs motion = \"scripted\"");
-  }
-  const std::string_view instead =
-      scripted ? "a scripted body moves by its script only" : "a pinned body does not move";
-  if (!dynamic && body.velocity != Vec2::Zero()) table.failAt("velocity", instead);
-  if (!dynamic && body.spin != 0.0) table.failAt("spin", instead);
-  if (!dynamic && body.pinned_until > 0.0) {
-    table.failAt("pinned_until", "only a dynamic body can be pinned for a while");
-  }
+  obey(table, judgeBody(body));
+}
+
+void obey(const TableReader& table, const Verdict& verdict) {
+  if (verdict) table.failAt(verdict->key, verdict->sentence);
 }
 
 BodyNames readBodies(TableReader& root, Scene& scene) {

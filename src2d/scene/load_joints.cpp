@@ -37,18 +37,10 @@ class JointReader {
       bodies[1].fail(
           fmt::format("a joint needs two bodies, but both are '{}'", scene_.bodies[joint.a].name));
     }
-    if (moves(joint.a) || (joint.b && moves(*joint.b))) return;
-    const BodyDesc& a = scene_.bodies[joint.a];
-    if (!joint.b) {
-      value.fail(fmt::format("a joint to the world has no effect on '{}', which is {}", a.name,
-                             nameOf(a.motion)));
-    }
-    const BodyDesc& b = scene_.bodies[*joint.b];
-    value.fail(fmt::format("a joint has no effect between '{}', which is {}, and '{}', which is {}",
-                           a.name, nameOf(a.motion), b.name, nameOf(b.motion)));
+    const BodyDesc* b = joint.b ? &scene_.bodies[*joint.b] : nullptr;
+    if (const Verdict verdict = judgeJoint(scene_.bodies[joint.a], b))
+      value.fail(verdict->sentence);
   }
-
-  bool moves(BodyIndex index) const { return scene_.bodies[index].motion == Motion::Dynamic; }
 
   static void readKind(TableReader& table, JointDesc& joint) {
     switch (joint.kind) {
@@ -78,37 +70,14 @@ class JointReader {
     table.read("stiffness", joint.stiffness, kNotNegative);
     table.read("damping", joint.damping, kNotNegative);
     readLimits(table, joint, false);
-    if (joint.limits && joint.limits->lower < 0.0) {
-      table.failAt("limits", "the limits of a distance joint are lengths: 0 or more");
-    }
-    if (joint.limits && joint.limits->upper < SceneLimits::kSmallest) {
-      table.failAt("limits",
-                   "the longest length must be positive; what shares a point is joined "
-                   "by kind = \"revolute\"");
-    }
-    if (joint.limits && joint.length) {
-      table.failAt("length", "a joint with 'limits' has no 'length' of its own");
-    }
-    if (joint.limits && joint.stiffness > 0.0) {
-      table.failAt("stiffness", "a joint with 'limits' cannot be a spring too: add another joint");
-    }
-    if (joint.damping > 0.0 && joint.stiffness == 0.0) {
-      table.failAt("damping", "'damping' belongs to a joint with 'stiffness'");
-    }
-    const double start = (joint.to - joint.at).norm();
-    if (table.has("to") && start < SceneLimits::kSmallest && !joint.limits) {
-      table.failAt("to", "the ends of a distance joint must be apart: 'at' and 'to' are one point");
-    }
+    if (table.has("to")) obey(table, judgeDistance(joint));
   }
 
   static void readLimits(TableReader& table, JointDesc& joint, bool angles) {
     const auto value = table.get("limits");
     if (!value) return;
     const std::vector<double> ends = value->numbers(2, "[lower, upper]");
-    if (ends[1] < ends[0]) {
-      value->fail(fmt::format("the lower limit must come first, but {} is above {}: write [{}, {}]",
-                              ends[0], ends[1], ends[1], ends[0]));
-    }
+    if (const Verdict verdict = judgeLimits({ends[0], ends[1]})) value->fail(verdict->sentence);
     joint.limits = {ends[0], ends[1]};
     if (angles) joint.limits = {radians(ends[0]), radians(ends[1])};
   }

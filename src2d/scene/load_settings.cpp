@@ -2,14 +2,12 @@
 
 #include <map>
 
+#include "src2d/core/utf8.h"
 #include "src2d/scene/interpret.h"
 #include "src2d/scene/settings_list.h"
 
 namespace merge2d {
 namespace {
-
-constexpr Range kStep{1e-6, 1.0, "between 1e-6 and 1 s"};
-constexpr Range kDuration{1e-6, 1e6, "between 1e-6 and 1e6 s"};
 
 void readCamera(TableReader camera, Scene& scene) {
   scene.camera.emplace();
@@ -24,6 +22,7 @@ void readWorld(TableReader& root, Scene& scene) {
   int format = 1;
   root.read("format", format, {1, 1, "1, the only format there is so far"});
   root.read("title", scene.title);
+  scene.title = asOneLine(scene.title);  // for terminals, captions and pages
   root.read("gravity", scene.gravity);
   root.read("step", scene.step, kStep);
   root.read("duration", scene.duration, kDuration);

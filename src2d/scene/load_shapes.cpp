@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src2d/core/error.h"
+#include "src2d/geometry/box.h"
 #include "src2d/scene/interpret.h"
 
 namespace merge2d {
@@ -20,7 +21,7 @@ std::vector<ConvexShape> polygonShapes(const Value& value) {
                            SceneLimits::kVertices, corners.size()));
   }
   std::vector<Vec2> outline;
-  for (const Value& corner : corners) outline.push_back(corner.vector(kPosition));
+  for (const Value& corner : corners) outline.push_back(corner.vector(kCorner));
   try {
     const std::vector<Polygon> pieces = convexPieces(outline);
     return {pieces.begin(), pieces.end()};
@@ -61,7 +62,13 @@ std::vector<ConvexShape> readPlacedShape(TableReader table) {
   std::vector<ConvexShape> shapes = readSimpleShape(table);
   table.done();
   if (shapes.empty()) table.fail("a shape needs box, circle or polygon");
-  for (ConvexShape& shape : shapes) shape = transformed(shape, Pose::at(at, angle));
+  const bool placed = at != Vec2::Zero() || angle != 0.0;
+  for (ConvexShape& shape : shapes) {
+    if (placed) shape = transformed(shape, Pose::at(at, angle));
+    const Aabb box = bounds(shape);
+    const double reach = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+    if (reach > kCorner.upper) table.fail("a shape reaches further than 4e6 m from its body");
+  }
   return shapes;
 }
 
@@ -69,17 +76,10 @@ Keyframes readKeyframes(const Value& value) {
   Keyframes path;
   for (const Value& row : value.elements("[[t, x, y, degrees], …]")) {
     const std::vector<double> key = row.numbers(4, "[t, x, y, degrees]");
-    if (key[0] < 0) {
-      row.fail(fmt::format("key frames start at time 0 or later, but this one is at {} s", key[0]));
-    }
-    if (std::max(std::abs(key[1]), std::abs(key[2])) > SceneLimits::kCoordinate) {
-      row.fail("a key frame stands further than 1e6 m from the origin");
-    }
-    if (!path.keys.empty() && key[0] <= path.keys.back().time) {
-      row.fail(fmt::format("the times of key frames must increase, but {} follows {}", key[0],
-                           path.keys.back().time));
-    }
-    path.keys.push_back({key[0], {key[1], key[2]}, radians(key[3])});
+    const Keyframes::Key next{key[0], {key[1], key[2]}, radians(key[3])};
+    const Verdict verdict = judgeKey(next, path.keys.empty() ? nullptr : &path.keys.back());
+    if (verdict) row.fail(verdict->sentence);
+    path.keys.push_back(next);
   }
   if (path.keys.empty()) value.fail("a script needs at least one key frame");
   return path;

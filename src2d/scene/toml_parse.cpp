@@ -255,9 +255,26 @@ std::optional<toml::source_position> firstBrokenCharacter(std::string_view text)
   throw InputError(source.message(place, "a line is key = value, or a [heading]"));
 }
 
+/// What a text is that was saved in another way than scenes are; empty for the right way.
+std::string_view otherEncoding(std::string_view text) {
+  const bool marked = (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) &&
+                      text.find('\0') != std::string_view::npos;
+  const bool zeros = text.size() >= 4 && text.size() % 2 == 0 &&
+                     ((text[0] == 0 && text[2] == 0) != (text[1] == 0 && text[3] == 0));
+  if (marked || zeros) return "this text is UTF-16: save it as UTF-8";
+  const bool returns = text.find('\r') != std::string_view::npos;
+  if (returns && text.find('\n') == std::string_view::npos && text.find('\r') + 1 < text.size()) {
+    return "the lines of this text end with CR alone: save it with LF or CR LF";
+  }
+  return {};
+}
+
 }  // namespace
 
 toml::table parseToml(const SourceText& source) {
+  if (const std::string_view other = otherEncoding(source.text()); !other.empty()) {
+    throw InputError(source.message({1, 1}, other));
+  }
   if (const auto broken = firstBrokenCharacter(source.text())) {
     throw InputError(
         source.message(*broken, "this is not valid UTF-8 (is it text, and saved as UTF-8?)"));

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "src2d/core/utf8.h"
+#include "src2d/scene/rules.h"
 #include "src2d/scene/settings_list.h"
 
 namespace merge2d {
@@ -19,8 +20,7 @@ std::string shown(const toml::node& node) {
     return fmt::format("the text \"{}\"", beginning(*text, 40));
   }
   if (const auto number = node.value_exact<double>()) {
-    const std::string digits = fmt::format("{}", *number);
-    return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
+    return shownNumber(*number);
   }
   if (const auto integer = node.value_exact<std::int64_t>()) return fmt::format("{}", *integer);
   if (const auto truth = node.value_exact<bool>()) return *truth ? "true" : "false";
@@ -70,7 +70,7 @@ double degrees(double angle) {
 void Value::fail(std::string_view sentence) const { source_->fail(node_->source(), sentence); }
 
 void Value::failMustBe(std::string_view what) const {
-  fail(fmt::format("'{}' in {} must be {}, but is {}", key_, home_, what, shown(*node_)));
+  fail(mustBe(key_, home_, what, shown(*node_)));
 }
 
 double Value::number(const Range& range) const {

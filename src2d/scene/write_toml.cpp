@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "src2d/scene/load.h"
@@ -11,11 +12,16 @@
 namespace merge2d {
 namespace {
 
-std::string written(double number) { return fmt::format("{}", number); }
+/// Without its point a TOML parser would take the sign of -0 away.
+std::string written(double number) {
+  return number == 0.0 && std::signbit(number) ? "-0.0" : fmt::format("{}", number);
+}
 std::string written(int number) { return fmt::format("{}", number); }
 std::string written(std::uint64_t number) { return fmt::format("{}", number); }
 std::string written(bool truth) { return truth ? "true" : "false"; }
-std::string written(const Vec2& v) { return fmt::format("[{}, {}]", v.x(), v.y()); }
+std::string written(const Vec2& v) {
+  return fmt::format("[{}, {}]", written(v.x()), written(v.y()));
+}
 template <HasNames E>
 std::string written(E value) {
   return fmt::format("\"{}\"", nameOf(value));
@@ -48,7 +54,7 @@ class TomlText {
   /// Leaves out what is as by default.
   template <class T>
   void put(std::string_view key, const T& value, const T& usual) {
-    if (!(value == usual)) put(key, value);
+    if (!(value == usual) || written(value) != written(usual)) put(key, value);
   }
   void raw(std::string_view key, std::string_view value) {
     text_ += fmt::format("{} = {}\n", key, value);
@@ -67,7 +73,8 @@ class TomlText {
 std::optional<std::string> boxKey(const Polygon& polygon, Vec2& center) {
   if (polygon.vertices.size() != 4) return std::nullopt;
   const Vec2 size = polygon.vertices[2] - polygon.vertices[0];
-  if (!(size.minCoeff() > 0)) return std::nullopt;
+  const bool fits = size.minCoeff() >= kLength.lower && size.maxCoeff() <= kLength.upper;
+  if (!fits) return std::nullopt;
   center = 0.5 * (polygon.vertices[0] + polygon.vertices[2]);
   if (makeBox(size.x(), size.y(), Pose::at(center, 0)).vertices != polygon.vertices) {
     return std::nullopt;
@@ -109,22 +116,23 @@ std::string shapeLines(const std::vector<ConvexShape>& shapes) {
 // Scripts
 
 std::string written(const Sinusoid& s) {
-  return fmt::format("{{ axis = {}, amplitude = {}, period = {} }}", written(s.axis), s.amplitude,
-                     s.period);
+  return fmt::format("{{ axis = {}, amplitude = {}, period = {} }}", written(s.axis),
+                     written(s.amplitude), s.period);
 }
 
 std::string written(const Keyframes& path) {
   std::string rows;
   for (const Keyframes::Key& key : path.keys) {
-    rows += fmt::format("{}[{}, {}, {}, {}]", rows.empty() ? "" : ", ", key.time, key.position.x(),
-                        key.position.y(), degrees(key.angle));
+    rows += fmt::format("{}[{}, {}, {}, {}]", rows.empty() ? "" : ", ", written(key.time),
+                        written(key.position.x()), written(key.position.y()),
+                        written(degrees(key.angle)));
   }
   return fmt::format("{{ keyframes = [{}] }}", rows);
 }
 
 std::string written(const SteadyMotion& motion) {
   return fmt::format("{{ velocity = {}, spin = {} }}", written(motion.velocity),
-                     degrees(motion.spin));
+                     written(degrees(motion.spin)));
 }
 
 // The parts of a scene

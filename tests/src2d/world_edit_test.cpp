@@ -433,7 +433,27 @@ TEST(WorldEdit, WhatCannotBeIsRefused) {
   EXPECT_EQ(refusal([&] {
               world.addJoint(jointOf(JointKind::Weld, 1, 1, {0, 0}));
             }),
-            "a joint needs two bodies, or one and the world");
+            "the joint: a joint needs two bodies, or one and the world");
+}
+
+TEST(WorldEdit, DescriptionsAreCheckedInTheWordsOfAFile) {
+  World world(column(2));
+  BodyDesc heavy = named("heavy", box(1, 1, {5, 5}));
+  heavy.mass = -1.0;
+  EXPECT_EQ(refusal([&] { world.addBody(heavy); }),
+            "'mass' in body 'heavy' must be positive (1e-12 to 1e12), but is -1.0");
+  SpringDesc spring = springOf(1, {0, 5}, 50, 5);
+  spring.stiffness = std::nan("");
+  EXPECT_THAT(refusal([&] { world.addSpring(spring); }),
+              HasSubstr("'stiffness' in the spring must be a finite number"));
+  Settings settings = world.settings();
+  settings.solver.iterations = 0;
+  EXPECT_THAT(refusal([&] { world.setSettings(settings); }),
+              HasSubstr("'iterations' in [solver] must be between 1 and 1000000, but is 0"));
+  EXPECT_EQ(world.settings().solver.iterations, Settings{}.solver.iterations);
+  JointDesc joint = jointOf(JointKind::Distance, 1, 2, {0, 0});
+  joint.length = -1.0;
+  EXPECT_THAT(refusal([&] { world.addJoint(joint); }), HasSubstr("'length' in the joint must be"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "src2d/core/error.h"
 #include "tests/support/scenes.h"
 
 namespace merge2d {
@@ -225,6 +226,18 @@ TEST(World, AWorldCanBeMoved) {
   World other = std::move(world);
   other.step();
   EXPECT_EQ(other.steps(), 6);
+}
+
+TEST(World, ASceneThatAProgramHasBuiltIsCheckedAsThatOfAFile) {
+  Scene scene = column(2);
+  scene.bodies[1].shapes.clear();
+  EXPECT_THROW(World{scene}, InputError);
+  scene = column(2);
+  scene.joints.emplace_back().a = 7;
+  EXPECT_THROW(World{scene}, InputError);
+  scene = noGravity();
+  for (int i = 0; i < 200; ++i) add(scene, box(1, 1, {0, 0}));
+  EXPECT_THROW(World{scene}, InputError) << "a crowd in one place";
 }
 
 }  // namespace

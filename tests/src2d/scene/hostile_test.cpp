@@ -121,7 +121,9 @@ TEST(Hostile, HugeNumbersOfCopiesAreAnErrorAtOnce) {
 
 TEST(Hostile, ALargeSceneLoadsInReasonableTime) {
   std::string text;
-  for (int i = 0; i < 20'000; ++i) text += fmt::format("[[body]]\nname = \"b{}\"\ncircle = 1\n", i);
+  for (int i = 0; i < 20'000; ++i) {
+    text += fmt::format("[[body]]\nname = \"b{}\"\ncircle = 1\nat = [{}, 0]\n", i, 2 * i);
+  }
   EXPECT_EQ(parseScene(text, "s.toml").bodies.size(), 20'000u);
 }
 

@@ -71,7 +71,17 @@ TEST(Errors, WhatIsNotUtf8IsShownWhereItIs) {
   expectAt("1:6", "\xEF\xBB\xBFx = \"\xed\xa0\x80\"");
   expectAt("2:3", "step = 0.1\n# \x80\n");
   expectAt("1:1", "\x89PNG\r\n\x1a\n");
-  expectAt("1:1", "\xff\xfe[");
+  expectAt("1:1", "\xff\xfe\xff");
+}
+
+TEST(Errors, OtherEncodingsAndLineEndsAreNamed) {
+  constexpr std::string_view kUtf16 = "s.toml:1:1: this text is UTF-16: save it as UTF-8";
+  EXPECT_EQ(firstLineOf(std::string_view("\xff\xfe[\0", 4)), kUtf16);
+  EXPECT_EQ(firstLineOf(std::string_view("[\0[\0b\0", 6)), kUtf16) << "without a mark";
+  EXPECT_EQ(firstLineOf(std::string_view("\0[\0[\0b", 6)), kUtf16) << "the other way round";
+  EXPECT_EQ(firstLineOf("step = 0.1\rseed = 2\r"),
+            "s.toml:1:1: the lines of this text end with CR alone: save it with LF or CR LF");
+  EXPECT_EQ(errorOf("step = 0.1\r\nseed = 2\r\n"), "no error");
 }
 
 }  // namespace
