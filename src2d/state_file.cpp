@@ -2,13 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <optional>
 
 #include "src2d/contact/broadphase.h"
 #include "src2d/core/error.h"
+#include "src2d/scene/check.h"
 #include "src2d/scene/load.h"
+#include "src2d/state_check.h"
 #include "src2d/state_fields.h"
 
 namespace merge2d {
@@ -131,7 +137,33 @@ class Signature : public Walk<Signature> {
   std::string text;
 };
 
-/// The counterpart of Writer; throws InputError at the end of the bytes.
+/// The last of an enumeration that is none of numbers.
+template <class E>
+inline constexpr std::optional<E> kLastOf = std::nullopt;
+template <>
+inline constexpr std::optional<Motion> kLastOf<Motion> = Motion::Scripted;
+template <>
+inline constexpr std::optional<Mode> kLastOf<Mode> = Mode::MergeSleep;
+template <>
+inline constexpr std::optional<JointKind> kLastOf<JointKind> = JointKind::Prismatic;
+template <>
+inline constexpr std::optional<Grip> kLastOf<Grip> = Grip::Firm;
+template <>
+inline constexpr std::optional<EventReason> kLastOf<EventReason> = EventReason::User;
+
+/// How many bytes a value takes whose lists are empty.
+template <class T>
+std::size_t leastBytes() {
+  static const std::size_t bytes = [] {
+    Writer write;
+    write(T{});
+    return write.bytes.size();
+  }();
+  return bytes;
+}
+
+/// The counterpart of Writer; throws InputError at the end of the bytes, and for values that no
+/// field can have.
 class Reader {
  public:
   Reader(std::string_view bytes, const std::string& source) : rest_(bytes), source_(source) {}
@@ -149,12 +181,28 @@ class Reader {
   template <class T>
   void get(T& value) {
     if constexpr (Plain<T>) {
-      if (rest_.size() < sizeof value) fail("the snapshot is incomplete");
-      std::memcpy(&value, rest_.data(), sizeof value);
-      rest_.remove_prefix(sizeof value);
+      std::array<char, sizeof value> bytes{};
+      if (rest_.size() < bytes.size()) fail("the snapshot is incomplete");
+      std::memcpy(bytes.data(), rest_.data(), bytes.size());
+      rest_.remove_prefix(bytes.size());
+      if (!couldBe<T>(bytes)) fail("the snapshot is damaged: it has an impossible value");
+      std::memcpy(&value, bytes.data(), bytes.size());
     } else {
       fields(*this, value);
     }
+  }
+  template <class T>
+  static bool couldBe(const std::array<char, sizeof(T)>& bytes) {
+    if constexpr (std::is_same_v<T, bool>) {
+      return bytes[0] == 0 || bytes[0] == 1;
+    } else if constexpr (std::is_floating_point_v<T>) {
+      return !std::isnan(std::bit_cast<T>(bytes));
+    } else if constexpr (std::is_enum_v<T>) {
+      return !kLastOf<T> || (std::bit_cast<std::underlying_type_t<T>>(bytes) >= 0 &&
+                             std::bit_cast<std::underlying_type_t<T>>(bytes) <=
+                                 static_cast<std::underlying_type_t<T>>(*kLastOf<T>));
+    }
+    return true;
   }
   void get(Vec2& v) { (*this)(v.x(), v.y()); }
   void get(Eigen::Matrix3d& m) {
@@ -194,7 +242,9 @@ class Reader {
   void get(std::vector<T>& list) {
     std::uint64_t size = 0;
     get(size);
-    if (size > rest_.size()) fail("the snapshot is damaged");  // an item has at least one byte
+    if (size > rest_.size() / std::max<std::size_t>(1, leastBytes<T>())) {
+      fail("the snapshot is damaged: it ends within a list");
+    }
     list.resize(size);
     for (T& item : list) get(item);
   }
@@ -264,7 +314,10 @@ void startOver(const Scene& scene, const std::vector<BodyDesc>& added, Setup& se
   setUp(scene, mode, setup);
   setup.state.settings = settings;
   setup.state.gravity = gravity;
-  for (const BodyDesc& desc : added) appendBody(setup, desc);
+  for (const BodyDesc& desc : added) {
+    checkBody(desc);
+    appendBody(setup, desc);
+  }
 }
 
 std::string_view checkedPayload(std::string_view bytes, const std::string& source) {
@@ -308,6 +361,22 @@ void buildTrees(State& state, const std::vector<Aabb>& boxes) {
   }
 }
 
+/// All behind the header.
+void readSetup(Reader& read, const std::string& source, const Scene& scene, Setup& setup) {
+  std::vector<BodyDesc> added;
+  read(added);
+  if (!added.empty() || !setup.added.empty()) startOver(scene, added, setup);
+  const std::vector<Body> bodies = setup.state.bodies;
+  const std::size_t extents = setup.state.extents.size() - setup.state.collections.size();
+  const std::size_t launches = setup.actions.launches.size();
+  clearBroadphase(setup.state);
+  std::vector<Aabb> boxes;
+  read(setup.state, setup.actions, boxes);
+  if (read.rest() > 0) read.fail("the snapshot is damaged: it goes on after its end");
+  checkRestored({setup, bodies, extents, launches, boxes}, source);
+  buildTrees(setup.state, boxes);
+}
+
 }  // namespace
 
 std::string saveState(const Scene& scene, const Setup& setup) {
@@ -327,14 +396,12 @@ Mode restoreState(std::string_view bytes, const std::string& source, const Scene
                   Setup& setup, SavedUnder under) {
   Reader read(checkedPayload(bytes, source), source);
   const Header header = readHeader(read, scene, setup.state, under);
-  std::vector<BodyDesc> added;
-  read(added);
-  if (!added.empty() || !setup.added.empty()) startOver(scene, added, setup);
-  clearBroadphase(setup.state);
-  std::vector<Aabb> boxes;
-  read(setup.state, setup.actions, boxes);
-  if (read.rest() > 0) read.fail("the snapshot is damaged: it goes on after its end");
-  buildTrees(setup.state, boxes);
+  try {
+    readSetup(read, source, scene, setup);
+  } catch (...) {  // half of it would be no state at all
+    startOver(scene, {}, setup);
+    throw;
+  }
   return header.mode;
 }
 

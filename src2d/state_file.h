@@ -21,7 +21,8 @@ std::string saveState(const Scene& scene, const Setup& setup);
 
 /// Brings a setup of the same scene to the saved state; settings and gravity stay as they are.
 /// Returns the mode that the state was saved in. `source` names the bytes in messages. Throws
-/// InputError when they are damaged, or of another version, scene, settings or mode.
+/// InputError when they are damaged, or of another version, scene, settings or mode; the setup may
+/// then be that of the scene's start.
 Mode restoreState(std::string_view bytes, const std::string& source, const Scene& scene,
                   Setup& setup, SavedUnder under = SavedUnder::SameSettings);
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <random>
 
 #include "src2d/core/error.h"
 #include "tests/support/fingerprint.h"
@@ -182,9 +183,8 @@ TEST_F(StateFileErrors, AnyFlippedBitIsFound) {
   }
 }
 
-/// The bytes with one at `place` changed, and the checksum that belongs to them (FNV-1a, 64 bits).
-std::string forged(std::string bytes, std::size_t place) {
-  bytes[place] = static_cast<char>(bytes[place] ^ 4);
+/// The bytes with the checksum that belongs to them (FNV-1a, 64 bits).
+std::string sealed(std::string bytes) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   const std::size_t size = bytes.size() - sizeof hash;
   for (std::size_t i = 0; i < size; ++i) {
@@ -192,6 +192,12 @@ std::string forged(std::string bytes, std::size_t place) {
   }
   std::memcpy(bytes.data() + size, &hash, sizeof hash);
   return bytes;
+}
+
+/// The same with one byte at `place` changed.
+std::string forged(std::string bytes, std::size_t place, int change = 4) {
+  bytes[place] = static_cast<char>(bytes[place] ^ change);
+  return sealed(std::move(bytes));
 }
 
 TEST_F(StateFileErrors, WhatHasOtherFieldsIsOfAnotherVersion) {
@@ -217,6 +223,56 @@ TEST_F(StateFileErrors, AnotherSceneIsRefused) {
 TEST_F(StateFileErrors, AnotherModeIsRefused) {
   EXPECT_EQ(refusal(bytes_, scene_, Mode::Reference),
             "saved.state: the snapshot was made with --mode merge+sleep, not reference");
+}
+
+/// Whoever makes such bytes on purpose gets an error or a strange run, but never reads or writes
+/// memory that is not a world's.
+TEST_F(StateFileErrors, NoForgedFieldIsFollowedOutOfTheTables) {
+  std::mt19937_64 random(5);
+  int refused = 0, taken = 0;
+  for (std::size_t at = kStateStart.size(); at < bytes_.size() - 8; at += 1 + random() % 40) {
+    World world = start(scene_, Mode::MergeSleep);
+    try {
+      world.restore(forged(bytes_, at, 1 + static_cast<int>(random() % 255)), "saved.state");
+      ++taken;
+      for (int i = 0; i < 4; ++i) world.step();
+      world.capture();
+    } catch (const InputError&) {
+      ++refused;
+    } catch (const SimulationError&) {
+    }
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(taken, 100);
+}
+
+TEST_F(StateFileErrors, AListThatClaimsToBeLongIsRefusedBeforeThereIsMemoryForIt) {
+  const std::uint64_t many = 1u << 30;
+  std::string bytes = bytes_;
+  const std::size_t added = kStateStart.size() + 4 + 8 + 8 + 8 + sizeof(Mode);  // behind the header
+  std::memcpy(bytes.data() + added, &many, sizeof many);
+  EXPECT_EQ(refusal(sealed(bytes), scene_),
+            "saved.state: the snapshot is damaged: it ends within a list");
+}
+
+TEST_F(StateFileErrors, AfterARefusalTheWorldStandsAtItsStart) {
+  World world = start(scene_, Mode::MergeSleep);
+  follow(world, 7);
+  EXPECT_THROW(world.restore(forged(bytes_, bytes_.size() - 9, 255), "saved.state"), InputError);
+  World fresh = start(scene_, Mode::MergeSleep);
+  EXPECT_EQ(world.save(), fresh.save());
+}
+
+TEST_F(StateFileErrors, BodiesThatWereAddedAreCheckedAsThoseOfAScene) {
+  World world = start(scene_, Mode::MergeSleep);
+  world.addBody(named("extra", box(1, 1, {20, 20})));
+  std::string bytes = world.save();
+  const double half = -0.5, flat = 0.5;  // the first corner's x moves to that of the second
+  const std::string corner(reinterpret_cast<const char*>(&half), sizeof half);
+  const std::size_t at = bytes.find(corner);
+  ASSERT_NE(at, std::string::npos);
+  std::memcpy(bytes.data() + at, &flat, sizeof flat);
+  EXPECT_NE(refusal(sealed(bytes), scene_), "no error");
 }
 
 }  // namespace
