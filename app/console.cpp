@@ -85,9 +85,11 @@ void Console::detail(std::string_view message) const {
   if (verbose_) say(message);
 }
 
-void Console::warn(std::string_view message) const {
+void Console::warn(std::string_view message) const { warnOfPlace(escaped(message)); }
+
+void Console::warnOfPlace(std::string_view message) const {
   constexpr int kYellow = 33;
-  if (!quiet_) say(escaped(message), heading("warning", kYellow));
+  if (!quiet_) say(message, heading("warning", kYellow));
 }
 
 }  // namespace merge2d

@@ -48,8 +48,10 @@ class Console {
   void note(std::string_view message) const;
   /// Something for those who want to know more.
   void detail(std::string_view message) const;
-  /// "warning: …".
+  /// "warning: …", on one line.
   void warn(std::string_view message) const;
+  /// The same with lines below it that show the place, as an InputError has them.
+  void warnOfPlace(std::string_view message) const;
 
  private:
   bool quiet_, verbose_;

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <iterator>
 #include <memory>
 
 #include "app/commands.h"
@@ -20,6 +17,7 @@
 #include "render/png.h"
 #include "src2d/core/error.h"
 #include "src2d/cycles/contact_graph.h"
+#include "src2d/scene/file.h"
 
 namespace merge2d {
 namespace {
@@ -42,21 +40,6 @@ struct CyclesOptions : MessageOptions {
   bool force = false;
 };
 
-/// All that a stream has, up to the limit.
-std::string readAll(std::istream& in, const std::string& name) {
-  std::string text;
-  char block[1 << 16];
-  while (in.read(block, sizeof block), in.gcount() > 0) {
-    text.append(block, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > GraphLimits::kFileBytes) {
-      throw InputError(fmt::format("{}: a contact graph has at most {} MB", name,
-                                   GraphLimits::kFileBytes >> 20u));
-    }
-  }
-  if (in.bad()) throw IoError(fmt::format("{}: cannot be read", name));
-  return text;
-}
-
 /// Whether somebody has sent the standard input here.
 bool inputIsSent() {
   struct stat input {};
@@ -65,15 +48,15 @@ bool inputIsSent() {
 
 /// Reads a file, a pipe or a device. Throws InputError when there is none.
 ContactGraph readGraph(const std::string& file) {
-  if (file == "-") return parseContactGraph(readAll(std::cin, "<stdin>"), "<stdin>");
-  std::error_code ignored;
-  if (fs::is_directory(file, ignored)) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (fs::is_directory(status)) {
     throw InputError(fmt::format("{} is a folder, not a contact graph", file));
   }
-  if (!fs::exists(file, ignored)) throw InputError(fmt::format("there is no file {}", file));
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw IoError(fmt::format("{}: cannot be read", file));
-  return parseContactGraph(readAll(in, file), file);
+  const bool missing = status.type() == fs::file_type::not_found && file != "-";
+  if (missing) throw InputError(fmt::format("there is no file {}", file));
+  const FileKind kind{.what = "a contact graph", .most = GraphLimits::kFileBytes};
+  return parseContactGraph(readFile(file, kind), nameOfFile(file));
 }
 
 std::vector<std::string> membersNames(const ContactGraph& graph,
@@ -206,6 +189,10 @@ const Theme& themeOf(const CyclesOptions& options) {
 void judgeFile(const CyclesOptions& options) {
   check(options);
   const Theme& theme = themeOf(options);
+  if (!options.picture.empty() && !options.picture.ends_with(".png")) {
+    throw UsageError(fmt::format(
+        "--render draws PNG pictures, whose names end in .png, but got '{}'", options.picture));
+  }
   if (!options.picture.empty()) requirePictureMayAppear(options.picture, options.force);
   const std::string file = options.file.empty() && inputIsSent() ? "-" : options.file;
   if (file.empty())

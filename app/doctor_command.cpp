@@ -43,8 +43,19 @@ Check attempt(const std::string& name, const std::string& remedy, F&& look) {
   }
 }
 
+bool hasFonts() {
+  try {
+    fontFile(Weight::Regular);
+    return true;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
 /// Draws a red picture and looks whether it is one. The context comes from where --context says.
+/// Without fonts nothing is drawn, but OpenGL is not to blame.
 std::string checkDrawing() {
+  if (!hasFonts()) return Context().description() + "; not tried, as there is no font";
   Canvas canvas(64, 64);
   Drawing drawing;
   drawing.background = Color{255, 0, 0, 255};
@@ -128,7 +139,7 @@ std::string json(const std::vector<Check>& checks) {
                              {"needed", check.needed},
                              {"detail", check.detail}});
   }
-  return out.dump() + "\n";
+  return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 void examine(const MessageOptions& options) {

@@ -12,6 +12,7 @@
 #include "lessons/page.h"
 #include "src2d/core/error.h"
 #include "src2d/core/suggest.h"
+#include "src2d/scene/file.h"
 #include "src2d/scene/load.h"
 
 namespace merge2d {
@@ -50,7 +51,8 @@ std::optional<DataFolder> lessonNamed(const std::string& name) {
 /// Whoever mistypes a lesson's name is told of lessons too, not of scenes alone.
 void refuseUnknownName(const std::string& name) {
   const fs::path path(name);
-  if (path.has_parent_path() || path.has_extension() || fs::exists(path)) return;
+  if (isStandardInput(path) || path.has_parent_path() || path.has_extension()) return;
+  if (std::error_code ignored; fs::exists(path, ignored)) return;
   std::vector<std::string> names;
   for (const BuiltinLesson& lesson : builtinLessons()) names.push_back(lesson.name);
   for (const BuiltinScene& scene : builtinScenes()) names.push_back(scene.name);
@@ -122,7 +124,7 @@ PageContent lessonPage(const DataFolder& folder, const LessonOptions& options,
   file.emplace(options, lesson.name);
   std::vector<Recording> recordings =
       recordLesson(lesson, [](std::int64_t) { stopIfInterrupted(); });
-  for (const std::string& failure : failures(lesson, recordings)) console.warn(failure);
+  for (const std::string& failure : failures(lesson, recordings)) console.warnOfPlace(failure);
   PageContent content{
       .title = lesson.title, .lesson = lessonJson(lesson, recordings), .traces = {}};
   for (std::size_t i = 0; i < recordings.size(); ++i) {

@@ -5,6 +5,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "lessons/lesson.h"
+#include "src2d/core/utf8.h"
 #include "src2d/scene/load.h"
 
 namespace merge2d {
@@ -24,7 +25,7 @@ void list(const MessageOptions& options) {
     for (const BuiltinLesson& lesson : lessons) {
       out["lessons"].push_back({{"name", lesson.name}, {"title", lesson.title}});
     }
-    print(out.dump() + "\n");
+    print(out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     return;
   }
   std::size_t width = 0;
@@ -32,12 +33,12 @@ void list(const MessageOptions& options) {
   for (const BuiltinLesson& lesson : lessons) width = std::max(width, lesson.name.size());
   print("Scenes:\n");
   for (const BuiltinScene& scene : scenes) {
-    print(fmt::format("  {:<{}}  {}\n", scene.name, width, scene.title));
+    print(fmt::format("  {:<{}}  {}\n", escaped(scene.name), width, scene.title));
   }
   if (lessons.empty()) return;
   print("Lessons:\n");
   for (const BuiltinLesson& lesson : lessons) {
-    print(fmt::format("  {:<{}}  {}\n", lesson.name, width, lesson.title));
+    print(fmt::format("  {:<{}}  {}\n", escaped(lesson.name), width, asOneLine(lesson.title)));
   }
 }
 

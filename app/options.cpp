@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/memory_limit.h"
 #include "app/simulation.h"
 #include "app/usage_error.h"
 #include "src2d/core/suggest.h"
@@ -66,6 +67,11 @@ void addSimulationOptions(CLI::App& command, SceneOptions& options) {
         options.overrides.emplace_back("seed", std::to_string(seed));
       },
       "Seed of everything random in the scene")
+      ->group(kGroup);
+  addOption(
+      command, "--memory-limit", "SIZE",
+      [](const std::string& s) { limitMemory(readMemory("--memory-limit", s)); },
+      "End with an error rather than use more memory, such as 2GB (default: 75% of the machine)")
       ->group(kGroup);
 }
 

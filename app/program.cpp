@@ -10,6 +10,7 @@
 #include "app/console.h"
 #include "app/help.h"
 #include "app/interrupt.h"
+#include "app/memory_limit.h"
 #include "app/parse.h"
 #include "app/usage_error.h"
 #include "src2d/core/error.h"
@@ -83,8 +84,12 @@ int runProgram(std::vector<std::string> arguments) {
   } catch (const ReaderGone& error) {
     endByBrokenPipe();  // silently, as every filter does
     return fail(error, kOutputFailed);
+  } catch (const MemoryLimitReached&) {
+    printError(fmt::format("this needs more memory than the limit of {}; --memory-limit changes it",
+                           memoryLimitText()));
+    return kOutputFailed;
   } catch (const std::bad_alloc&) {
-    printError("there is not enough memory");
+    printError("there is not enough memory: the system gives no more of it");
     return kOutputFailed;
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(

@@ -1,5 +1,3 @@
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -12,6 +10,7 @@
 #include "app/summary.h"
 #include "app/usage_error.h"
 #include "src2d/core/error.h"
+#include "src2d/scene/file.h"
 #include "src2d/state_file.h"
 #include "src2d/trace/csv.h"
 #include "src2d/trace/trace_writer.h"
@@ -118,9 +117,9 @@ class Record {
 /// Brings a fresh simulation to where a snapshot was taken.
 void resume(const RunOptions& options, Simulation& simulation) {
   if (options.resume.empty()) return;
-  std::ifstream file(options.resume, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) throw IoError(fmt::format("cannot read {}", options.resume));
+  constexpr std::size_t kMost = std::size_t{2} << 30;  // a hundred thousand bodies take a tenth
+  const std::string bytes =
+      readFile(options.resume, {.what = "a snapshot", .most = kMost, .start = kStateStart});
   simulation.resume(bytes, options.resume);
   if (!simulation.done()) return;
   throw UsageError(

@@ -10,10 +10,25 @@
 #include "src2d/core/error.h"
 
 namespace merge2d {
+namespace {
+
+/// A seed that was asked for, in a scene in which nothing is random.
+void warnOfIdleSeed(const SceneOptions& options, const Scene& scene, const Console& console) {
+  const bool asked =
+      std::ranges::any_of(options.overrides, [](const auto& one) { return one.first == "seed"; });
+  const bool random = std::ranges::any_of(
+      scene.emitters, [](const EmitterDesc& emitter) { return emitter.spread != Vec2::Zero(); });
+  if (!asked || random) return;
+  console.warn(
+      fmt::format("the seed changes nothing: {} has no [[emitter]] with a 'spread'", scene.name));
+}
+
+}  // namespace
 
 Scene loadScene(const SceneOptions& options, const Console& console) {
   Scene scene = loadScene(options.scene, options.overrides);
   for (const std::string& warning : scene.warnings) console.warn(warning);
+  warnOfIdleSeed(options, scene, console);
   if (options.steps) scene.duration = static_cast<double>(*options.steps) * scene.step;
   if (options.seconds) scene.duration = *options.seconds;
   console.detail(fmt::format("{}: {} bodies, {} steps of {} s, {}", scene.name, scene.bodies.size(),

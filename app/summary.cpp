@@ -79,7 +79,7 @@ std::string Summary::json(const Simulation& simulation, bool timings) const {
                           {"median", median(simulation.milliseconds())}};
     out["real_time_factor"] = realTimeFactor(simulation);
   }
-  return out.dump() + "\n";
+  return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace merge2d

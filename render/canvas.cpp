@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "render/context.h"
+#include "render/headroom.h"
 #include "render/shaders.h"
 #include "src2d/core/error.h"
 
@@ -89,11 +90,22 @@ void unpremultiply(std::vector<std::uint8_t>& rgba) {
 
 }  // namespace
 
+namespace {
+
+/// What the driver may ask for while it draws: a target, and code for the shapes that are new.
+std::size_t memoryToDraw(int width, int height) {
+  constexpr std::size_t kCode = 64u << 20, kPerPixel = 16;
+  return kCode + kPerPixel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
+}  // namespace
+
 Canvas::Canvas(int width, int height)
     : width_(checkedSide(width)),
       height_(checkedSide(height)),
       context_(std::make_unique<Context>()),
       gl_(&context_->makeCurrent()) {
+  requireHeadroom(memoryToDraw(width_, height_));
   makeTarget();
   makePrograms();
   describeInstances();
@@ -179,6 +191,7 @@ void Canvas::describeInstances() {
 
 void Canvas::draw(const Drawing& drawing, Picture& picture) {
   gl_ = &context_->makeCurrent();
+  requireHeadroom(memoryToDraw(width_, height_));
   const Color c = drawing.background;
   const float alpha = static_cast<float>(c.a) / 255.0F;
   const auto channel = [&](std::uint8_t x) { return alpha * static_cast<float>(x) / 255.0F; };

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "render/headroom.h"
 #include "src2d/core/error.h"
 #include "src2d/core/suggest.h"
 
@@ -76,6 +77,15 @@ Gl loadFunctions(const ContextBackend& backend) {
   return gl;
 }
 
+/// A context needs some memory, and before the first one come the libraries: Mesa, and LLVM below
+/// it.
+void requireMemoryForContext() {
+  constexpr std::size_t kLibraries = 320u << 20, kContext = 96u << 20;
+  static bool loaded = false;  // on one thread at a time
+  requireHeadroom(loaded ? kContext : kLibraries);
+  loaded = true;
+}
+
 /// Both libraries return an address for any name at all, so the version has to tell what is there.
 void requireVersion(const Gl& gl) {
   int major = 0, minor = 0;
@@ -96,6 +106,7 @@ Context::Context() {
   const std::lock_guard lock(turn());
   keepDriverSingleThreaded();
   requireKnownDriver();
+  requireMemoryForContext();
   backend_ = makeChosen(kind_);
   backend_->makeCurrent();
   gl_ = loadFunctions(*backend_);

@@ -9,6 +9,7 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -112,7 +113,12 @@ struct SequenceWriter::Impl {
       throw IoError(fmt::format("cannot make {}: {}", options.folder.string(), failed.message()));
     }
     for (int i = 0; i < std::max(1, options.workers); ++i) {
-      workers.emplace_back([this] { work(); });
+      try {
+        workers.emplace_back([this] { work(); });
+      } catch (const std::system_error&) {  // no memory for its stack: some less will do
+        if (workers.empty()) throw std::bad_alloc();
+        break;
+      }
     }
   }
 

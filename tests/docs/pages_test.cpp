@@ -147,6 +147,20 @@ TEST(Deviations, EachNamesATestThatExists) {
   EXPECT_GE(deviations, 6);
 }
 
+TEST(Reliability, EachPromiseIsHeldByTestsThatExist) {
+  int promises = 0;
+  for (const auto& row : tableRows(pageOf(read(kRoot / "docs/reliability.md")).prose)) {
+    ASSERT_EQ(row.size(), 2u) << row[0];
+    const std::vector<std::string> tests = codeIn(row[1]);
+    EXPECT_FALSE(tests.empty()) << row[0];
+    for (const std::string& test : tests) {
+      EXPECT_TRUE(allTests().contains(test)) << row[0] << ": there is no test " << test;
+    }
+    ++promises;
+  }
+  EXPECT_GE(promises, 15);
+}
+
 TEST(Decisions, EachIsListedAndHasItsFourParts) {
   const std::string list = read(kRoot / "docs/decisions/README.md");
   for (const fs::path& page : filesBelow("docs/decisions", {".md"})) {
