@@ -30,6 +30,14 @@ if(MERGE2D_SANITIZE)
   target_link_options(merge2d_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+# Everything of ours is watched, and tells libFuzzer where it has been.
+if(MERGE2D_FUZZ)
+  target_compile_options(merge2d_options INTERFACE
+    -O1 -g1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+    -fno-sanitize=vptr -fno-omit-frame-pointer)
+  target_link_options(merge2d_options INTERFACE -fsanitize=address,undefined)
+endif()
+
 find_program(CCACHE ccache)
 if(CCACHE AND PROJECT_IS_TOP_LEVEL)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})

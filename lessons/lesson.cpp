@@ -12,6 +12,7 @@
 #include "lessons/markdown.h"
 #include "src2d/core/error.h"
 #include "src2d/core/suggest.h"
+#include "src2d/core/utf8.h"
 #include "src2d/scene/load.h"
 #include "src2d/scene/toml_parse.h"
 #include "src2d/trace/json_text.h"
@@ -94,7 +95,7 @@ class Loader {
 
   void readHead(TableReader& top) {
     if (const auto format = top.require("format")) format->integer({1, 1, "1"});
-    if (const auto title = top.require("title")) lesson_.title = title->text();
+    if (const auto title = top.require("title")) lesson_.title = asOneLine(title->text());
     top.read("summary", lesson_.summary);
     top.read("minutes", lesson_.minutes, {1, 120, "between 1 and 120"});
     const fs::path path = fs::absolute(folder_.path()).lexically_normal();
