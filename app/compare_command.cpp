@@ -174,13 +174,13 @@ void addCompareCommand(CLI::App& program, Action& action) {
       "Also tell the means of a part of the run, in seconds")
       ->group("Simulation");
   constexpr const char* kGroup = "Files";
-  addOption(
+  addOutputOption(
       *command, "-o,--output", "DIR",
       [options](const std::string& s) { options->folder = readPath("--output", s); },
       "Folder of the charts time.png, counts.png and distance.png (default: "
       "frames/<scene>/compare)")
       ->group(kGroup);
-  addOption(
+  addOutputOption(
       *command, "--csv", "FILE.csv",
       [options](const std::string& s) { options->csv = readPath("--csv", s); },
       "Write a table with a row per mode and time step; - is the standard output")

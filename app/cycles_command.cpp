@@ -226,7 +226,7 @@ void addCyclesCommand(CLI::App& program, Action& action) {
                    "A contact graph as text; - is the standard input, and so is a pipe")
       ->type_name("");
   constexpr const char* kPictures = "Pictures";
-  addOption(
+  addOutputOption(
       *command, "--render", "FILE.png",
       [options](const std::string& s) { options->picture = readPath("--render", s); },
       "Draw the graph with the groups of both criteria")

@@ -153,7 +153,7 @@ void addLessonCommand(CLI::App& program, Action& action) {
   command->footer(kLessonExamples);
   const auto options = std::make_shared<LessonOptions>();
   addSceneOptions(*command, *options);
-  addOption(
+  addOutputOption(
       *command, "-o,--output", "FILE.html",
       [options](const std::string& s) { options->output = readPath("--output", s); },
       "The page; by default frames/NAME/lesson.html; - is the standard output");

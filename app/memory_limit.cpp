@@ -33,12 +33,27 @@ bool isBeyondLimit(std::size_t size) {
 
 }  // namespace
 
-void* operator new(std::size_t size) {
+namespace {
+
+/// A block of the size, or an exception; `allocate` asks the system for it.
+template <class Allocate>
+void* counted(std::size_t size, const Allocate& allocate) {
   if (isBeyondLimit(size)) throw merge2d::MemoryLimitReached();
-  void* block = std::malloc(std::max<std::size_t>(size, 1));
+  void* block = allocate();
   if (block == nullptr) throw std::bad_alloc();
   held_bytes.fetch_add(malloc_usable_size(block), std::memory_order_relaxed);
   return block;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(size, [size] { return std::malloc(std::max<std::size_t>(size, 1)); });
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  const auto unit = static_cast<std::size_t>(alignment);
+  const std::size_t units = std::max<std::size_t>(1, size / unit + (size % unit != 0 ? 1 : 0));
+  return counted(size, [=] { return std::aligned_alloc(unit, units * unit); });
 }
 
 void operator delete(void* block) noexcept {
@@ -46,6 +61,10 @@ void operator delete(void* block) noexcept {
   std::free(block);
 }
 void operator delete(void* block, std::size_t) noexcept { operator delete(block); }
+void operator delete(void* block, std::align_val_t) noexcept { operator delete(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
+  operator delete(block);
+}
 
 namespace merge2d {
 namespace {

@@ -85,6 +85,23 @@ CLI::Option* addOption(CLI::App& command, const std::string& names, const std::s
       ->take_last();
 }
 
+CLI::Option* addOutputOption(CLI::App& command, const std::string& names,
+                             const std::string& value_name,
+                             const std::function<void(const std::string&)>& read,
+                             const std::string& help) {
+  const std::string option = names.substr(names.rfind(',') + 1);
+  const auto once = [option, read](const std::vector<std::string>& all) {
+    if (all.size() > 1) {
+      throw UsageError(
+          fmt::format("{} names both '{}' and '{}': name one output", option, all[0], all[1]));
+    }
+    read(all.front());
+  };
+  return command.add_option_function<std::vector<std::string>>(names, once, help)
+      ->type_name(value_name)
+      ->allow_extra_args(false);
+}
+
 std::int64_t readInteger(const std::string& option, const std::string& text, std::int64_t least,
                          std::int64_t most) {
   std::int64_t value = 0;

@@ -45,6 +45,13 @@ CLI::Option* addOption(CLI::App& command, const std::string& names, const std::s
                        const std::function<void(const std::string&)>& read,
                        const std::string& help);
 
+/// The same for where something is written: named twice, one of both would be missed, so that this
+/// is a UsageError.
+CLI::Option* addOutputOption(CLI::App& command, const std::string& names,
+                             const std::string& value_name,
+                             const std::function<void(const std::string&)>& read,
+                             const std::string& help);
+
 /// A whole number from `least` to `most`; otherwise a UsageError that names `option`.
 std::int64_t readInteger(const std::string& option, const std::string& text, std::int64_t least,
                          std::int64_t most);

@@ -126,7 +126,7 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
 
 void addFileOptions(CLI::App& command, RenderOptions& options) {
   constexpr const char* kGroup = "Files";
-  addOption(
+  addOutputOption(
       command, "-o,--output", "DIR",
       [&](const std::string& s) { options.folder = readPath("--output", s); },
       "Folder for the frames (default: frames/<scene>)")

@@ -180,17 +180,17 @@ void addRunCommand(CLI::App& program, Action& action) {
   const auto options = std::make_shared<RunOptions>();
   addSceneOptions(*command, *options);
   constexpr const char* kGroup = "Files";
-  addOption(
+  addOutputOption(
       *command, "--trace", "FILE.jsonl",
       [options](const std::string& s) { options->trace = readPath("--trace", s); },
       "Write every time step as a line of JSON; - is the standard output")
       ->group(kGroup);
-  addOption(
+  addOutputOption(
       *command, "--csv", "FILE.csv",
       [options](const std::string& s) { options->csv = readPath("--csv", s); },
       "Write a table with a row per time step")
       ->group(kGroup);
-  addOption(
+  addOutputOption(
       *command, "--snapshot", "FILE",
       [options](const std::string& s) { options->snapshot = readPath("--snapshot", s); },
       "Save the state after the last step, to continue from")

@@ -154,7 +154,7 @@ void addValidateCommand(CLI::App& program, Action& action) {
   command->footer(kValidateExamples);
   const auto options = std::make_shared<ValidateOptions>();
   addSceneOptions(*command, *options);
-  addOption(
+  addOutputOption(
       *command, "--to", "FILE.toml",
       [options](const std::string& s) { options->to = readPath("--to", s); },
       "Write it as a text scene; - is the standard output")

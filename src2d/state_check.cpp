@@ -223,6 +223,7 @@ class StateCheck {
     for (const InternalContact& contact : c.contacts) {
       require(isContact(contact.key, contact.count), "inner contacts");
       require(belongs(c, contact.key.a) && belongs(c, contact.key.b), "inner contacts");
+      require(contact.since >= kExpected && contact.since <= state_.step, "inner contacts");
       const bool has_block = contact.block != InternalContact::kNoBlock;
       require(!has_block || contact.block < c.blocks.size(), "inner contacts");
     }
@@ -242,7 +243,9 @@ class StateCheck {
     for (std::size_t i = 0; i < c.contacts.size(); ++i) {
       require(i == 0 || c.contacts[i - 1].key < c.contacts[i].key, "inner contacts");
       require(c.contacts[i].weld < c.welds.size(), "inner contacts");
+      require(c.contacts[i].block < c.blocks.size(), "inner contacts");
     }
+    require(c.points >= 0 && static_cast<std::size_t>(c.points) <= 2 * c.blocks.size(), "blocks");
     require(c.block_contact.empty() || c.block_contact.size() == c.blocks.size(), "blocks");
     for (const std::uint32_t i : c.block_contact) require(i < c.contacts.size(), "blocks");
     require(c.push.size() == c.members.size(), "inner forces");
@@ -258,9 +261,20 @@ class StateCheck {
     for (const auto* list : {&c.leaning, &c.cut_welds, &c.spare, &c.stood, &c.loosened}) {
       for (const std::uint32_t weld : *list) require(weld < c.welds.size(), "welds");
     }
-    for (const Pivot& pivot : c.pivots) {
-      require(c.pivots_stale || pivot.weld < c.welds.size(), "welds");
+    checkPivots(c);
+  }
+
+  /// Unless they are to be listed anew, they are just the welds that may turn.
+  void checkPivots(const Collection& c) const {
+    if (c.pivots_stale) return;
+    std::size_t next = 0;
+    for (std::uint32_t weld = 0; weld < c.welds.size(); ++weld) {
+      const Grip grip = c.welds[weld].grip;
+      if (grip != Grip::Lost && grip != Grip::Pivot) continue;
+      require(next < c.pivots.size() && c.pivots[next].weld == weld, "pivots");
+      ++next;
     }
+    require(next == c.pivots.size(), "pivots");
   }
 
   void checkWelds(const Collection& c) const {

@@ -122,6 +122,21 @@ TEST_F(Files, OneOutputNamedTwiceIsRefusedBeforeAnythingIsWritten) {
   EXPECT_EQ(run({"run", "stack.toml", "--csv", "/dev/null", "--trace", "/dev/null"}).code, kFine);
 }
 
+TEST_F(Files, AnOutputOptionIsGivenOnce) {
+  for (const Words& command :
+       std::vector<Words>{{"render", "stack.toml", "-o", "a", "-o", "b"},
+                          {"render", "stack.toml", "-o", "a", "--output=a"},
+                          {"lesson", "stack.toml", "-o", "a", "-o", "b"},
+                          {"run", "stack.toml", "--csv", "a", "--csv", "b"},
+                          {"validate", "stack.toml", "--to", "a", "--to", "a"},
+                          {"compare", "stack.toml", "-o", "a", "-o", "b"}}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.code, kWrongUsage) << testing::PrintToString(command) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("name one output"));
+    EXPECT_THAT(leftOver(), IsEmpty());
+  }
+}
+
 /// Runs the program with little room for files, and nothing of it left.
 TEST_F(Files, AFullDiskIsSaidAndLeavesNothing) {
   write("graph.txt", "A B 2\n");

@@ -100,20 +100,27 @@ TEST_F(Messages, WrongUsageIsTheSameEverywhere) {
 
 TEST_F(Messages, AFailedExpectationShowsItsPlaceOnLinesOfItsOwn) {
   fs::create_directories(folder() / "mine");
-  write("mine/lesson.toml", R"(title = "Mine"
-summary = "One expectation fails"
+  write("mine/lesson.toml", R"(format = 1
+title = "Mine"
+summary = "An expectation fails"
 minutes = 1
-seconds = 0.1
 scene = "books"
 [[trace]]
 label = "merged"
+mode = "merge"
+[[part]]
+section = "One"
+at = "start"
 [[expect]]
-never = "emit"
-[[expect]]
-happens = { event = "emit" }
+measure = "simulated"
+at = "step 2"
+between = [1000, 2000]
 )");
-  write("mine/text.md", "# Mine\n\nA text.\n");
+  write("mine/text.md", "A text.\n\n## One\nMore text.\n");
   const Outcome outcome = run({"lesson", "mine"});
+  EXPECT_EQ(outcome.code, kFine) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("warning: mine/lesson.toml:13:"));
+  EXPECT_THAT(outcome.err, HasSubstr("\n   13 | measure = \"simulated\"\n"));
   EXPECT_THAT(outcome.err, Not(HasSubstr("\\n")));
 }
 

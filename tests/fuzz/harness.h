@@ -22,8 +22,7 @@ void tryInput(std::string_view bytes);
 /// Ends the process, so that the fuzzer keeps the input.
 inline void require(bool holds, const char* promise, std::string_view what = {}) {
   if (holds) return;
-  std::fprintf(stderr, "broken promise: %s\n%.*s\n", promise, static_cast<int>(what.size()),
-               what.data());
+  std::fprintf(stderr, "broken promise: %s\n%s\n", promise, std::string(what).c_str());
   std::abort();
 }
 
