@@ -25,10 +25,27 @@ namespace fs = std::filesystem;
 struct Lesson::Source {
   explicit Source(const DataFolder& folder)
       : toml_text(folder.read("lesson.toml")),
-        prose_text(folder.read("text.md")),
+        prose_text(escaped(folder.read("text.md"), "\t\n\r")),
         toml(folder.pathOf("lesson.toml").string(), toml_text),
         prose(folder.pathOf("text.md").string(), prose_text),
-        table(parseToml(toml)) {}
+        table(parseToml(toml)) {
+    for (const auto& [key, node] : table) {
+      if (key.str() != "title") refuseControls(node);  // which becomes one line of text
+    }
+  }
+
+  /// Text for a page and for terminals, of lines and tabs at most.
+  void refuseControls(const toml::node& node) const {
+    if (const auto* texts = node.as_table()) {
+      for (const auto& entry : *texts) refuseControls(entry.second);
+    } else if (const auto* list = node.as_array()) {
+      for (const toml::node& element : *list) refuseControls(element);
+    } else if (const auto* text = node.as_string()) {
+      const std::string& words = text->get();
+      if (escaped(words, "\t\n\r") == words) return;
+      toml.fail(node.source(), "a text has no control characters but ends of lines and tabs");
+    }
+  }
 
   std::string toml_text, prose_text;
   SourceText toml, prose;
@@ -103,7 +120,7 @@ class Loader {
     const bool numbered = name.size() > 3 &&
                           std::isdigit(static_cast<unsigned char>(name[0])) != 0 &&
                           std::isdigit(static_cast<unsigned char>(name[1])) != 0 && name[2] == '_';
-    lesson_.name = numbered ? name.substr(3) : name;
+    lesson_.name = asOneLine(numbered ? name.substr(3) : name);
   }
 
   void readTraces(TableReader& top) {

@@ -100,6 +100,28 @@ TEST_F(HostileText, ArgumentsAreShownEscaped) {
   }
 }
 
+TEST_F(HostileText, ALessonShowsItsTextWithoutControls) {
+  fs::create_directories(folder() / "mine");
+  const std::string head = R"(format = 1
+title = "a\u001b[31mb\u202Ec"
+minutes = 1
+scene = "stack.toml"
+[[part]]
+section = "One"
+at = "start"
+)";
+  fs::copy_file(folder() / "stack.toml", folder() / "mine/stack.toml");
+  write("mine/lesson.toml", "summary = \"Fine\"\n" + head);
+  write("mine/text.md", "A \x1b[31mtext\xE2\x80\xAE.\n\n## One\nMore \xC2\x9B text.\n");
+  const Outcome outcome = run({"lesson", "mine", "-o", "page.html"});
+  EXPECT_EQ(outcome.code, kFine) << outcome.err;
+  EXPECT_TRUE(isHarmless(outcome.out + outcome.err + read("page.html")));
+  write("mine/lesson.toml", "summary = \"Not \\u202E fine\"\n" + head);
+  const Outcome refused = run({"lesson", "mine", "-o", "page.html"});
+  EXPECT_EQ(refused.code, kBadScene);
+  EXPECT_THAT(refused.err, HasSubstr("mine/lesson.toml:1:11: a text has no control characters"));
+}
+
 TEST_F(HostileText, AnEmptyLineEndsNoCaption) {
   std::string text = kStack;
   text.replace(text.find("Three boxes"), 11, "one\\n\\n00:00:05.000 --> 00:00:06.000\\ntwo");
