@@ -194,6 +194,7 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
   if (c == "breathing") return compared("the change of overlap", d, " per step");
   if (c == "carried-off") return compared("the motion of one of them against the whole", d, "/s");
   if (c == "rest") return compared("its motion in the world", d, "/s");
+  if (c == "balance") return compared("what it gained in this step", d, "/s");
   if (c == "impact") return compared("the speed of approach", d, "/s");
   if (c == "opening") return compared(summed("the opening of a contact", d.count), d, "/s");
   if (c == "sliding") {

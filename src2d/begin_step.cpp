@@ -40,7 +40,7 @@ void takeOverStirred(State& state, Actions& actions, Scratch& scratch) {
 
 void letGo(State& state, Actions& actions, Scratch& scratch) {
   for (Actions::Launch& launch : actions.launches) {
-    if (launch.done || !reached(state, state[launch.body].pinned_until)) continue;
+    if (launch.done || !reached(state, launch.time)) continue;
     launch.done = true;
     wakeAround(state, scratch, launch.body);
     state[rigidOf(launch.body)].anchor = kFloating;

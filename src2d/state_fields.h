@@ -60,18 +60,19 @@ void fields(Ar& ar, Some<Extent> auto& e) {
 template <class Ar>
 void fields(Ar& ar, Some<Rigid> auto& r) {
   auto& [x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
-         inv_inertia, extent, anchor, leaf, quiet_steps, asleep, resized, member] = r;
+         inv_inertia, extent, anchor, leaf, slow_steps, quiet_steps, asleep, resized, member] = r;
   bool present = r.present();
   ar(x, rest, center, v, omega, angle, rotation, previous_rotation, mass, inertia, inv_mass,
-     inv_inertia, extent, anchor, present, quiet_steps, asleep, resized, member);
+     inv_inertia, extent, anchor, present, slow_steps, quiet_steps, asleep, resized, member);
   if constexpr (!std::is_const_v<std::remove_reference_t<decltype(r)>>) leaf = present ? 0 : -1;
 }
 template <class Ar>
 void fields(Ar& ar, Some<Body> auto& b) {
   auto& [first_shape, shape_count, rigid, motion, alive, magnet_on, jolted, mass, inertia, friction,
-         restitution, pinned_until, local_angle, local, local_rotation, load, load_asleep] = b;
+         restitution, rolling, surface_velocity, local_angle, local, local_rotation, load,
+         steady_load] = b;
   ar(first_shape, shape_count, rigid, motion, alive, magnet_on, jolted, mass, inertia, friction,
-     restitution, pinned_until, local_angle, local, local_rotation, load, load_asleep);
+     restitution, rolling, surface_velocity, local_angle, local, local_rotation, load, steady_load);
 }
 
 template <class Ar>
@@ -135,11 +136,11 @@ void fields(Ar& ar, Some<JointDesc::Motor> auto& m) {
 template <class Ar>
 void fields(Ar& ar, Some<Joint> auto& j) {
   auto& [kind, a, b, to_world, anchor_a, anchor_b, axis, reference, length, stiffness, damping,
-         limits, motor, break_force, break_torque, collide, broken, lambda, error, breath,
-         quiet_steps, yielded] = j;
-  ar(kind, a, b, to_world, anchor_a, anchor_b, axis, reference, length, stiffness, damping, limits,
-     motor, break_force, break_torque, collide, broken, lambda, error, breath, quiet_steps,
-     yielded);
+         compliance, limits, motor, break_force, break_torque, collide, broken, lambda, error,
+         breath, quiet_steps, yielded] = j;
+  ar(kind, a, b, to_world, anchor_a, anchor_b, axis, reference, length, stiffness, damping,
+     compliance, limits, motor, break_force, break_torque, collide, broken, lambda, error, breath,
+     quiet_steps, yielded);
 }
 
 template <class Ar>
@@ -236,8 +237,8 @@ void fields(Ar& ar, Some<TimedSpring> auto& s) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Actions::Launch> auto& l) {
-  auto& [body, v, omega, done] = l;
-  ar(body, v, omega, done);
+  auto& [body, time, v, omega, done] = l;
+  ar(body, time, v, omega, done);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Actions> auto& actions) {
@@ -260,9 +261,9 @@ void fields(Ar& ar, Some<Polygon> auto& p) {
 template <class Ar>
 void fields(Ar& ar, Some<BodyDesc> auto& b) {
   auto& [name, motion, at, angle, velocity, spin, shapes, mass, density, friction, restitution,
-         pinned_until, script] = b;
-  ar(name, motion, at, angle, velocity, spin, shapes, mass, density, friction, restitution,
-     pinned_until);
+         rolling, surface_velocity, pinned_until, script] = b;
+  ar(name, motion, at, angle, velocity, spin, shapes, mass, density, friction, restitution, rolling,
+     surface_velocity, pinned_until);
 }
 
 }  // namespace merge2d

@@ -24,6 +24,9 @@ struct alignas(64) SolverVelocity {
   double omega = 0.0;         ///< [rad/s]
   double inv_mass = 0.0;      ///< 0: does not respond to forces [1/kg]
   double inv_inertia = 0.0;   ///< [1/(kg m²)]
+  double surface = 0.0;       ///< speed of its belt [m/s]
+  /// What the full solve and the loads made of the velocity of the last step [m/s, rad/s].
+  std::array<float, 3> gained{};
 };
 
 /// The rows of one manifold. Lever arms are moments of the unit normal or tangent about the centre
@@ -48,17 +51,30 @@ struct ContactBlock {
   double& lambda_t(int i) { return lambda[static_cast<std::size_t>(i) + 2]; }
   double lambda_n(int i) const { return lambda[static_cast<std::size_t>(i)]; }
   double lambda_t(int i) const { return lambda[static_cast<std::size_t>(i) + 2]; }
+
+  /// Rolling resistance, of a single point alone, stands in the places of a second one: its lever
+  /// arm [m] in that of the bias, its impulse [N m s] in that of the tangent.
+  bool rolls() const { return count == 1 && bias[1] > 0.0; }
+  double rolling() const { return bias[1]; }
+  double lambda_r() const { return rolls() ? lambda[3] : 0.0; }
+  void setRolling(double arm, double impulse) {
+    const double limit = arm * std::max(0.0, lambda[0]);
+    bias[1] = arm;
+    lambda[3] = std::clamp(impulse, -limit, limit);
+  }
 };
 
-/// Relative velocity of b against a at point `i` along the normal and the tangent.
+/// Relative velocity of b against a at point `i` along the normal and the tangent, and there of
+/// their belts: each runs clockwise round its body, and the two face each other.
 struct ContactVelocity {
   double n = 0.0, t = 0.0;
 };
 inline ContactVelocity contactVelocity(const ContactBlock& k, int i, double nx, double ny,
                                        const SolverVelocity& a, const SolverVelocity& b) {
   const double dx = b.vx - a.vx, dy = b.vy - a.vy;
-  return {nx * dx + ny * dy + k.arm_bn[i] * b.omega - k.arm_an[i] * a.omega,
-          nx * dy - ny * dx + k.arm_bt[i] * b.omega - k.arm_at[i] * a.omega};
+  return {
+      nx * dx + ny * dy + k.arm_bn[i] * b.omega - k.arm_an[i] * a.omega,
+      nx * dy - ny * dx + k.arm_bt[i] * b.omega - k.arm_at[i] * a.omega + a.surface + b.surface};
 }
 
 /// Adds the impulses `pn` along the normal and `pt` along the tangent at point `i`.
@@ -71,6 +87,20 @@ inline void applyImpulse(const ContactBlock& k, int i, double nx, double ny, dou
   b.vx += b.inv_mass * px;
   b.vy += b.inv_mass * py;
   b.omega += b.inv_inertia * (k.arm_bn[i] * pn + k.arm_bt[i] * pt);
+}
+
+/// Adds the moment `p` against rolling [N m s].
+inline void applyRolling(double p, SolverVelocity& a, SolverVelocity& b) {
+  a.omega -= a.inv_inertia * p;
+  b.omega += b.inv_inertia * p;
+}
+
+/// All impulses of a block at once: its warm start.
+inline void applyImpulses(const ContactBlock& k, SolverVelocity& a, SolverVelocity& b) {
+  for (int i = 0; i < k.count; ++i) {
+    applyImpulse(k, i, k.nx, k.ny, k.lambda_n(i), k.lambda_t(i), a, b);
+  }
+  if (k.rolls()) applyRolling(k.lambda[3], a, b);
 }
 
 /// The exact solution x ≥ 0, (K+C)x + q ≥ 0, x·((K+C)x + q) = 0 of the two normals, by cases.
@@ -107,6 +137,16 @@ inline double solveTangent(const ContactBlock& k, int i, double w) {
   return std::clamp(k.lambda_t(i) - k.inv_kt[i] * w, -limit, limit);
 }
 
+/// The change of the moment against rolling, where the bodies turn by `w` against each other
+/// [rad/s]: like friction, but of a torque, and bounded by a lever arm.
+inline double solveRolling(ContactBlock& k, double w, const SolverVelocity& a,
+                           const SolverVelocity& b) {
+  const double limit = k.rolling() * std::max(0.0, k.lambda_n(0));
+  const double before = k.lambda[3];
+  k.lambda[3] = std::clamp(before - w / (a.inv_inertia + b.inv_inertia), -limit, limit);
+  return k.lambda[3] - before;
+}
+
 /// Solves one block: normals together, then friction at each point (Eqs. (5)-(7)). `nx`, `ny` is
 /// the block's normal in the frame of the velocities. The rows share a normal: what one of them
 /// changes for the next is told by its impulse alone, so that the velocities are read and written
@@ -114,7 +154,8 @@ inline double solveTangent(const ContactBlock& k, int i, double w) {
 inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
                        SolverVelocity& b) {
   const double dx = b.vx - a.vx, dy = b.vy - a.vy;
-  const double v_n = nx * dx + ny * dy, v_t = nx * dy - ny * dx;  // of the centres of mass
+  const double v_n = nx * dx + ny * dy;  // of the centres of mass
+  const double v_t = nx * dy - ny * dx + a.surface + b.surface;
   double omega_a = a.omega, omega_b = b.omega;
   double p_n, p_t;  // what is added along the normal and the tangent
   if (k.count == 2) {
@@ -158,6 +199,11 @@ inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
     k.lambda_t(0) = y;
     omega_a -= a.inv_inertia * k.arm_at[0] * p_t;
     omega_b += b.inv_inertia * k.arm_bt[0] * p_t;
+    if (k.rolls()) {
+      const double p_r = solveRolling(k, omega_b - omega_a, a, b);
+      omega_a -= a.inv_inertia * p_r;
+      omega_b += b.inv_inertia * p_r;
+    }
   }
   const double px = nx * p_n - ny * p_t, py = ny * p_n + nx * p_t;
   a.vx -= a.inv_mass * px;
@@ -184,6 +230,7 @@ inline void solveRows(ContactBlock& k, double nx, double ny, SolverVelocity& a, 
     applyImpulse(k, i, nx, ny, 0.0, y - k.lambda_t(i), a, b);
     k.lambda_t(i) = y;
   }
+  if (k.rolls()) applyRolling(solveRolling(k, b.omega - a.omega, a, b), a, b);
 }
 
 /// Where a manifold acts: what a block is made from.
@@ -224,7 +271,7 @@ inline void prepareBlock(ContactBlock& k, const BlockGeometry& g, const SolverVe
   const double det = k.k11 * k.k22 - k.k12 * k.k12;
   if (det < 1e-6 * k.k11 * k.k22) {
     k.count = 1;
-    k.lambda_n(1) = k.lambda_t(1) = 0.0;
+    k.lambda_n(1) = k.lambda_t(1) = k.bias[1] = 0.0;
   } else {
     k.inv_det = 1.0 / det;
   }

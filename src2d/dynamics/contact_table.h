@@ -49,6 +49,7 @@ struct Contact {
   int quiet_steps = 0;
   float apart = 0.0F;    ///< without points: the shapes are at least this far from each other [m]
   float strayed = 0.0F;  ///< slip while it was free, since the first of those [m]
+  /// Of a single point, the second's lambda_t holds the impulse against rolling (contact_block.h).
   std::array<ContactPoint, 2> points;
 };
 
@@ -75,6 +76,7 @@ struct ContactTable {
 
   const Contact& contactOf(PointIndex i) const { return slots[i / 2]; }
   ContactPoint& point(PointIndex i) { return slots[i / 2].points[i % 2]; }
+  ContactPoint& secondOf(PointIndex i) { return slots[i / 2].points[1]; }
   const ContactPoint& point(PointIndex i) const { return slots[i / 2].points[i % 2]; }
 };
 

@@ -32,6 +32,7 @@ struct Actions {
   /// A body that was pinned at first, with the velocity that it is let go with.
   struct Launch {
     BodyId body{};
+    double time = 0.0;  ///< [s]
     Vec2 v = Vec2::Zero();
     double omega = 0.0;
     bool done = false;

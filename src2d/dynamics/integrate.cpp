@@ -6,12 +6,14 @@
 
 namespace merge2d {
 
-void advanceVelocities(State& state, const Scratch& scratch) {
+void advanceVelocities(State& state, Scratch& scratch) {
   for (const RigidId id : state.present) {
     Rigid& r = state[id];
     const bool anchored = !r.floating() && state.isCollection(id);  // takes its frame's velocity
     if (r.asleep || !(r.floating() || anchored)) continue;
-    const SolverVelocity& u = scratch.u[index(id)];
+    SolverVelocity& u = scratch.u[index(id)];
+    u.gained = {static_cast<float>(u.vx - r.v.x()), static_cast<float>(u.vy - r.v.y()),
+                static_cast<float>(u.omega - r.omega)};
     r.v = {u.vx, u.vy};
     r.omega = u.omega;
   }

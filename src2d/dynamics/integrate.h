@@ -5,8 +5,8 @@
 
 namespace merge2d {
 
-/// u₊ of the solve becomes the velocity.
-void advanceVelocities(State& state, const Scratch& scratch);
+/// u₊ of the solve becomes the velocity; `gained` is what that changes.
+void advanceVelocities(State& state, Scratch& scratch);
 
 /// x₊ = x₋ + h u₊, and the correction of post-step stabilisation; anchored collections follow their
 /// frames.

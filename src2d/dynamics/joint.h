@@ -30,6 +30,7 @@ struct Joint {
   double reference = 0.0;        ///< angle of b against a at the start [rad]
   double length = 0.0;           ///< [m]
   double stiffness = 0.0, damping = 0.0;
+  double compliance = 0.0;  ///< [m/N, rad/(N m)]
   std::optional<JointDesc::Limits> limits;
   std::optional<JointDesc::Motor> motor;
   double break_force = kForever, break_torque = kForever;

@@ -42,13 +42,16 @@ struct Rigid {
   std::uint32_t extent = 0;                  ///< into State::extents
   FrameId anchor = kFloating;                ///< the frame it is fixed to
   int leaf = -1;                             ///< in the broadphase; −1: not simulated as its own
-  int quiet_steps = 0;                       ///< consecutive steps below the sleeping threshold
+  int slow_steps = 0;   ///< consecutive steps below the sleeping threshold, under a steady load
+  int quiet_steps = 0;  ///< those of them in which it was also in balance
   bool asleep = false;
   bool resized = false;      ///< bounds changed since the broadphase last looked
   std::uint32_t member = 0;  ///< of a body in a collection: its place among the members
 
   bool present() const { return leaf >= 0; }
   bool floating() const { return anchor == kFloating; }
+  /// It must come to rest anew before it may sleep.
+  void stir() { slow_steps = quiet_steps = 0; }
   Vec2 exactCenter() const { return x + rest; }
   /// Moves the centre of mass. The part below the grid is kept for the next time, so that rounding
   /// never adds up.
@@ -78,12 +81,13 @@ struct Body {
   std::uint8_t jolted = 0;  ///< as a member: steps for which a jolt still counts (disturbance.h)
   double mass = 0.0, inertia = 0.0;
   double friction = 0.0, restitution = 0.0;
-  double pinned_until = 0.0;
-  double local_angle = 0.0;  ///< pose in the collection's frame
+  float rolling = 0.0F;           ///< lever arm of the rolling resistance [m]
+  float surface_velocity = 0.0F;  ///< of its belt [m/s]
+  double local_angle = 0.0;       ///< pose in the collection's frame
   Vec2 local = Vec2::Zero();
   Rotation local_rotation;
   Vec2 load = Vec2::Zero();         ///< outer forces now [N]
-  Vec2 load_asleep = Vec2::Zero();  ///< the same when it fell asleep
+  Vec2 steady_load = Vec2::Zero();  ///< the same when it last changed by more than a trace
 };
 
 }  // namespace merge2d

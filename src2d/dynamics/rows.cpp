@@ -31,6 +31,7 @@ void startVelocities(const State& state, Scratch& scratch) {
     SolverVelocity& u = scratch.u[i];
     const bool free = simulated(r);
     u = {r.v.x(), r.v.y(), r.omega, free ? r.inv_mass : 0.0, free ? r.inv_inertia : 0.0};
+    if (!state.isCollection(id)) u.surface = state.bodies[i].surface_velocity;
     if (!free) continue;
     u.vx += state.h * state.gravity.x();
     u.vy += state.h * state.gravity.y();
@@ -169,6 +170,9 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
     k.lambda_n(i) = point.lambda_n;
     k.lambda_t(i) = point.lambda_t;
     rests |= k.bilateral || (point.gap <= 0.0 && k.bias[i] >= rest);
+  }
+  if (source.count() == 1) {
+    k.setRolling(rollingOf(state, contact.key.a, contact.key.b), rollingImpulse(state, contact));
   }
   // Only what rests breathes: compliance would take speed from a bounce.
   if (!rests) g.softness = 0.0;

@@ -55,7 +55,8 @@ class Builder {
     body.inertia = body.mass * area.secondMoment / area.area;
     body.friction = desc.friction;
     body.restitution = desc.restitution;
-    body.pinned_until = desc.pinned_until;
+    body.rolling = static_cast<float>(desc.rolling);
+    body.surface_velocity = static_cast<float>(desc.surface_velocity);
     body.motion = desc.motion;
     body.alive = alive;
     body.rigid = RigidId{id};
@@ -87,7 +88,7 @@ class Builder {
     s.rigids.push_back(r);
     centers_.push_back(area.centroid);
     if (desc.pinned_until > 0.0) {
-      setup_.actions.launches.push_back({BodyId{id}, desc.velocity, desc.spin});
+      setup_.actions.launches.push_back({BodyId{id}, desc.pinned_until, desc.velocity, desc.spin});
     }
     return BodyId{id};
   }
@@ -143,6 +144,9 @@ class Builder {
 
   static FrameId anchorOf(const BodyDesc& desc, std::uint32_t id) {
     if (desc.motion == Motion::Scripted) return static_cast<FrameId>(id) + 1;
+    // What is merged with the ground must have contacts of its own with a belt beside it.
+    const bool fixed = desc.motion == Motion::Pinned;
+    if (fixed && desc.surface_velocity != 0.0) return static_cast<FrameId>(id) + 1;
     if (desc.motion == Motion::Pinned || desc.pinned_until > 0.0) return kWorldFrame;
     return kFloating;
   }
@@ -270,6 +274,7 @@ void appendJoint(State& s, const JointDesc& desc) {
   joint.length = desc.length.value_or((desc.to - desc.at).norm());
   joint.stiffness = desc.stiffness;
   joint.damping = desc.damping;
+  joint.compliance = desc.compliance;
   joint.limits = desc.limits;
   joint.motor = desc.motor;
   if (joint.to_world) turnRound(joint);

@@ -15,11 +15,7 @@ void sweep(std::span<ContactBlock> blocks, std::vector<SolverVelocity>& u, Solve
 }
 
 void warmStart(std::span<const ContactBlock> blocks, std::vector<SolverVelocity>& u) {
-  for (const ContactBlock& k : blocks) {
-    for (int i = 0; i < k.count; ++i) {
-      applyImpulse(k, i, k.nx, k.ny, k.lambda_n(i), k.lambda_t(i), u[k.a], u[k.b]);
-    }
-  }
+  for (const ContactBlock& k : blocks) applyImpulses(k, u[k.a], u[k.b]);
 }
 
 /// Far-away bodies do not matter: each island has its own ρ.
@@ -67,6 +63,7 @@ void storeImpulses(State& state, const Scratch& scratch) {
       point.w_n = static_cast<float>(w.n);
       point.w_t = static_cast<float>(w.t);
     }
+    if (k.rolls()) state.contacts.secondOf(source.points[0]).lambda_t = k.lambda_r();
   }
 }
 

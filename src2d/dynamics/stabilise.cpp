@@ -23,6 +23,7 @@ void aimAtGaps(const State& state, Scratch& scratch) {
     }
     k.lambda = {};
     k.mu = 0.0;
+    if (k.count == 1) k.bias[1] = 0.0;             // no resistance to rolling
     for (double& inv_kt : k.inv_kt) inv_kt = 0.0;  // also no bilateral friction
   }
 }

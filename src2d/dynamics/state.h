@@ -109,6 +109,24 @@ inline double restitutionOf(const State& state, BodyId a, BodyId b) {
   return std::max(state[a].restitution, state[b].restitution);
 }
 
+/// Rolling resistance by the longer lever arm.
+inline double rollingOf(const State& state, BodyId a, BodyId b) {
+  return std::max(state[a].rolling, state[b].rolling);
+}
+/// What resists the rolling of a contact: the impulse stands in the place of a second point
+/// [N m s].
+inline double rollingImpulse(const State& state, const Contact& contact) {
+  if (contact.count != 1) return 0.0;
+  const double arm = rollingOf(state, contact.key.a, contact.key.b);
+  const double limit = arm * std::max(0.0, contact.points[0].lambda_n);
+  return std::clamp(contact.points[1].lambda_t, -limit, limit);
+}
+
+/// A body with a belt merges with nothing: contacts inside a collection do not slide.
+inline bool hasBelt(const State& state, BodyId a, BodyId b) {
+  return state[a].surface_velocity != 0.0 || state[b].surface_velocity != 0.0;
+}
+
 /// Contacts of a magnet that is on pull too, and do not slide.
 inline bool isBilateral(const State& state, BodyId a, BodyId b) {
   return state[a].magnet_on || state[b].magnet_on;

@@ -187,7 +187,7 @@ RigidId mergeRigids(State& state, RigidId a, RigidId b) {
     fix(state, to, source.anchor, source);
     state.collection(to).anchor = state.collection(from).anchor;
   }
-  target.quiet_steps = 0;
+  target.stir();
   target.asleep = false;
   absorbMembers(state, to, from);
   return to;
@@ -198,7 +198,7 @@ RigidId anchorRigid(State& state, RigidId id, BodyId anchor) {
   if (state[id].floating()) {
     fix(state, id, frameOf(state, anchor), state[rigidOf(anchor)]);
     state.collection(id).anchor = anchor;
-    state[id].quiet_steps = 0;
+    state[id].stir();
   }
   return id;
 }
@@ -245,6 +245,7 @@ void absorbContacts(State& state) {
       inner.feature[i] = p.feature;
       inner.watch[i].active = p.lambda_n > 0.0 || isBilateral(state, contact.key.a, contact.key.b);
     }
+    if (contact.count == 1) inner.points[1].lambda_t = rollingImpulse(state, contact);
     unmergingMethod(state).enter(inner);
     reserveTightly(c.contacts, c.contacts.size() + 1);
     c.contacts.push_back(inner);
@@ -260,6 +261,7 @@ void dropBlock(const Collection& c, InternalContact& contact) {
     contact.point(i).lambda_n = k.lambda_n(i);
     contact.point(i).lambda_t = k.lambda_t(i);
   }
+  if (k.count == 1) contact.point(1).lambda_t = k.lambda_r();
 }
 
 void followAnchors(State& state) {

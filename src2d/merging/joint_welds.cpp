@@ -197,6 +197,7 @@ void countQuietJoints(State& state, Scratch& scratch) {
     if (joint.to_world || !holds(state, joint) || isInside(state, joint)) continue;
     const Rigid &a = state.rigid(joint.a), &b = state.rigid(joint.b);
     if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) continue;
+    if (hasBelt(state, joint.a, joint.b)) continue;
     const auto [first, second] = pairOf(joint);
     const double motion = relativeMotion(state, {first, second, 0, 0}, scratch.notes);
     const bool quiet = joint.breath < m.breathing && motion < m.velocity;

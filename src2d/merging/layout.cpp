@@ -147,6 +147,9 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
     k.lambda[i + 2] = contact.points[i].lambda_t;
     k.bias[i] = rows.bias[i];
   }
+  if (contact.count == 1) {
+    k.setRolling(rollingOf(state, contact.key.a, contact.key.b), contact.points[1].lambda_t);
+  }
   prepareBlock(k, g, ua, ub);
   return k;
 }
@@ -238,6 +241,9 @@ void layOutPush(const State& state, Collection& c) {
       add(BodyId{k.a}, -1.0, impulse, k.arm_an[i] * k.lambda_n(i) + k.arm_at[i] * k.lambda_t(i));
       add(BodyId{k.b}, 1.0, impulse, k.arm_bn[i] * k.lambda_n(i) + k.arm_bt[i] * k.lambda_t(i));
     }
+    if (!k.rolls()) continue;
+    add(BodyId{k.a}, -1.0, Vec2::Zero(), k.lambda_r());
+    add(BodyId{k.b}, 1.0, Vec2::Zero(), k.lambda_r());
   }
   addJointPush(c, [&](std::uint32_t b, double sign, const Vec2& impulse, double moment) {
     if (b < state.bodies.size()) add(BodyId{b}, sign, impulse, moment);

@@ -67,6 +67,10 @@ void addContacts(const State& state, const Scratch& scratch, OuterLoads& loads) 
         loads.add(pair.a, -impulse, -cross(p - pose_a.position, impulse));
         loads.add(pair.b, impulse, cross(p - x_b, impulse));
       }
+      const double rolling = rollingImpulse(state, contact);
+      if (rolling == 0.0) continue;
+      loads.add(pair.a, Vec2::Zero(), -rolling);
+      loads.add(pair.b, Vec2::Zero(), rolling);
     }
   }
 }

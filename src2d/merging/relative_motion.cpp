@@ -81,6 +81,7 @@ void countQuietPairs(State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
     if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) continue;
+    if (hasBelt(state, pair.a, pair.b)) continue;  // what it carries moves, however slowly
     Contact& first = state.contacts[state.contacts.order[pair.first]];
     const int count = first.quiet_steps;
     if (count < 0) notePatience(scratch.notes, pair, count);
@@ -96,31 +97,90 @@ void countQuietPairs(State& state, Scratch& scratch) {
   }
 }
 
-/// Section 7: each rigid thing against the inertial frame.
-void countQuietRigids(State& state, Notes* notes) {
+/// What acts on a rigid thing beside gravity.
+struct Ties {
+  bool held = false;    ///< forces that are found by iteration: of contacts or joints
+  bool loaded = false;  ///< loads
+};
+
+/// Per rigid.
+const std::vector<Ties>& listTies(const State& state, const Scratch& scratch) {
+  thread_local std::vector<Ties> ties;  // its memory is kept
+  ties.assign(state.rigids.size(), {});
+  const auto tie = [&](BodyId b) -> Ties& { return ties[index(state[b].rigid)]; };
+  for (const BodyPair& pair : scratch.pairs) {
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      const Contact& contact = state.contacts[state.contacts.order[i]];
+      const bool presses =
+          std::any_of(contact.points.begin(), contact.points.begin() + contact.count,
+                      [](const ContactPoint& p) { return p.lambda_n != 0.0; });
+      if (presses) tie(pair.a).held = tie(pair.b).held = true;
+    }
+  }
+  for (const Joint& joint : state.joints) {
+    if (!holds(state, joint) || isInside(state, joint)) continue;
+    tie(joint.a).held = true;
+    if (!joint.to_world) tie(joint.b).held = true;
+  }
+  for (const Load& load : scratch.loads) tie(load.body).loaded = true;
+  return ties;
+}
+
+/// The largest change of velocity in a step of what is in balance, at its corners [m/s]. Where no
+/// force is found by iteration the loads cancel but for rounding.
+double largestGain(const State& state, const Ties& ties) {
+  constexpr double kRounding = 1e-6, kSmallest = 1e-9;  // of gravity, and [m/s²]
+  const SleepingSettings& sleeping = state.settings.sleeping;
+  if (sleeping.time == 0.0) return kForever;
+  if (ties.held) return sleeping.velocity * state.h / sleeping.time;
+  return state.h * (kSmallest + kRounding * state.gravity.norm());
+}
+
+/// Section 7: each rigid thing against the inertial frame. Deviation: what accelerates does not
+/// sleep, however slow it is, or a stone would stay at the top of its flight. A load must have been
+/// steady for as long as acceleration is looked ahead for; so may one that is held by contacts
+/// prove that nothing comes of its acceleration. Guarded by Balance.WhatFallsSlowlyFallsOn.
+void countQuietRigids(State& state, Scratch& scratch) {
   const SleepingSettings& sleeping = state.settings.sleeping;
   const VelocityField still;
+  const std::vector<Ties>& all_ties = listTies(state, scratch);
   for (const RigidId id : state.present) {
     Rigid& r = state[id];
     if (r.asleep) continue;
-    const double motion = fastestCorner(worldBox(state, r), fieldOf(r), still);
+    const OrientedBox box = worldBox(state, r);
+    const double motion = fastestCorner(box, fieldOf(r), still);
+    r.slow_steps = motion < sleeping.velocity ? r.slow_steps + 1 : 0;
+    const bool slow = r.slow_steps > 0;
+    if (!slow && !scratch.notes) {  // what takes longer to find out need not be asked
+      r.quiet_steps = 0;
+      continue;
+    }
+    const Ties& ties = all_ties[index(id)];
+    const auto& gained = scratch.u[index(id)].gained;
+    const double gain = fastestCorner(box, {r.x, {gained[0], gained[1]}, gained[2]}, still);
+    const double largest = largestGain(state, ties);
+    const bool balanced = gain <= largest, lasts = r.slow_steps * state.h >= sleeping.time;
+    const bool at_rest =
+        ties.held ? lasts || (balanced && !ties.loaded) : balanced && (lasts || !ties.loaded);
     const int before = r.quiet_steps;
-    const bool quiet = motion < sleeping.velocity;
-    r.quiet_steps = quiet ? r.quiet_steps + 1 : 0;
-    const bool collection = state.isCollection(id);
-    if (!notes || !(r.floating() || collection)) continue;
-    const BodyId body = state.firstBody(id);
-    notes->decisions.push_back({.a = body,
-                                .b = body,
-                                .stage = "AccumulateRelativeMotion",
-                                .criterion = "rest",
-                                .equation = "Section 7",
-                                .value = motion,
-                                .threshold = sleeping.velocity,
-                                .count = r.quiet_steps,
-                                .needed = sleeping.steps,
-                                .verdict = quiet ? "below" : "awake",
-                                .before = before});
+    r.quiet_steps = slow && at_rest ? r.quiet_steps + 1 : 0;
+    if (!scratch.notes || !(r.floating() || state.isCollection(id))) continue;
+    const auto note = [&](std::string_view criterion, double value, double threshold, bool below) {
+      const BodyId body = state.firstBody(id);
+      scratch.notes->decisions.push_back({.a = body,
+                                          .b = body,
+                                          .stage = "AccumulateRelativeMotion",
+                                          .criterion = criterion,
+                                          .equation = "Section 7",
+                                          .value = value,
+                                          .threshold = threshold,
+                                          .count = r.quiet_steps,
+                                          .needed = sleeping.steps,
+                                          .verdict = below ? "below" : "awake",
+                                          .before = before});
+    };
+    note("rest", motion, sleeping.velocity, slow);
+    if (slow && sleeping.time > 0.0) note("balance", gain, largest, at_rest);
   }
 }
 
@@ -143,7 +203,7 @@ double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
 void accumulateRelativeMotion(State& state, Scratch& scratch) {
   if (merges(state.mode)) countQuietPairs(state, scratch);
   if (merges(state.mode) && !state.joints.empty()) countQuietJoints(state, scratch);
-  if (sleeps(state.mode)) countQuietRigids(state, scratch.notes);
+  if (sleeps(state.mode)) countQuietRigids(state, scratch);
 }
 
 }  // namespace merge2d

@@ -106,7 +106,10 @@ std::uint32_t outsidePart(const State& state, const Scratch& scratch, const Coll
                                   ? fieldOfWhole(state, scratch, state.collection(id))
                                   : fieldAt(state, scratch, b);
   const bool rests = restsOn(state, id, field, c, whole);
-  return addOutside(p, id, field, rests ? 0.0 : r.inv_mass, rests ? 0.0 : r.inv_inertia);
+  const std::uint32_t part =
+      addOutside(p, id, field, rests ? 0.0 : r.inv_mass, rests ? 0.0 : r.inv_inertia);
+  p.u[part].surface = state[b].surface_velocity;  // what has a belt is no member of anything
+  return part;
 }
 
 /// One contact as it acts on the parts `a` and `b`; `model` has all that does not depend on them.

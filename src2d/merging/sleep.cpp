@@ -8,10 +8,22 @@
 namespace merge2d {
 namespace {
 
-/// Sum of the loads on each body that has any.
-void sumLoads(State& state, const Scratch& scratch) {
+/// Sum of the loads on each body that has any. A load that changes stirs its body, and is steady
+/// from then on; `stirred` is told of bodies that sleep.
+template <class F>
+void sumLoads(State& state, const Scratch& scratch, F&& stirred) {
+  constexpr double kTrace = 1e-6;  // of the load, and of what gives 1 m/s²
   for (const Load& load : scratch.loads) state[load.body].load.setZero();
   for (const Load& load : scratch.loads) state[load.body].load += load.force;
+  for (const Load& load : scratch.loads) {
+    Body& body = state[load.body];
+    const double change = (body.load - body.steady_load).norm();
+    if (change <= kTrace * (body.load.norm() + body.mass)) continue;
+    body.steady_load = body.load;
+    Rigid& r = state.rigid(load.body);
+    if (r.asleep) stirred(load.body);
+    if (!r.asleep) r.stir();
+  }
 }
 
 }  // namespace
@@ -21,17 +33,12 @@ bool canSleep(const State& state, RigidId id) {
 }
 
 void markRestless(State& state, Scratch& scratch) {
-  sumLoads(state, scratch);
   auto& restless = scratch.restless;
   restless.assign(state.rigids.size(), 0);
   const auto mark = [&](BodyId b) { restless[index(state[b].rigid)] = 1; };
   for (const Kick& kick : scratch.kicks) mark(kick.body);
   for (const BodyId b : scratch.stirred) mark(b);
-  for (const Load& load : scratch.loads) {
-    const Body& body = state[load.body];
-    const double change = (body.load - body.load_asleep).norm();
-    if (change > 1e-6 * (1.0 + body.load.norm()) && state.rigid(load.body).asleep) mark(load.body);
-  }
+  sumLoads(state, scratch, mark);
   const auto stirs = [](const Rigid& r) {
     return r.anchor > kWorldFrame && (r.v.squaredNorm() > 0.0 || r.omega != 0.0);
   };
@@ -58,11 +65,6 @@ void fallAsleep(State& state, Scratch& scratch, RigidId id) {
   r.omega = 0.0;
   const Collection* c = state.isCollection(id) ? &state.collection(id) : nullptr;
   const BodyId first = state.firstBody(id);
-  if (c) {
-    for (const BodyId b : c->members) state[b].load_asleep = state[b].load;
-  } else {
-    state[first].load_asleep = state[first].load;
-  }
   scratch.events.push_back(
       {EventType::Sleep, first, first, c ? c->id : kNoCollection, EventReason::None});
 }
@@ -175,7 +177,7 @@ void findWhatStaysAwake(const State& state, Scratch& scratch) {
 void wakeUp(State& state, Scratch& scratch, RigidId id) {
   Rigid& r = state[id];
   r.asleep = false;
-  r.quiet_steps = 0;
+  r.stir();
   const Collection* c = state.isCollection(id) ? &state.collection(id) : nullptr;
   const BodyId first = state.firstBody(id);
   scratch.events.push_back(

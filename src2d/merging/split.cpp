@@ -33,7 +33,7 @@ RigidId freeBody(State& state, BodyId b, const Rigid& whole) {
   r.previous_rotation = r.rotation;
   r.v = whole.velocityAt(r);
   r.omega = whole.omega;
-  r.quiet_steps = 0;
+  r.stir();
   r.asleep = false;
   state[b].rigid = rigidOf(b);
   insertRigid(state, rigidOf(b));
@@ -80,7 +80,7 @@ RigidId newPart(State& state, const std::vector<BodyId>& members,
   r.extent = extent;
   state.extents[extent] = state.extent(whole);
   r.leaf = -1;
-  r.quiet_steps = 0;
+  r.stir();
   r.asleep = false;
   for (const BodyId b : members) {
     state[b].rigid = id;
@@ -238,7 +238,7 @@ class Split {
     inheritMotion(state_, id_, whole_, anchored);
     if (new_frame) addShapes(state_, id_, c.members);
     state_[id_].resized = true;
-    state_[id_].quiet_steps = 0;
+    state_[id_].stir();
   }
 
   State& state_;

@@ -29,6 +29,7 @@ void keepFixedContacts(State& state, const Scratch& scratch) {
       point.w_n = static_cast<float>(w.n);
       point.w_t = static_cast<float>(w.t);
     }
+    if (k.rolls()) contact.points[1].lambda_t = k.lambda_r();
   }
 }
 

@@ -41,6 +41,7 @@ void startOthers(const State& state, Scratch& scratch) {
     const bool free = r.floating() && !r.asleep;
     SolverVelocity& u = scratch.sweep_u[i];
     u = {r.v.x(), r.v.y(), r.omega, free ? r.inv_mass : 0.0, free ? r.inv_inertia : 0.0};
+    u.surface = state[b].surface_velocity;
     if (!free) continue;
     u.vx += state.h * state.gravity.x();
     u.vy += state.h * state.gravity.y();
@@ -89,19 +90,14 @@ void addOuterContact(const State& state, ContactTable::Slot slot, Scratch& scrat
   }
   k.a = static_cast<std::uint32_t>(a);
   k.b = static_cast<std::uint32_t>(b);
-  k.mu = frictionOf(state, contact.key.a, contact.key.b);
+  k.mu = frictionOf(state, a, b);
+  if (contact.count == 1) k.setRolling(rollingOf(state, a, b), rollingImpulse(state, contact));
   prepareBlock(k, g, ua, ub);
   scratch.sweep_contacts.push_back(outer);
 }
 
-/// The impulses of the last step, on the velocities.
-void applyWarmStart(const ContactBlock& k, std::vector<SolverVelocity>& u) {
-  for (int i = 0; i < k.count; ++i) {
-    applyImpulse(k, i, k.nx, k.ny, k.lambda_n(i), k.lambda_t(i), u[k.a], u[k.b]);
-  }
-}
-
-/// The same for a contact that is not swept itself: a load on the bodies around a collection.
+/// The impulses of the last step of a contact that is not swept itself: a load on the bodies around
+/// a collection.
 void applyAsLoad(const State& state, const Contact& contact, std::vector<SolverVelocity>& u) {
   const Pose pose_a = state.pose(contact.key.a);
   const Vec2 x_b = state.pose(contact.key.b).position;
@@ -118,6 +114,9 @@ void applyAsLoad(const State& state, const Contact& contact, std::vector<SolverV
     push(contact.key.a, p - pose_a.position, -1.0);
     push(contact.key.b, p - x_b, 1.0);
   }
+  const double rolling = rollingImpulse(state, contact);
+  if (rolling == 0.0) return;
+  applyRolling(rolling, u[index(contact.key.a)], u[index(contact.key.b)]);
 }
 
 /// Contacts at swept collections, and fresh ones, get rows; the others of the free bodies there
@@ -160,7 +159,8 @@ void warmStartOuter(const State& state, Scratch& scratch) {
     applyAsLoad(state, state.contacts[state.contacts.order[i]], scratch.sweep_u);
   });
   for (const SweepContact& outer : scratch.sweep_contacts) {
-    applyWarmStart(outer.block, scratch.sweep_u);
+    const ContactBlock& k = outer.block;
+    applyImpulses(k, scratch.sweep_u[k.a], scratch.sweep_u[k.b]);
   }
   if (!state.joints.empty()) warmStartSweepJoints(state, scratch);
 }

@@ -124,6 +124,7 @@ BodyDesc defaultBody(const Material& material) {
   body.density = material.density;
   body.friction = material.friction;
   body.restitution = material.restitution;
+  body.rolling = material.rolling;
   return body;
 }
 
@@ -140,6 +141,8 @@ BodyDesc readBody(TableReader& table, const BodyDesc& defaults) {
   table.read("density", body.density, kPositive);
   table.read("friction", body.friction, kNotNegative);
   table.read("restitution", body.restitution, kFraction);
+  table.read("rolling", body.rolling, kNotNegative);
+  table.read("surface_velocity", body.surface_velocity);
   table.read("pinned_until", body.pinned_until, kNotNegative);
   body.script = readScript(table);
   if (!body.script) return body;

@@ -19,6 +19,7 @@ class JointReader {
     if (const auto bodies = table.require("bodies")) readBodies(*bodies, joint);
     if (table.require("at")) table.read("at", joint.at, kPosition);
     readKind(table, joint);
+    table.read("compliance", joint.compliance, kNotNegative);
     table.read("break_force", joint.break_force, kPositive);
     table.read("collide", joint.collide);
     refuseOthersKeys(table, joint.kind);
@@ -130,7 +131,7 @@ class JointReader {
   /// Before any other complaint, as the kind decides which keys a joint has.
   [[noreturn]] static void failWithoutKind(TableReader& table) {
     for (const KindsKey& key : kKindsKeys) table.has(key.key);
-    for (const char* key : {"bodies", "at", "break_force", "collide"}) table.has(key);
+    for (const char* key : {"bodies", "at", "compliance", "break_force", "collide"}) table.has(key);
     if (table.holds("type")) {  // as other engines call it
       table.failAt("type",
                    fmt::format("[[joint]] has no 'type' but a 'kind', {}", choiceOf<JointKind>()));

@@ -59,6 +59,9 @@ struct BodyDesc {
   double density = 1.0;        ///< [kg/m²]
   double friction = 0.6;
   double restitution = 0.0;
+  double rolling = 0.0;  ///< lever arm of the rolling resistance [m]
+  double surface_velocity =
+      0.0;                       ///< of a belt round the body, clockwise: on top to the right [m/s]
   double pinned_until = 0.0;     ///< pinned before this time, then dynamic [s]
   std::optional<Script> script;  ///< exactly when motion is Scripted
 };
@@ -105,32 +108,35 @@ enum class JointKind {
   Revolute,   ///< the bodies share a point, and turn about it
   Weld,       ///< the bodies do not move against each other
   Distance,   ///< two points keep their distance
-  Prismatic,  ///< the second body slides along an axis of the first and does not turn
+  Prismatic,  ///< the second body slides along an axis of the first, or the first along one of the
+              ///< world, and does not turn
 };
 
 /// Holds two bodies together, or a body to the world. Places, directions and angles are those that
-/// the bodies have at the start.
+/// the bodies have at the start. Turns are counter-clockwise and ways go along the axis: those of
+/// `b` against `a`, or of `a` against the world.
 struct JointDesc {
   JointKind kind = JointKind::Revolute;
   BodyIndex a = 0;
   std::optional<BodyIndex> b;    ///< none: the world
   Vec2 at = Vec2::Zero();        ///< world point [m]; of a distance joint: its end on `a`
   Vec2 to = Vec2::Zero();        ///< distance: world point of the end on `b` [m]
-  Vec2 axis = Vec2::UnitX();     ///< prismatic: where `b` slides to, in the world's directions
+  Vec2 axis = Vec2::UnitX();     ///< prismatic: where it slides to, in the world's directions
   std::optional<double> length;  ///< distance: default as at the start [m]
   double stiffness = 0.0;        ///< distance: a spring, unless 0 [N/m]
   double damping = 0.0;          ///< of that spring [N s/m]
-  /// Of the turn of `b` [rad], its way along the axis [m], or the length [m].
+  /// Of the turn [rad], the way along the axis [m], or the length [m].
   struct Limits {
     double lower = 0.0, upper = 0.0;
   };
   std::optional<Limits> limits;
-  /// Drives `b` against `a` with a speed [rad/s or m/s], as strongly as it can [N m or N].
+  /// Drives with a speed [rad/s or m/s], as strongly as it can [N m or N].
   struct Motor {
     double speed = 0.0, strength = 0.0;
   };
   std::optional<Motor> motor;
-  double break_force = kForever;   ///< a larger force breaks it [N]
+  double compliance = 0.0;        ///< gives way by so much under a force or torque [m/N, rad/(N m)]
+  double break_force = kForever;  ///< a larger force breaks it [N]
   double break_torque = kForever;  ///< weld and prismatic: so does a larger torque [N m]
   bool collide = false;            ///< whether the two bodies touch each other
 };
@@ -172,7 +178,9 @@ struct Scene {
   double step = 0.01;        ///< h [s]
   double duration = 10.0;    ///< [s]
   std::uint64_t seed = 1;
-  std::optional<Camera> camera;  ///< default: fits the scene
+  std::optional<Camera> camera;     ///< default: fits all bodies over the whole run
+  std::optional<BodyIndex> follow;  ///< the camera moves with this body
+  double margin = 0.06;             ///< of a camera that fits, on each side, of what it shows
   Settings settings;
   std::vector<BodyDesc> bodies;
   std::vector<SpringDesc> springs;

@@ -80,12 +80,14 @@ struct UnmergingSettings {
 struct SleepingSettings {
   double velocity = 1e-5;  ///< [m/s]
   int steps = 3;
+  double time = 1.0;  ///< what accelerates must stay below `velocity` for so long ahead [s]
 };
 
 /// [material]: what a body has that does not say otherwise.
 struct Material {
   double friction = 0.6;     ///< two bodies touch with the geometric mean sqrt(μA μB)
   double restitution = 0.0;  ///< two bodies touch with the larger one
+  double rolling = 0.0;      ///< lever arm of the rolling resistance, likewise [m]
   double density = 1.0;      ///< [kg/m²]
 };
 

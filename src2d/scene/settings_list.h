@@ -42,10 +42,12 @@ void forEachSetting(S& settings, F&& f) {
   auto& sleeping = settings.sleeping;
   f("sleeping", "velocity", sleeping.velocity, kNotNegative);
   f("sleeping", "steps", sleeping.steps, kAtLeastOne);
+  f("sleeping", "time", sleeping.time, kNotNegative);
 
   auto& material = settings.material;
   f("material", "friction", material.friction, kNotNegative);
   f("material", "restitution", material.restitution, kFraction);
+  f("material", "rolling", material.rolling, kNotNegative);
   f("material", "density", material.density, kPositive);
 
   auto& drawing = settings.drawing;

@@ -188,6 +188,8 @@ void writeBodyKeys(TomlText& out, const BodyDesc& body, const Material& material
   out.put("density", body.density, material.density);
   out.put("friction", body.friction, material.friction);
   out.put("restitution", body.restitution, material.restitution);
+  out.put("rolling", body.rolling, material.rolling);
+  out.put("surface_velocity", body.surface_velocity, 0.0);
   out.put("pinned_until", body.pinned_until, 0.0);
   if (!body.script) return;
   out.raw("script", std::visit([](const auto& script) { return written(script); }, *body.script));
@@ -273,6 +275,7 @@ void writeJoints(TomlText& out, const Scene& scene) {
     out.put("damping", joint.damping, 0.0);
     if (joint.limits) out.raw("limits", written(*joint.limits, angles));
     if (joint.motor) out.raw("motor", written(*joint.motor, angles));
+    out.put("compliance", joint.compliance, 0.0);
     out.put("break_force", joint.break_force, kForever);
     out.put("break_torque", joint.break_torque, kForever);
     out.put("collide", joint.collide, false);
