@@ -23,13 +23,13 @@ class JointBuilder {
         rigid_(kind == JointRows::Rigid || (kind == JointRows::Soft && postStabilised(state))),
         a_(a),
         b_(b) {
-    const double other = !joint.to_world && state.responds(joint.b) ? 1.0 : 0.0;
-    const double self = state.responds(joint.a) ? 1.0 : 0.0;
-    const double c = kind == JointRows::Soft ? state.settings.solver.compliance : 0.0;
-    share_ = kind == JointRows::Correction ? kCorrectedShare : state.settings.solver.erp;
-    softness_ = c * (self / mass(joint.a) + (other > 0.0 ? other / mass(joint.b) : 0.0));
-    turning_softness_ =
-        c * (self / inertia(joint.a) + (other > 0.0 ? other / inertia(joint.b) : 0.0));
+    // An implicit spring: λ = −h (s + h w) / compliance.
+    const bool soft = kind == JointRows::Soft && joint.compliance > 0.0;
+    share_ = kind == JointRows::Correction ? kCorrectedShare
+             : soft                        ? 1.0
+                                           : state.settings.solver.erp;
+    if (soft) softness_ = joint.compliance / (state.h * state.h);
+    rigid_ &= !soft;
   }
 
   JointBlock build() {
@@ -59,9 +59,6 @@ class JointBuilder {
   }
 
  private:
-  double mass(BodyId b) const { return state_[b].mass; }
-  double inertia(BodyId b) const { return state_[b].inertia; }
-
   /// From a's end to b's, in a's frame.
   Vec2 offset() const { return place_.rotation_a.inverse() * (place_.p_b - place_.p_a); }
 
@@ -74,13 +71,13 @@ class JointBuilder {
     row.dy = d.y();
     row.arm_a = cross(place_.p_b - place_.x_a, d);
     row.arm_b = cross(place_.p_b - place_.x_b, d);
-    row.softness = rigid_ ? 0.0 : softness_;
+    row.softness = softness_;
     return row;
   }
   JointRow turning() const {
     JointRow row;
     row.arm_a = row.arm_b = 1.0;
-    row.softness = rigid_ ? 0.0 : turning_softness_;
+    row.softness = softness_;
     return row;
   }
 
@@ -165,7 +162,7 @@ class JointBuilder {
   const JointPlace& place_;
   bool rigid_;
   const SolverVelocity &a_, &b_;
-  double softness_ = 0.0, turning_softness_ = 0.0, share_ = 0.0;
+  double softness_ = 0.0, share_ = 0.0;
   JointBlock block_;
 };
 
@@ -186,6 +183,21 @@ JointForce forceInA(const Joint& joint, const Vec2& direction) {
 }
 
 }  // namespace
+
+JointErrors errorsOf(const Joint& joint, const JointPlace& place) {
+  const Vec2 way = place.rotation_a.inverse() * (place.p_b - place.p_a);
+  switch (joint.kind) {
+    case JointKind::Revolute:
+      return {way.x(), way.y(), 0.0, place.turn};
+    case JointKind::Weld:
+      return {way.x(), way.y(), place.turn, 0.0};
+    case JointKind::Prismatic:
+      return {perpendicular(joint.axis).dot(way), place.turn, 0.0, joint.axis.dot(way)};
+    case JointKind::Distance:
+      return {way.norm() - joint.length, 0.0, 0.0, way.norm()};
+  }
+  return {};
+}
 
 bool holds(const State& state, const Joint& joint) {
   return !joint.broken && state[joint.a].alive && (joint.to_world || state[joint.b].alive);

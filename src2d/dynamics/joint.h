@@ -54,8 +54,13 @@ struct JointPlace {
   double turn = 0.0;  ///< of b against a since the start [rad]
 };
 
-/// Whether rows are to remove what error there is, as softly as contacts; only to keep it; or to
-/// correct positions.
+/// How far a joint is from where it holds, row by row of its block; of a limit: where it stands [m,
+/// rad].
+using JointErrors = std::array<double, 4>;
+JointErrors errorsOf(const Joint& joint, const JointPlace& place);
+
+/// Whether rows are to remove what error there is, and give way by the joint's compliance; only to
+/// keep it; or to correct positions.
 enum class JointRows { Soft, Rigid, Correction };
 
 /// Bodies that are there, and not broken apart.

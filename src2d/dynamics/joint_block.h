@@ -72,29 +72,45 @@ inline void applyJointImpulses(const JointBlock& k, const Rotation& turn, Solver
   k.forEachRow([&](std::size_t i) { applyJointImpulse(k.rows[i], turn, k.lambda[i], a, b); });
 }
 
-/// Solves one block: motor and limit first, so that what holds the bodies together has the last
-/// word.
-inline void solveJoint(JointBlock& k, const Rotation& turn, SolverVelocity& a, SolverVelocity& b) {
-  const auto rest = [&](std::size_t i) {
-    const JointRow& r = k.rows[i];
-    return jointVelocity(r, turn, a, b) + r.bias + r.softness * k.lambda[i];
-  };
-  for (const std::size_t i : {kMotorRow, kLimitRow}) {
-    if (!(i == kMotorRow ? k.motor : k.limit)) continue;
-    const JointRow& r = k.rows[i];
-    const double x = std::clamp(k.lambda[i] - r.inv_k * rest(i), r.lower, r.upper);
-    applyJointImpulse(r, turn, x - k.lambda[i], a, b);
-    k.lambda[i] = x;
-  }
+/// What a row still wants to change [m/s, rad/s].
+inline double jointRest(const JointBlock& k, std::size_t i, const Rotation& turn,
+                        const SolverVelocity& a, const SolverVelocity& b) {
+  const JointRow& r = k.rows[i];
+  return jointVelocity(r, turn, a, b) + r.bias + r.softness * k.lambda[i];
+}
+
+/// Solves a motor or a limit.
+inline void solveJointBound(JointBlock& k, std::size_t i, const Rotation& turn, SolverVelocity& a,
+                            SolverVelocity& b) {
+  const JointRow& r = k.rows[i];
+  const double x =
+      std::clamp(k.lambda[i] - r.inv_k * jointRest(k, i, turn, a, b), r.lower, r.upper);
+  applyJointImpulse(r, turn, x - k.lambda[i], a, b);
+  k.lambda[i] = x;
+}
+
+/// Solves the rows that hold in both directions.
+inline void solveJointTogether(JointBlock& k, const Rotation& turn, SolverVelocity& a,
+                               SolverVelocity& b) {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
   const auto coupled = static_cast<std::size_t>(k.coupled);
-  for (std::size_t i = 0; i < coupled; ++i) w[static_cast<Eigen::Index>(i)] = rest(i);
+  for (std::size_t i = 0; i < coupled; ++i) {
+    w[static_cast<Eigen::Index>(i)] = jointRest(k, i, turn, a, b);
+  }
   const Eigen::Vector3d change = -(k.inverse * w);
   for (std::size_t i = 0; i < coupled; ++i) {
     const double p = change[static_cast<Eigen::Index>(i)];
     applyJointImpulse(k.rows[i], turn, p, a, b);
     k.lambda[i] += p;
   }
+}
+
+/// Solves one block: motor and limit first, so that what holds the bodies together has the last
+/// word.
+inline void solveJoint(JointBlock& k, const Rotation& turn, SolverVelocity& a, SolverVelocity& b) {
+  if (k.motor) solveJointBound(k, kMotorRow, turn, a, b);
+  if (k.limit) solveJointBound(k, kLimitRow, turn, a, b);
+  solveJointTogether(k, turn, a, b);
 }
 
 }  // namespace merge2d

@@ -7,6 +7,53 @@ namespace {
 
 bool moves(const Scratch& scratch, std::uint32_t rigid) { return scratch.u[rigid].inv_mass > 0.0; }
 
+/// Turning by less in a step, nothing bends to speak of; by more, where it goes is a guess [rad].
+constexpr double kStraight = 1e-6, kTooFast = 0.5;
+
+/// How stiffly joints pull a rigid thing back that turns or moves [N m, N/m].
+struct TautLink {
+  double turning = 0.0, moving = 0.0;
+};
+
+/// The force on b, where it acts, and how stiff a rod under tension is across itself [N/m].
+struct JointPull {
+  Vec2 at = Vec2::Zero(), force = Vec2::Zero();
+  double across = 0.0;
+};
+JointPull pullOf(const State& state, const Joint& joint) {
+  const Vec2 p_a = state.pose(joint.a) * joint.anchor_a;
+  JointPull pull{joint.to_world ? joint.anchor_b : state.pose(joint.b) * joint.anchor_b,
+                 jointForce(state, joint).force};
+  const Vec2 rod = pull.at - p_a;
+  if (joint.kind != JointKind::Distance || rod.squaredNorm() == 0.0) return pull;
+  pull.across = std::max(0.0, -pull.force.dot(rod)) / rod.squaredNorm();
+  return pull;
+}
+
+JointPlace placeIn(const State& state, const Joint& joint, const JointBlock& k) {
+  const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.rigids[k.b].x;
+  return placeOf(state, joint, {}, state.rigids[k.a].x, x_b);
+}
+
+/// Where the ends are after a step with these velocities.
+JointPlace afterStep(const JointPlace& now, const SolverVelocity& a, const SolverVelocity& b,
+                     double h) {
+  const Rotation turn_a = Rotation::of(h * a.omega), turn_b = Rotation::of(h * b.omega);
+  JointPlace then = now;
+  then.p_a = now.x_a + h * Vec2(a.vx, a.vy) + turn_a * (now.p_a - now.x_a);
+  then.p_b = now.x_b + h * Vec2(b.vx, b.vy) + turn_b * (now.p_b - now.x_b);
+  then.rotation_a = turn_a * now.rotation_a;
+  then.turn += h * (b.omega - a.omega);
+  return then;
+}
+
+/// How far a rod turns, or more [rad].
+double turnOfRod(const JointPlace& now, const JointPlace& then) {
+  const Vec2 before = now.p_b - now.p_a, after = then.p_b - then.p_a;
+  const double length = before.norm();
+  return length > 0.0 ? (after - before).norm() / length : 0.0;
+}
+
 JointBlock makeBlock(const State& state, const Scratch& scratch, const Joint& joint) {
   const std::uint32_t a = rigidIndexA(state, joint), b = rigidIndexB(state, joint);
   const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.rigids[b].x;
@@ -68,6 +115,31 @@ void uniteJoints(const State& state, Scratch& scratch) {
   }
 }
 
+void slowTautLinks(const State& state, Scratch& scratch) {
+  thread_local std::vector<TautLink> taut;  // per rigid; its memory is kept
+  taut.assign(state.rigids.size(), {});
+  for (const Joint& joint : state.joints) {
+    if (!holds(state, joint) || isInside(state, joint)) continue;
+    const JointPull pull = pullOf(state, joint);
+    const auto add = [&](std::uint32_t rigid, double sign) {
+      if (!moves(scratch, rigid)) return;
+      const Vec2 arm = pull.at - state.rigids[rigid].x;
+      taut[rigid].turning += sign * arm.dot(pull.force);
+      taut[rigid].moving += pull.across;
+      taut[rigid].turning += pull.across * arm.squaredNorm();
+    };
+    add(rigidIndexA(state, joint), -1.0);
+    if (!joint.to_world) add(rigidIndexB(state, joint), 1.0);
+  }
+  const double h2 = state.h * state.h;
+  for (const RigidId id : state.present) {
+    SolverVelocity& u = scratch.u[index(id)];
+    const TautLink& link = taut[index(id)];
+    if (link.turning * h2 * u.inv_inertia > 1.0) u.inv_inertia = 1.0 / (link.turning * h2);
+    if (link.moving * h2 * u.inv_mass > 1.0) u.inv_mass = 1.0 / (link.moving * h2);
+  }
+}
+
 void buildJointBlocks(State& state, Scratch& scratch) {
   scratch.joint_blocks.clear();
   if (scratch.joint_order.empty()) return;
@@ -95,8 +167,31 @@ void warmStartJoints(std::span<const JointBlock> joints, std::vector<SolverVeloc
   for (const JointBlock& k : joints) applyJointImpulses(k, {}, u[k.a], u[k.b]);
 }
 
-void sweepJoints(std::span<JointBlock> joints, std::vector<SolverVelocity>& u) {
-  for (JointBlock& k : joints) solveJoint(k, {}, u[k.a], u[k.b]);
+bool allowForBends(const State& state, std::span<JointBlock> joints,
+                   const std::vector<SolverVelocity>& u, std::vector<JointErrors>& bends) {
+  if (state.settings.solver.stabilisation == Stabilisation::Post) return false;
+  bool any = false;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    JointBlock& k = joints[j];
+    const SolverVelocity &a = u[k.a], &b = u[k.b];
+    const Joint& joint = state.joints[k.joint];
+    const JointPlace now = placeIn(state, joint, k), then = afterStep(now, a, b, state.h);
+    const double turn = joint.kind == JointKind::Distance
+                            ? turnOfRod(now, then)
+                            : state.h * std::max(std::abs(a.omega), std::abs(b.omega));
+    if (turn < kStraight || turn > kTooFast) continue;
+    const JointErrors before = errorsOf(joint, now), after = errorsOf(joint, then);
+    const auto allow = [&](std::size_t i) {
+      if (k.rows[i].softness > 0.0) return;
+      const double bend = (after[i] - before[i]) / state.h - jointVelocity(k.rows[i], {}, a, b);
+      k.rows[i].bias += bend - bends[j][i];
+      bends[j][i] = bend;
+      any |= bend != 0.0;
+    };
+    for (std::size_t i = 0; i < static_cast<std::size_t>(k.coupled); ++i) allow(i);
+    if (k.limit && k.lambda[kLimitRow] != 0.0) allow(kLimitRow);
+  }
+  return any;
 }
 
 void storeJointImpulses(State& state, Scratch& scratch) {

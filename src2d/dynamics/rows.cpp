@@ -32,9 +32,15 @@ void startVelocities(const State& state, Scratch& scratch) {
     const bool free = simulated(r);
     u = {r.v.x(), r.v.y(), r.omega, free ? r.inv_mass : 0.0, free ? r.inv_inertia : 0.0};
     if (!state.isCollection(id)) u.surface = state.bodies[i].surface_velocity;
-    if (!free) continue;
-    u.vx += state.h * state.gravity.x();
-    u.vy += state.h * state.gravity.y();
+  }
+  if (!state.joints.empty()) slowTautLinks(state, scratch);
+  for (const RigidId id : state.present) {
+    SolverVelocity& u = scratch.u[index(id)];
+    if (u.inv_mass == 0.0) continue;
+    const Rigid& r = state[id];
+    const double share = u.inv_mass == r.inv_mass ? 1.0 : r.mass * u.inv_mass;
+    u.vx += share * state.h * state.gravity.x();
+    u.vy += share * state.h * state.gravity.y();
   }
   for (const Load& load : scratch.loads) {
     const Rigid& r = state.rigid(load.body);

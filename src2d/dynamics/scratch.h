@@ -9,6 +9,7 @@
 #include "src2d/core/assert.h"
 #include "src2d/dynamics/collections.h"
 #include "src2d/dynamics/islands.h"
+#include "src2d/dynamics/joint_solver.h"
 #include "src2d/trace/notes.h"
 
 namespace merge2d {
@@ -219,6 +220,7 @@ struct Scratch {
   std::vector<std::uint64_t> colours;  ///< per rigid: those of its blocks, as bits
   std::vector<JointOrder> joint_order;
   std::vector<JointBlock> joint_blocks;  ///< by island
+  JointMemory joint_memory;
   std::vector<BlockOrder> block_order;
   NncgBuffers nncg;
 };

@@ -18,8 +18,13 @@ void warmStart(std::span<const ContactBlock> blocks, std::vector<SolverVelocity>
   for (const ContactBlock& k : blocks) applyImpulses(k, u[k.a], u[k.b]);
 }
 
+/// Bends change little: contacts need not find their impulses anew. The second time takes back what
+/// the first one bends.
+constexpr int kSweepsForBends = 2, kTimesForBends = 2;
+
 /// Far-away bodies do not matter: each island has its own ρ.
-SweepChange solveIsland(const SolverSettings& settings, Scratch& scratch, const Island& island) {
+SweepChange solveIsland(const State& state, Scratch& scratch, const Island& island) {
+  const SolverSettings& settings = state.settings.solver;
   const std::span blocks(scratch.blocks.data() + island.first, island.last - island.first);
   const std::span bodies(scratch.island_bodies.data() + island.first_body,
                          island.last_body - island.first_body);
@@ -36,6 +41,7 @@ SweepChange solveIsland(const SolverSettings& settings, Scratch& scratch, const 
   const std::span joints(scratch.joint_blocks.data() + island.first_joint,
                          island.last_joint - island.first_joint);
   warmStartJoints(joints, u);
+  JointSolver together(joints, u, scratch.joint_memory);
   Nncg iteration(
       blocks.size() + joints.size(),
       [&](std::size_t i) -> Impulses& {
@@ -43,11 +49,18 @@ SweepChange solveIsland(const SolverSettings& settings, Scratch& scratch, const 
       },
       bodies.size(), body,
       [&] {
-        sweepJoints(joints, u);
+        together.sweep();
         sweep(blocks, u, settings.method);
       },
       scratch.nncg);
-  return iteration.run(settings.iterations, accelerate);
+  const auto done = [&] { return blocks.empty() && together.isExact(); };
+  SweepChange change = iteration.run(settings.iterations, accelerate, done);
+  thread_local std::vector<JointErrors> bends;  // its memory is kept
+  bends.assign(joints.size(), {});
+  for (int i = 0; i < kTimesForBends && allowForBends(state, joints, u, bends); ++i) {
+    change = iteration.run(kSweepsForBends, false, done);
+  }
+  return change;
 }
 
 /// Hands the impulses back to the contacts, with the velocities that they leave.
@@ -74,8 +87,9 @@ void solveContacts(State& state, Scratch& scratch) {
   scratch.stats.contacts = 0;
   for (const ContactBlock& k : scratch.blocks) scratch.stats.contacts += k.count;
   SweepChange all;
+  scratch.joint_memory.next = 0;
   for (const Island& island : scratch.islands) {
-    const SweepChange change = solveIsland(state.settings.solver, scratch, island);
+    const SweepChange change = solveIsland(state, scratch, island);
     all.squared += change.squared;
     all.total += change.total;
   }

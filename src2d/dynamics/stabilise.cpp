@@ -42,7 +42,7 @@ void aimAtJoints(const State& state, Scratch& scratch) {
     anew.joint = k.joint;
     anew.lambda = {};
     anew.motor = false;
-    if (joint.stiffness > 0.0 || joint.broken) anew.coupled = 0;
+    if (joint.stiffness > 0.0 || joint.compliance > 0.0 || joint.broken) anew.coupled = 0;
     k = anew;
   }
 }
@@ -54,6 +54,7 @@ void solve(const State& state, Scratch& scratch, const Island& island) {
                          island.last_joint - island.first_joint);
   const std::span bodies(scratch.island_bodies.data() + island.first_body,
                          island.last_body - island.first_body);
+  JointSolver together(joints, u, scratch.joint_memory);
   Nncg iteration(
       blocks.size() + joints.size(),
       [&](std::size_t i) -> Impulses& {
@@ -61,7 +62,7 @@ void solve(const State& state, Scratch& scratch, const Island& island) {
       },
       bodies.size(), [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; },
       [&] {
-        for (JointBlock& k : joints) solveJoint(k, {}, u[k.a], u[k.b]);
+        together.sweep();
         for (ContactBlock& k : blocks) solveBlock(k, k.nx, k.ny, u[k.a], u[k.b]);
       },
       scratch.nncg);
@@ -76,6 +77,7 @@ void correctPositions(State& state, Scratch& scratch) {
   aimAtGaps(state, scratch);
   for (SolverVelocity& u : scratch.u) u.vx = u.vy = u.omega = 0.0;
   aimAtJoints(state, scratch);
+  scratch.joint_memory.next = 0;
   for (const Island& island : scratch.islands) solve(state, scratch, island);
   for (const std::uint32_t i : scratch.island_bodies) {
     const SolverVelocity& u = scratch.u[i];

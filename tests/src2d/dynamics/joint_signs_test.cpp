@@ -55,7 +55,8 @@ TEST(JointSigns, APositiveMotorTurnsCounterClockwiseAndDrivesAlongTheAxis) {
   }
 }
 
-// A motor presses against a limit of the same sign; the tolerance is what a soft limit yields.
+// A motor presses against a limit of the same sign; the tolerance is that of its
+// first touch.
 TEST(JointSigns, LimitsAreAnglesAndWaysOfTheBody) {
   const auto limited = [](double direction) {
     return std::pair(
@@ -67,12 +68,12 @@ TEST(JointSigns, LimitsAreAnglesAndWaysOfTheBody) {
       const auto [forth, up] = limited(1.0);
       World ahead = worldOf(driven(bodies, forth, up), mode, h);
       runSeconds(ahead, 2.0);
-      EXPECT_NEAR(see(ahead, "wheel").angle, 40 * kDegree, 0.5 * kDegree);
+      EXPECT_NEAR(see(ahead, "wheel").angle, 40 * kDegree, 0.1 * kDegree);
       EXPECT_NEAR(see(ahead, "slider").x.y(), 0.4, 0.005);
       const auto [back, down] = limited(-1.0);
       World behind = worldOf(driven(bodies, back, down), mode, h);
       runSeconds(behind, 2.0);
-      EXPECT_NEAR(see(behind, "wheel").angle, -10 * kDegree, 0.5 * kDegree);
+      EXPECT_NEAR(see(behind, "wheel").angle, -10 * kDegree, 0.1 * kDegree);
       EXPECT_NEAR(see(behind, "slider").x.y(), -0.1, 0.005);
     });
   }
