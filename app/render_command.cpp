@@ -15,6 +15,7 @@
 #include "app/output_file.h"
 #include "app/picture_file.h"
 #include "app/progress.h"
+#include "app/run_ahead.h"
 #include "app/simulation.h"
 #include "app/stage_rendering.h"
 #include "render/apng.h"
@@ -110,7 +111,13 @@ FrameStyle Rendering::makeStyle() const {
   style.transparent = options_.transparent;
   style.overlays = options_.overlays;
   style.mode = options_.mode;
-  adaptToScene(style, scene(), snapshot_, world().bodies());
+  const auto& bodies = world().bodies();
+  if (!fitsTheRun(scene())) {
+    adaptToScene(style, scene(), snapshot_, bodies);
+  } else {
+    adaptToScene(style, scene(), snapshot_, coverageOf(simulation_.shared(), options_.mode),
+                 bodies);
+  }
   return style;
 }
 

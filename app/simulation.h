@@ -28,9 +28,10 @@ std::int64_t stepCount(const Scene& scene);
 class Simulation {
  public:
   Simulation(std::shared_ptr<const Scene> scene, const WorldOptions& options)
-      : world_(std::move(scene), options), steps_(stepCount(world_.scene())) {}
+      : scene_(std::move(scene)), world_(scene_, options), steps_(stepCount(*scene_)) {}
 
   const World& world() const { return world_; }
+  const std::shared_ptr<const Scene>& shared() const { return scene_; }
   std::int64_t steps() const { return steps_; }
   bool done() const { return world_.steps() >= steps_; }
 
@@ -47,6 +48,7 @@ class Simulation {
   const std::vector<double>& milliseconds() const { return milliseconds_; }
 
  private:
+  std::shared_ptr<const Scene> scene_;
   World world_;
   std::int64_t steps_;
   std::vector<double> milliseconds_;

@@ -249,14 +249,21 @@ EncodedTrace encode(const Recording& recording, const Encoding& encoding) {
 
 Camera cameraOf(const Recording& recording) {
   if (recording.scene.camera) return *recording.scene.camera;
-  Snapshot initial;
-  for (std::size_t i = 0; i < recording.bodies.size(); ++i) {
-    const BodyId id{static_cast<std::uint32_t>(i)};
-    if (!recording.present(id, 0)) continue;
-    const BodyTrack& t = recording.tracks[i];
-    initial.bodies.push_back({.id = id, .x = {t.x[0], t.y[0]}, .angle = t.angle[0]});
+  constexpr std::int64_t kLooks = 500;
+  Coverage seen;
+  for (std::int64_t step = 0; step <= recording.steps;
+       step += std::max<std::int64_t>(1, recording.steps / kLooks)) {
+    Snapshot now;
+    for (std::size_t i = 0; i < recording.bodies.size(); ++i) {
+      const BodyId id{static_cast<std::uint32_t>(i)};
+      if (!recording.present(id, step)) continue;
+      const BodyTrack& t = recording.tracks[i];
+      const std::size_t at = recording.sample(id, step);
+      now.bodies.push_back({.id = id, .x = {t.x[at], t.y[at]}, .angle = t.angle[at]});
+    }
+    seen.add(now, recording.bodies);
   }
-  return fitCamera(initial, recording.bodies, kPictureAspect);
+  return fitCamera(seen, recording.bodies, kPictureAspect, recording.scene.margin);
 }
 
 }  // namespace merge2d

@@ -8,11 +8,11 @@
 namespace merge2d {
 namespace {
 
-constexpr double kMargin = 0.06;     // of the extent, on each side
 constexpr double kHuge = 2.5;        // times the rest: such a fixed body is not shown whole
 constexpr double kNear = 0.1;        // of the height: how far around the rest it is shown
 constexpr double kSpareAbove = 0.3;  // of spare room, by which the picture moves up; 0.5 is all
-constexpr double kSmallest = 1e-3;   // [m]
+constexpr double kSmallest = 1e-4;   // [m]
+constexpr double kFarthest = 10.0;   // times the size of the beginning
 
 Aabb intersection(const Aabb& a, const Aabb& b) {
   return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
@@ -26,16 +26,37 @@ Aabb bodyBounds(const BodyInfo& info, const Pose& pose) {
   return box;
 }
 
-Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, double aspect) {
+void Coverage::add(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies) {
+  bodies_.resize(bodies.size());
   const auto boxOf = [&](const BodyState& b) { return bodyBounds(bodies[index(b.id)], b.pose()); };
-  const auto dynamic = [&](const BodyState& b) {
-    return bodies[index(b.id)].motion == Motion::Dynamic;
-  };
-  Aabb moving, all;
+  if (home_.empty() && !snapshot.bodies.empty()) {
+    for (const BodyState& body : snapshot.bodies) home_.include(boxOf(body));
+    home_ = home_.grown(kFarthest * home_.extent().maxCoeff());
+  }
   for (const BodyState& body : snapshot.bodies) {
-    const Aabb box = boxOf(body);
-    all.include(box);
-    if (dynamic(body)) moving.include(box);
+    const Aabb part = intersection(boxOf(body), home_);
+    if (!part.empty() && part.lower.y() <= part.upper.y()) bodies_[index(body.id)].include(part);
+  }
+  for (const SpringView& spring : snapshot.springs) {
+    marks_.include(spring.from);
+    marks_.include(spring.to);
+  }
+  for (const JointView& joint : snapshot.joints) {
+    if (!joint.broken && joint.to_world) marks_.include(joint.to);
+  }
+}
+
+Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, double aspect,
+                 double margin) {
+  return fitCamera(Coverage(snapshot, bodies), bodies, aspect, margin);
+}
+
+Camera fitCamera(const Coverage& seen, const std::vector<BodyInfo>& bodies, double aspect,
+                 double margin) {
+  Aabb moving, all;
+  for (std::size_t i = 0; i < seen.ofBodies().size(); ++i) {
+    all.include(seen.ofBodies()[i]);
+    if (bodies[i].motion == Motion::Dynamic) moving.include(seen.ofBodies()[i]);
   }
   Aabb shown = moving.empty() ? all : moving;
   if (shown.empty()) return {};
@@ -43,23 +64,17 @@ Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, 
   // Fixed bodies of the same size belong to the scene; of larger ones what is near.
   const double size = std::max(shown.extent().maxCoeff(), kSmallest);
   const Aabb near = shown.grown(kNear * std::max(shown.extent().y(), shown.extent().x() / aspect));
-  for (const BodyState& body : snapshot.bodies) {
-    if (moving.empty() || dynamic(body)) continue;
-    const Aabb box = boxOf(body);
+  for (std::size_t i = 0; i < seen.ofBodies().size(); ++i) {
+    const Aabb& box = seen.ofBodies()[i];
+    if (moving.empty() || box.empty() || bodies[i].motion == Motion::Dynamic) continue;
     const bool huge = box.extent().maxCoeff() > kHuge * size;
     const Aabb part = huge ? intersection(box, near) : box;
     if (!part.empty() && part.lower.y() <= part.upper.y()) shown.include(part);
   }
-  for (const SpringView& spring : snapshot.springs) {
-    shown.include(spring.from);
-    shown.include(spring.to);
-  }
-  for (const JointView& joint : snapshot.joints) {
-    if (!joint.broken && joint.to_world) shown.include(joint.to);
-  }
+  shown.include(seen.ofMarks());
   const Vec2 extent = shown.extent();
-  const double needed = (1.0 + 2.0 * kMargin) * extent.y();
-  const double height = std::max({needed, (1.0 + 2.0 * kMargin) * extent.x() / aspect, kSmallest});
+  const double needed = (1.0 + 2.0 * margin) * extent.y();
+  const double height = std::max({needed, (1.0 + 2.0 * margin) * extent.x() / aspect, kSmallest});
   // In a wide scene most of the spare room is above, where things come from.
   return {shown.center() + Vec2(0.0, kSpareAbove * (height - needed)), height};
 }

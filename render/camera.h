@@ -10,9 +10,32 @@
 
 namespace merge2d {
 
+/// What the bodies cover in the course of a run.
+class Coverage {
+ public:
+  Coverage() = default;
+  Coverage(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies) { add(snapshot, bodies); }
+
+  /// What leaves by more than ten times the size of the beginning is not followed there.
+  void add(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies);
+
+  const std::vector<Aabb>& ofBodies() const { return bodies_; }  ///< by id; empty: never there
+  const Aabb& ofMarks() const { return marks_; }  ///< of springs, and of joints to the world
+
+ private:
+  std::vector<Aabb> bodies_;
+  Aabb marks_;
+  Aabb home_;  ///< empty until there are bodies
+};
+
 /// A camera that shows all dynamic bodies, and of the others as much as belongs with them: a huge
-/// ground is seen where it is near. `aspect` is width over height of the picture.
-Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, double aspect);
+/// ground is seen where it is near. `aspect` is width over height of the picture, `margin` what is
+/// free on each side, as a part of what is shown.
+inline constexpr double kUsualMargin = 0.06;
+Camera fitCamera(const Coverage& seen, const std::vector<BodyInfo>& bodies, double aspect,
+                 double margin = kUsualMargin);
+Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, double aspect,
+                 double margin = kUsualMargin);
 
 /// The world box a body covers.
 Aabb bodyBounds(const BodyInfo& info, const Pose& pose);

@@ -14,7 +14,7 @@ Drawing composeFrame(Text& text, const Snapshot& snapshot, const std::vector<Bod
                      const CollectionSlots& slots) {
   const Layout layout = layoutOf(style.width, style.height, style.overlays);
   const FrameScene scene{
-      snapshot, bodies, looks, style, slots, layout, View(style.camera, layout.panel)};
+      snapshot, bodies, looks, style, slots, layout, View(cameraAt(style, snapshot), layout.panel)};
   Drawing drawing;
   if (!style.transparent) drawing.background = style.theme.background;
   Painter painter(drawing, text);

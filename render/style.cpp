@@ -26,15 +26,39 @@ double automaticForceScale(const std::vector<BodyInfo>& bodies, double typical, 
   return 2.0 * typical / (rows * kGravity * mass / count);
 }
 
+const BodyState* find(const Snapshot& snapshot, BodyId id) {
+  const auto at = std::ranges::find(snapshot.bodies, id, &BodyState::id);
+  return at == snapshot.bodies.end() ? nullptr : &*at;
+}
+
+void followFrom(FrameStyle& style, BodyId body, const Snapshot& initial) {
+  style.followed = body;
+  if (const BodyState* at = find(initial, body)) style.followed_from = at->x;
+}
+
 }  // namespace
+
+Camera cameraAt(const FrameStyle& style, const Snapshot& now) {
+  Camera camera = style.camera;
+  const BodyState* followed = style.followed ? find(now, *style.followed) : nullptr;
+  if (followed) camera.center += followed->x - style.followed_from;
+  return camera;
+}
 
 void adaptToScene(FrameStyle& style, const Scene& scene, const Snapshot& initial,
                   const std::vector<BodyInfo>& bodies) {
+  adaptToScene(style, scene, initial, Coverage(initial, bodies), bodies);
+}
+
+void adaptToScene(FrameStyle& style, const Scene& scene, const Snapshot& initial,
+                  const Coverage& seen, const std::vector<BodyInfo>& bodies) {
   style.title = scene.title.empty() ? scene.name : scene.title;
   style.step = scene.step;
   const Layout layout = layoutOf(style.width, style.height, style.overlays);
-  style.camera = scene.camera.value_or(
-      fitCamera(initial, bodies, double{layout.panel.width} / double{layout.panel.height}));
+  const double aspect = double{layout.panel.width} / double{layout.panel.height};
+  style.camera = scene.camera.value_or(fitCamera(seen, bodies, aspect, scene.margin));
+  if (scene.follow) followFrom(style, BodyId{static_cast<std::uint32_t>(*scene.follow)}, initial);
+  if (scene.follow && !scene.camera) style.camera.center = style.followed_from;
   const double typical = BodyLooks(bodies).typical_width;
   style.force_scale = automaticForceScale(bodies, typical, style.camera.height);
   // What falls from the top of the picture to its bottom gets an arrow of a third of its height.

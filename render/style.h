@@ -1,6 +1,7 @@
 #pragma once
 /// How a run is to be drawn: what stays the same from frame to frame.
 
+#include <optional>
 #include <string>
 
 #include "render/drawing.h"
@@ -11,6 +12,8 @@
 
 namespace merge2d {
 
+class Coverage;
+
 struct FrameStyle {
   int width = 1280, height = 720;  ///< [px]
   Theme theme = lightTheme();
@@ -19,16 +22,26 @@ struct FrameStyle {
   std::string title;
   Mode mode = Mode::MergeSleep;
   Camera camera;
-  double step = 0.01;           ///< h, turns impulses into forces [s]
-  double force_scale = 0.0;     ///< length of force arrows [m/N]
-  double velocity_scale = 0.0;  ///< length of velocity arrows [m per m/s]
+  std::optional<BodyId> followed;     ///< the camera moves with it
+  Vec2 followed_from = Vec2::Zero();  ///< where it is when it is seen by `camera` [m]
+  double step = 0.01;                 ///< h, turns impulses into forces [s]
+  double force_scale = 0.0;           ///< length of force arrows [m/N]
+  double velocity_scale = 0.0;        ///< length of velocity arrows [m per m/s]
 };
 
-/// Fills in what follows from the scene: title, step, camera (the scene's, or one that fits the
-/// initial snapshot) and the arrows' scales. Set size and overlays first: the camera depends on
-/// them.
+/// Fills in what follows from the scene: title, step, camera (the scene's, or one that fits what is
+/// seen) and the arrows' scales. Set size and overlays first: the camera depends on them. A camera
+/// that moves with a body fits the beginning.
+void adaptToScene(FrameStyle& style, const Scene& scene, const Snapshot& initial,
+                  const Coverage& seen, const std::vector<BodyInfo>& bodies);
 void adaptToScene(FrameStyle& style, const Scene& scene, const Snapshot& initial,
                   const std::vector<BodyInfo>& bodies);
+
+/// True when the camera depends on what bodies cover over the run.
+inline bool fitsTheRun(const Scene& scene) { return !scene.camera && !scene.follow; }
+
+/// The camera of a frame.
+Camera cameraAt(const FrameStyle& style, const Snapshot& now);
 
 /// Where things go in the picture.
 struct Layout {

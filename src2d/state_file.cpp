@@ -34,6 +34,8 @@ std::uint64_t sceneHash(Scene scene) {
   scene.title.clear();
   scene.duration = 0.0;
   scene.camera.reset();
+  scene.follow.reset();
+  scene.margin = Scene{}.margin;
   scene.gravity = Scene{}.gravity;
   scene.step = Scene{}.step;
   scene.settings = {};

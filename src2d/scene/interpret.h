@@ -12,8 +12,11 @@ namespace merge2d {
 /// Finds bodies by name.
 using BodyNames = std::unordered_map<std::string, BodyIndex>;
 
-/// title, gravity, step, duration, seed and [camera].
+/// title, gravity, step, duration and seed.
 void readWorld(TableReader& root, Scene& scene);
+
+/// [camera], which may name a body.
+void readCamera(TableReader& root, Scene& scene, const BodyNames& names);
 
 /// [solver], [merging], [unmerging], [sleeping], [material] and [drawing].
 void readSettings(TableReader& root, Settings& settings);

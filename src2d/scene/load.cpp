@@ -103,6 +103,7 @@ Scene parseScene(std::string_view toml, const std::string& source, const Overrid
   readWorld(root, scene);
   readSettings(root, scene.settings);
   const BodyNames names = readBodies(root, scene);
+  readCamera(root, scene, names);
   readEmitters(root, scene);
   readActions(root, scene, names);
   readJoints(root, scene, names);

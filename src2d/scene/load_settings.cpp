@@ -9,14 +9,22 @@
 namespace merge2d {
 namespace {
 
-void readCamera(TableReader camera, Scene& scene) {
-  scene.camera.emplace();
-  camera.read("center", scene.camera->center, kPosition);
-  camera.read("height", scene.camera->height, kLength);
-  camera.done();
-}
+constexpr Range kMargin{0.0, 10.0, "between 0 and 10"};
 
 }  // namespace
+
+void readCamera(TableReader& root, Scene& scene, const BodyNames& names) {
+  auto camera = root.table("camera");
+  if (!camera) return;
+  if (const auto body = camera->get("follow")) scene.follow = bodyNamed(*body, scene, names);
+  const bool placed = camera->has("center"), sized = camera->has("height");
+  if (placed || sized) scene.camera.emplace();
+  if (sized && !placed && scene.follow) scene.camera->center = scene.bodies[*scene.follow].at;
+  if (placed) camera->read("center", scene.camera->center, kPosition);
+  if (sized) camera->read("height", scene.camera->height, kLength);
+  camera->read("margin", scene.margin, kMargin);
+  camera->done();
+}
 
 void readWorld(TableReader& root, Scene& scene) {
   int format = 1;
@@ -27,7 +35,6 @@ void readWorld(TableReader& root, Scene& scene) {
   root.read("step", scene.step, kStep);
   root.read("duration", scene.duration, kDuration);
   root.read("seed", scene.seed, kSeed);
-  if (const auto camera = root.table("camera")) readCamera(*camera, scene);
 }
 
 void readSettings(TableReader& root, Settings& settings) {

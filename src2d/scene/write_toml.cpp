@@ -144,10 +144,18 @@ void writeWorld(TomlText& out, const Scene& scene) {
   out.put("step", scene.step);
   out.put("duration", scene.duration);
   out.put("seed", scene.seed);
-  if (!scene.camera) return;
+}
+
+void writeCamera(TomlText& out, const Scene& scene) {
+  const double usual = Scene{}.margin;
+  if (!scene.camera && !scene.follow && scene.margin == usual) return;
   out.heading("[camera]");
-  out.put("center", scene.camera->center);
-  out.put("height", scene.camera->height);
+  if (scene.follow) out.put("follow", scene.bodies[*scene.follow].name);
+  if (scene.camera) {
+    out.put("center", scene.camera->center);
+    out.put("height", scene.camera->height);
+  }
+  out.put("margin", scene.margin, usual);
 }
 
 /// All settings as (table, key, text).
@@ -299,6 +307,7 @@ void writeEmitters(TomlText& out, const Scene& scene) {
 std::string toToml(const Scene& scene) {
   TomlText out;
   writeWorld(out, scene);
+  writeCamera(out, scene);
   writeSettings(out, scene.settings);
   writeBodies(out, scene);
   writeSprings(out, scene);

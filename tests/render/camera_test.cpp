@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/style.h"
 #include "tests/render/samples.h"
 
 namespace merge2d {
@@ -53,7 +54,7 @@ TEST(FitCamera, ShowsFixedBodiesOfTheSizeOfTheRest) {
   EXPECT_TRUE(view.visible().contains(Aabb{{-0.75, -0.5}, {0.75, 3.25}}));
 }
 
-TEST(FitCamera, DoesWithoutBodies) { EXPECT_GT(fitCamera({}, {}, 1.5).height, 0.0); }
+TEST(FitCamera, DoesWithoutBodies) { EXPECT_GT(fitCamera(Coverage(), {}, 1.5).height, 0.0); }
 
 TEST(FitCamera, WorksWithFixedBodiesAlone) {
   samples::Sample s;
@@ -61,6 +62,43 @@ TEST(FitCamera, WorksWithFixedBodiesAlone) {
   const Camera camera = fitCamera(s.snapshot, s.bodies, 1.0);
   EXPECT_NEAR(camera.center.x(), 5.0, 1e-9);
   EXPECT_NEAR(camera.height, 2.24, 0.01);
+}
+
+TEST(FitCamera, ShowsBodiesWhereverTheyGo) {
+  samples::Sample s;
+  s.box({0.0, 0.0}, 1.0, 1.0);
+  Coverage seen(s.snapshot, s.bodies);
+  s.snapshot.bodies[0].x = {6.0, -4.0};
+  seen.add(s.snapshot, s.bodies);
+  const View view(fitCamera(seen, s.bodies, 1.0), {0.0F, 0.0F, 100.0F, 100.0F});
+  EXPECT_TRUE(view.visible().contains(Aabb{{-0.5, -4.5}, {6.5, 0.5}}));
+}
+
+TEST(FitCamera, DoesNotGoAfterWhatFliesAway) {
+  samples::Sample s;
+  s.box({0.0, 0.0}, 1.0, 1.0);
+  Coverage seen(s.snapshot, s.bodies);
+  s.snapshot.bodies[0].x = {0.0, 1e6};
+  seen.add(s.snapshot, s.bodies);
+  EXPECT_LT(fitCamera(seen, s.bodies, 1.0).height, 20.0);
+}
+
+TEST(FitCamera, LeavesAMargin) {
+  samples::Sample s;
+  s.box({0.0, 0.0}, 1.0, 1.0);
+  EXPECT_NEAR(fitCamera(s.snapshot, s.bodies, 1.0, 0.25).height, 1.5, 1e-9);
+}
+
+TEST(CameraAt, MovesWithTheBodyThatItFollows) {
+  samples::Sample s;
+  s.box({2.0, 1.0}, 1.0, 1.0);
+  Scene scene;
+  scene.follow = 0;
+  FrameStyle style;
+  adaptToScene(style, scene, s.snapshot, s.bodies);
+  EXPECT_EQ(cameraAt(style, s.snapshot).center, Vec2(2.0, 1.0));
+  s.snapshot.bodies[0].x = {7.0, 3.0};
+  EXPECT_EQ(cameraAt(style, s.snapshot).center, Vec2(7.0, 3.0));
 }
 
 TEST(RoundLength, IsOneTwoOrFiveTimesAPowerOfTen) {

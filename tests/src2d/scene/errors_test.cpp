@@ -39,7 +39,7 @@ TEST(Errors, UnknownKeysAndTablesAreErrors) {
        "3:12: unknown key 'phase' in 'script' of [[body]] (it may have 'axis', 'amplitude', "
        "'period', 'keyframes', 'velocity', 'spin')"},
       {"[camera]\nzoom = 2",
-       "2:1: unknown key 'zoom' in [camera] (it may have 'center', 'height')"},
+       "2:1: unknown key 'zoom' in [camera] (it may have 'follow', 'center', 'height', 'margin')"},
       {"[[body]]\nshapes = [{ bx = [1, 1] }]",
        "2:13: unknown key 'bx' in 'shapes[0]' of [[body]] (did you mean 'box'?)"},
   });
