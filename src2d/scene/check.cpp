@@ -128,6 +128,8 @@ void checkBodyIn(const BodyDesc& body, const Home& home) {
   in.number("density", body.density, kPositive);
   in.number("friction", body.friction, kNotNegative);
   in.number("restitution", body.restitution, kFraction);
+  in.number("rolling", body.rolling, kNotNegative);
+  in.number("surface_velocity", body.surface_velocity);
   in.number("pinned_until", body.pinned_until, kNotNegative);
   if (body.script) checkScript(*body.script, in);
 }
@@ -151,6 +153,7 @@ void checkJointIn(const JointDesc& joint, const Home& home) {
   if (!isNamed(joint.kind)) in.fail("the kind is none of those that there are");
   if (joint.b == joint.a) in.fail("a joint needs two bodies, or one and the world");
   in.vector("at", joint.at, kPosition);
+  in.number("compliance", joint.compliance, kNotNegative);
   in.endless("break_force", joint.break_force, kPositive);
   in.endless("break_torque", joint.break_torque, kPositive);
   if (joint.limits) {
@@ -314,9 +317,11 @@ void checkSimulated(const Scene& scene) {
 void check(const Scene& scene) {
   const auto whole = [] { return std::string("the scene"); };
   Numbers(whole).number("duration", scene.duration, kDuration);
+  const auto home = [] { return std::string("[camera]"); };
+  const Numbers in(home);
+  in.number("margin", scene.margin, kNotNegative);
+  if (scene.follow && *scene.follow >= scene.bodies.size()) in.fail("'follow' names no body");
   if (scene.camera) {
-    const auto home = [] { return std::string("[camera]"); };
-    const Numbers in(home);
     in.vector("center", scene.camera->center, kPosition);
     in.number("height", scene.camera->height, kLength);
   }
