@@ -8,6 +8,7 @@
 #include "app/console.h"
 #include "app/doubts.h"
 #include "app/json.h"
+#include "app/load_doubts.h"
 #include "app/output_file.h"
 #include "app/simulation.h"
 #include "app/usage_error.h"
@@ -136,6 +137,8 @@ void validate(const ValidateOptions& options) {
   warnOfHaste(scene);
   warnOfWhatDoesNothing(scene);
   warnOfStrainedJoints(scene);
+  warnOfSmallBodies(scene);
+  warnOfHeavyLoads(scene);
   const Inventory found = inventoryOf(scene);
   if (!options.to.empty()) writeFile(options.to, toToml(scene), {.everything = options.force});
   if (options.json) {

@@ -26,21 +26,21 @@ double automaticForceScale(const std::vector<BodyInfo>& bodies, double typical, 
   return 2.0 * typical / (rows * kGravity * mass / count);
 }
 
-const BodyState* find(const Snapshot& snapshot, BodyId id) {
+const BodyState* bodyIn(const Snapshot& snapshot, BodyId id) {
   const auto at = std::ranges::find(snapshot.bodies, id, &BodyState::id);
   return at == snapshot.bodies.end() ? nullptr : &*at;
 }
 
 void followFrom(FrameStyle& style, BodyId body, const Snapshot& initial) {
   style.followed = body;
-  if (const BodyState* at = find(initial, body)) style.followed_from = at->x;
+  if (const BodyState* at = bodyIn(initial, body)) style.followed_from = at->x;
 }
 
 }  // namespace
 
 Camera cameraAt(const FrameStyle& style, const Snapshot& now) {
   Camera camera = style.camera;
-  const BodyState* followed = style.followed ? find(now, *style.followed) : nullptr;
+  const BodyState* followed = style.followed ? bodyIn(now, *style.followed) : nullptr;
   if (followed) camera.center += followed->x - style.followed_from;
   return camera;
 }

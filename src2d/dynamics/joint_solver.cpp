@@ -7,7 +7,7 @@ namespace {
 
 /// A pivot below this part of its row's own K says nothing new, and the row then gets this part of
 /// K as softness.
-constexpr double kDependent = 1e-10, kSoftened = 1e-4;
+constexpr double kDependent = 1e-13, kSoftened = 1e-4;
 
 bool isInsideBounds(const JointBlock& k, std::size_t i) {
   return k.lambda[i] > k.rows[i].lower && k.lambda[i] < k.rows[i].upper;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <utility>
 
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/solver.h"
+#include "src2d/scene/compliance.h"
 
 namespace merge2d {
 namespace {
@@ -155,8 +157,9 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
   BlockGeometry g;
   g.normal = pose_a.rotation * contact.normal;
   g.count = source.count();
-  g.softness = contactSoftness(settings, ownInverseMass(state, contact.key.a),
-                               ownInverseMass(state, contact.key.b));
+  g.softness =
+      contactSoftness(state, contact.key.a, contact.key.b, ownInverseMass(state, contact.key.a),
+                      ownInverseMass(state, contact.key.b));
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 position = pose_a * state.contacts.point(source.points[i]).position;
     g.arm_a[i] = position - a.x;
@@ -241,9 +244,22 @@ double contactBias(const SolverSettings& settings, double h, double gap, bool bi
   return std::max(settings.erp * gap / h, -settings.max_correction);
 }
 
-double contactSoftness(const SolverSettings& settings, double inv_mass_a, double inv_mass_b) {
-  if (settings.stabilisation == Stabilisation::Post) return 0.0;
-  return settings.compliance * (inv_mass_a + inv_mass_b);
+double contactSize(const State& state, BodyId a, BodyId b) {
+  double size = std::numeric_limits<double>::infinity();
+  for (const BodyId body : {a, b}) {
+    if (!state.responds(body)) continue;
+    size = std::min(size, 2.0 * state.extent(rigidOf(body)).box.half.minCoeff());
+  }
+  return size;
+}
+
+double contactSoftness(const State& state, BodyId a, BodyId b, double inv_mass_a,
+                       double inv_mass_b) {
+  if (state.settings.solver.stabilisation == Stabilisation::Post) return 0.0;
+  const double fall = state.gravity.norm() * state.h * state.h;
+  const double size = contactSize(state, a, b);
+  const double compliance = complianceFor(state.settings.solver, size, fall);
+  return compliance * (inv_mass_a + inv_mass_b);
 }
 
 void buildRows(State& state, Scratch& scratch) {

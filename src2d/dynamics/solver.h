@@ -12,12 +12,19 @@
 
 namespace merge2d {
 
-/// The softness C [1/kg] and the velocity [m/s] with which a gap is to be closed or an overlap
-/// removed, at a contact with `gap` [m].
+/// The velocity [m/s] with which a gap is to be closed or an overlap removed, at a contact with
+/// `gap` [m].
 /// A `bilateral` one closes its gap no faster than an overlap is removed, or a magnet would answer
 /// a gap that opens with a blow. Guarded by Magnet.AddsNoEnergyToWhatSpinsPast.
 double contactBias(const SolverSettings& settings, double h, double gap, bool bilateral);
-double contactSoftness(const SolverSettings& settings, double inv_mass_a, double inv_mass_b);
+
+/// The smaller side of the smaller of two bodies, of those that respond to forces [m].
+double contactSize(const State& state, BodyId a, BodyId b);
+
+/// The softness C [1/kg] of the contacts of two bodies with these masses (scene/compliance.h).
+/// Guarded by Sizes.StacksOfAnySizeStandAsHighAsTheyAre.
+double contactSoftness(const State& state, BodyId a, BodyId b, double inv_mass_a,
+                       double inv_mass_b);
 
 /// Sets up the velocities u₋ + h M⁻¹ f and the rows of all contacts in B, with the impulses of the
 /// last step as a start.

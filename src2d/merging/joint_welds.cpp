@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src2d/dynamics/solver.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/grip.h"
 #include "src2d/merging/merge.h"
@@ -200,10 +201,12 @@ void countQuietJoints(State& state, Scratch& scratch) {
     if (hasBelt(state, joint.a, joint.b)) continue;
     const auto [first, second] = pairOf(joint);
     const double motion = relativeMotion(state, {first, second, 0, 0}, scratch.notes);
-    const bool quiet = joint.breath < m.breathing && motion < m.velocity;
+    const double scale = thresholdScale(contactSize(state, joint.a, joint.b));
+    const double breathing = scale * m.breathing, velocity = scale * m.velocity;
+    const bool quiet = joint.breath < breathing && motion < velocity;
     const int now = quiet ? joint.quiet_steps + 1 : 0;
-    record(scratch, joint, "breathing", "Section 5.3", joint.breath, m.breathing, now, m.steps);
-    record(scratch, joint, "relative-motion", "(17)", motion, m.velocity, now, m.steps);
+    record(scratch, joint, "breathing", "Section 5.3", joint.breath, breathing, now, m.steps);
+    record(scratch, joint, "relative-motion", "(17)", motion, velocity, now, m.steps);
     joint.yielded = {};
     joint.quiet_steps = now;
   }

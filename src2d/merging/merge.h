@@ -5,9 +5,18 @@
 /// cone is not ready (it is about to slide), and a pair with a single contact is welded only as
 /// part of a rigid group. Guarded by tests/src2d/merging/merge_test.cpp.
 
+#include <algorithm>
+
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
+
+/// The part of the thresholds that holds for things of a size [m]: a hundredth of a metre per
+/// second is little for a brick, and a hundred times its size for a grain of 0.1 mm.
+inline double thresholdScale(double size) {
+  constexpr double kUsual = 0.1;  // [m]
+  return std::min(1.0, size / kUsual);
+}
 
 /// Eq. (15); the box of what is fixed to the world or to a script is not looked at [m/s]. With
 /// `merging.metric = "naive"` only the contacts of a pair are.

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "src2d/dynamics/solver.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/rule.h"
@@ -82,17 +83,20 @@ bool PairTest::ready() {
   const PairContacts seen = lookAt(state_, pair_);
   bool ok = seen.active > 0;
   if (!ok) return note("pressed", "Section 5.3", seen.active, 1.0, false);
-  const bool loud = seen.fastest_slip >= m.sliding || seen.largest_breath >= m.breathing;
+  const double scale = thresholdScale(contactSize(state_, pair_.a, pair_.b));
+  const bool loud =
+      seen.fastest_slip >= scale * m.sliding || seen.largest_breath >= scale * m.breathing;
   if (loud && !notes_) return false;  // what takes longer to find out need not be asked
   if (mergingMethod(state_).refuses_edge) {
     const bool slides = seen.on_edge == seen.active && aboutToSlide(state_, pair_);
     ok &= note("edge", "(20)", seen.on_edge, seen.active, !slides);
   }
   if (!ok && !notes_) return false;
-  ok &= below("sliding", "(18)", seen.fastest_slip, m.sliding);
-  ok &= below("breathing", "Section 5.3", seen.largest_breath, m.breathing);
+  ok &= below("sliding", "(18)", seen.fastest_slip, scale * m.sliding);
+  ok &= below("breathing", "Section 5.3", seen.largest_breath, scale * m.breathing);
   if (!ok && !notes_) return false;
-  return below("relative-motion", "(17)", relativeMotion(state_, pair_, notes_), m.velocity) && ok;
+  const double motion = relativeMotion(state_, pair_, notes_);
+  return below("relative-motion", "(17)", motion, scale * m.velocity) && ok;
 }
 
 void PairTest::noteCount(int before, int now) const {

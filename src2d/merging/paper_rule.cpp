@@ -20,8 +20,9 @@ Rotation asItIs(const Rigid& collection) { return collection.rotation; }
 InnerRows softRows(const State& state, const InternalContact& contact, const SolverVelocity& a,
                    const SolverVelocity& b) {
   const SolverSettings& settings = state.settings.solver;
-  const bool bilateral = isBilateral(state, contact.key.a, contact.key.b);
-  InnerRows rows{.softness = contactSoftness(settings, a.inv_mass, b.inv_mass)};
+  const ContactKey& key = contact.key;
+  const bool bilateral = isBilateral(state, key.a, key.b);
+  InnerRows rows{.softness = contactSoftness(state, key.a, key.b, a.inv_mass, b.inv_mass)};
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
     rows.bias[i] = contactBias(settings, state.h, contact.gap[i], bilateral);
   }

@@ -128,11 +128,11 @@ const std::vector<Ties>& listTies(const State& state, const Scratch& scratch) {
 
 /// The largest change of velocity in a step of what is in balance, at its corners [m/s]. Where no
 /// force is found by iteration the loads cancel but for rounding.
-double largestGain(const State& state, const Ties& ties) {
+double largestGain(const State& state, const Ties& ties, double velocity) {
   constexpr double kRounding = 1e-6, kSmallest = 1e-9;  // of gravity, and [m/s²]
   const SleepingSettings& sleeping = state.settings.sleeping;
   if (sleeping.time == 0.0) return kForever;
-  if (ties.held) return sleeping.velocity * state.h / sleeping.time;
+  if (ties.held) return velocity * state.h / sleeping.time;
   return state.h * (kSmallest + kRounding * state.gravity.norm());
 }
 
@@ -149,7 +149,8 @@ void countQuietRigids(State& state, Scratch& scratch) {
     if (r.asleep) continue;
     const OrientedBox box = worldBox(state, r);
     const double motion = fastestCorner(box, fieldOf(r), still);
-    r.slow_steps = motion < sleeping.velocity ? r.slow_steps + 1 : 0;
+    const double velocity = sleeping.velocity * thresholdScale(2.0 * box.half.minCoeff());
+    r.slow_steps = motion < velocity ? r.slow_steps + 1 : 0;
     const bool slow = r.slow_steps > 0;
     if (!slow && !scratch.notes) {  // what takes longer to find out need not be asked
       r.quiet_steps = 0;
@@ -158,7 +159,7 @@ void countQuietRigids(State& state, Scratch& scratch) {
     const Ties& ties = all_ties[index(id)];
     const auto& gained = scratch.u[index(id)].gained;
     const double gain = fastestCorner(box, {r.x, {gained[0], gained[1]}, gained[2]}, still);
-    const double largest = largestGain(state, ties);
+    const double largest = largestGain(state, ties, velocity);
     const bool balanced = gain <= largest, lasts = r.slow_steps * state.h >= sleeping.time;
     const bool at_rest =
         ties.held ? lasts || (balanced && !ties.loaded) : balanced && (lasts || !ties.loaded);
@@ -179,7 +180,7 @@ void countQuietRigids(State& state, Scratch& scratch) {
                                           .verdict = below ? "below" : "awake",
                                           .before = before});
     };
-    note("rest", motion, sleeping.velocity, slow);
+    note("rest", motion, velocity, slow);
     if (slow && sleeping.time > 0.0) note("balance", gain, largest, at_rest);
   }
 }

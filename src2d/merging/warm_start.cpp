@@ -75,7 +75,7 @@ void addOuterContact(const State& state, ContactTable::Slot slot, Scratch& scrat
   BlockGeometry g;
   g.normal = pose_a.rotation * contact.normal;
   g.count = contact.count;
-  g.softness = contactSoftness(settings, ua.inv_mass, ub.inv_mass);
+  g.softness = contactSoftness(state, a, b, ua.inv_mass, ub.inv_mass);
   SweepContact outer{.slot = slot, .block = {}};
   ContactBlock& k = outer.block;
   k.bilateral = isBilateral(state, a, b);

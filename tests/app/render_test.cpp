@@ -301,7 +301,7 @@ TEST_F(Render, AFailureOfFfmpegLeavesTheFramesOnly) {
 TEST_F(Render, KeepsWhatItHasWhenTheSimulationFails) {
   write("wild.toml", kDiverging);
   const Outcome outcome =
-      run({"render", "wild.toml", "-r", "64x48", "--fps", "1", "-o", "wild", "--quiet"});
+      run({"render", "wild.toml", "-r", "64x48", "--fps", "10", "-o", "wild", "--quiet"});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.out, IsEmpty());
   EXPECT_THAT(files("wild"), Contains("frame_000010.png"));

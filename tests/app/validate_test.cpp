@@ -159,6 +159,31 @@ force = [0, 0]
       Json(expected));
 }
 
+TEST_F(Validate, WarnsOfALoadThatIsTooHeavyForAContact) {
+  const auto warnings = [&](double mass) {
+    write("heavy.toml", fmt::format("[[body]]\nname = \"ground\"\nmotion = \"pinned\"\n"
+                                    "at = [0, -0.5]\nbox = [40, 1]\n[[body]]\nname = \"light\"\n"
+                                    "at = [0, 0.5]\nbox = [1, 1]\nmass = 1\n[[body]]\n"
+                                    "name = \"heavy\"\nat = [0, 1.5]\nbox = [1, 1]\nmass = {}\n",
+                                    mass));
+    return run({"validate", "heavy.toml", "--json"}).json()["warnings"];
+  };
+  const Json found = warnings(1000);
+  ASSERT_EQ(found.size(), 1u);
+  // 0.009 · 9,810 N / 2 · h² / 0.05
+  EXPECT_THAT(found[0].get<std::string>(), HasSubstr("pushes them 0.088 m into each other"));
+  EXPECT_THAT(warnings(10), IsEmpty());
+}
+
+TEST_F(Validate, WarnsOfBodiesThatFallByMoreThanTheirSizeInAStep) {
+  write("grain.toml", "[[body]]\nname = \"grain\"\ncircle = 0.0001\n");
+  EXPECT_EQ(run({"validate", "grain.toml", "--json"}).json()["warnings"],
+            Json(Words{"'grain' is 0.0002 m small and falls by 0.00098 m in a step: a smaller step "
+                       "shows more"}));
+  EXPECT_THAT(run({"validate", "grain.toml", "--json", "--set", "step=0.001"}).json()["warnings"],
+              IsEmpty());
+}
+
 TEST_F(Validate, WarnsOfJointsThatPullAtTheStart) {
   const auto warnings = [&](const std::string& joint) {
     write("joint.toml",
