@@ -181,9 +181,20 @@ void fields(Ar& ar, Some<Witness> auto& w) {
   ar(frame, outer, lambda);
 }
 template <class Ar>
+void fields(Ar& ar, Some<NncgBuffers> auto& m) {
+  auto& [before, direction, u_before, u_direction, previous] = m;
+  ar(before, direction, u_before, u_direction, previous);
+}
+template <class Ar>
+void fields(Ar& ar, Some<ProofSearch> auto& s) {
+  auto& [load, start, nncg, way, ahead] = s;
+  ar(load, start, nncg, way, ahead);
+}
+template <class Ar>
 void fields(Ar& ar, Some<LoadCertificate> auto& c) {
-  auto& [columns, witnesses, gram, weights, heaviest, lambda_stale, push_stale, in_doubt] = c;
-  ar(columns, witnesses, gram, weights, heaviest, lambda_stale, push_stale, in_doubt);
+  auto& [columns, witnesses, gram, weights, heaviest, lambda_stale, in_doubt, moves, since,
+         search] = c;
+  ar(columns, witnesses, gram, weights, heaviest, lambda_stale, in_doubt, moves, since, search);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {

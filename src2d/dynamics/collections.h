@@ -145,11 +145,27 @@ struct BlockWatch {
 /// across; and the spin times the size. Linear, so that loads add up [m/s].
 using FrameLoad = std::array<double, 5>;
 
+/// Memory of the conjugate gradient (dynamics/nncg.h), kept between calls.
+struct NncgBuffers {
+  std::vector<Impulses> before, direction;   ///< per block
+  std::vector<Twist> u_before, u_direction;  ///< per body
+  double previous = 0.0;                     ///< change of the last sweep but one, squared
+};
+
 /// A load that the contacts inside were found to carry without relative motion, and their impulses.
 struct Witness {
   FrameLoad frame{};
   std::vector<Twist> outer;      ///< per column of the certificate; the spin times the size
   std::vector<Impulses> lambda;  ///< per block, then per joint
+};
+
+/// A search for the impulses that carry a load, over several steps.
+struct ProofSearch {
+  Witness load;              ///< with the impulses found so far
+  std::vector<Twist> start;  ///< per member: the velocity that the load gives; empty: no search
+  NncgBuffers nncg;          ///< of the sweeps so far
+  double way = 0.0;          ///< from where it began, if ahead
+  bool ahead = false;        ///< beyond the loads that there were: nothing depends on it
 };
 
 /// Proofs that a collection holds (merging/load_certificate.h).
@@ -164,8 +180,10 @@ struct LoadCertificate {
   /// Of a floating collection: the member whose rows follow from those of the others.
   std::uint32_t heaviest = ~0u;
   bool lambda_stale = false;  ///< blocks and joints hold other impulses than the weights say
-  bool push_stale = false;    ///< Collection::push is not that of the impulses
-  bool in_doubt = true;       ///< no proof has been found yet for the load
+  bool in_doubt = true;       ///< a proof must be sought, whatever the load
+  bool moves = false;         ///< a search has found motion: the full solve is to say what moves
+  std::int64_t since = 0;     ///< step in which the collection was laid out
+  ProofSearch search;
 };
 
 /// Bodies simulated as one (Section 4).

@@ -233,6 +233,22 @@ inline void solveRows(ContactBlock& k, double nx, double ny, SolverVelocity& a, 
   if (k.rolls()) applyRolling(solveRolling(k, b.omega - a.omega, a, b), a, b);
 }
 
+/// The change that one more solve of its rows would make, as a velocity [m/s].
+inline double residualOf(const ContactBlock& k, double nx, double ny, const SolverVelocity& a,
+                         const SolverVelocity& b) {
+  double most = 0.0;
+  for (int i = 0; i < k.count; ++i) {
+    const ContactVelocity w = contactVelocity(k, i, nx, ny, a, b);
+    const double kn = i == 0 ? k.k11 : k.k22;
+    double x = k.lambda_n(i) - (w.n + k.bias[i] + k.softness * k.lambda_n(i)) / kn;
+    if (!k.bilateral) x = std::max(0.0, x);
+    const double y = solveTangent(k, i, w.t);
+    most = std::max(
+        {most, std::abs(x - k.lambda_n(i)) * kn, std::abs(y - k.lambda_t(i)) / k.inv_kt[i]});
+  }
+  return most;
+}
+
 /// Where a manifold acts: what a block is made from.
 struct BlockGeometry {
   Vec2 normal = Vec2::UnitX();

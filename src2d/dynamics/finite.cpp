@@ -45,7 +45,7 @@ class Report {
 
 /// What the sweep left of the members that it swept.
 void checkSweep(const State& state, const Scratch& scratch, const Report& report) {
-  if (!scratch.sweeping) return;
+  if (scratch.last_sweep != state.step) return;
   for (const Collection& c : state.collections) {
     if (c.id == kNoCollection || state[c.rigid].asleep) continue;
     for (const BodyId b : c.members) {

@@ -54,11 +54,26 @@ double turnOfRod(const JointPlace& now, const JointPlace& then) {
   return length > 0.0 ? (after - before).norm() / length : 0.0;
 }
 
+std::uint32_t moverA(const State& state, const Scratch& scratch, const Joint& joint) {
+  return static_cast<std::uint32_t>(moverOf(state, scratch, joint.a));
+}
+std::uint32_t moverB(const State& state, const Scratch& scratch, const Joint& joint) {
+  if (joint.to_world) return static_cast<std::uint32_t>(state.rigids.size());
+  return static_cast<std::uint32_t>(moverOf(state, scratch, joint.b));
+}
+
+/// Inside a collection that is not open.
+bool isHidden(const State& state, const Scratch& scratch, const Joint& joint) {
+  const auto open = [&](BodyId b) { return !scratch.open.empty() && scratch.open[index(b)] != 0; };
+  return isInside(state, joint) && !open(joint.a) && (joint.to_world || !open(joint.b));
+}
+
 JointBlock makeBlock(const State& state, const Scratch& scratch, const Joint& joint) {
-  const std::uint32_t a = rigidIndexA(state, joint), b = rigidIndexB(state, joint);
+  const std::uint32_t a = moverA(state, scratch, joint), b = moverB(state, scratch, joint);
   const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.rigids[b].x;
   const JointPlace place = placeOf(state, joint, {}, state.rigids[a].x, x_b);
-  JointBlock k = makeJointBlock(state, joint, place, JointRows::Soft, scratch.u[a], scratch.u[b]);
+  const JointRows rows = isInside(state, joint) ? JointRows::Rigid : JointRows::Soft;
+  JointBlock k = makeJointBlock(state, joint, place, rows, scratch.u[a], scratch.u[b]);
   k.a = a;
   k.b = b;
   return k;
@@ -106,8 +121,8 @@ void uniteJoints(const State& state, Scratch& scratch) {
   scratch.joint_order.clear();
   for (std::uint32_t i = 0; i < state.joints.size(); ++i) {
     const Joint& joint = state.joints[i];
-    if (!holds(state, joint) || isInside(state, joint)) continue;
-    const std::uint32_t a = rigidIndexA(state, joint), b = rigidIndexB(state, joint);
+    if (!holds(state, joint) || isHidden(state, scratch, joint)) continue;
+    const std::uint32_t a = moverA(state, scratch, joint), b = moverB(state, scratch, joint);
     const bool a_moves = moves(scratch, a), b_moves = moves(scratch, b);
     if (!a_moves && !b_moves) continue;
     if (a_moves && b_moves) scratch.sets.unite(a, b);
@@ -119,7 +134,7 @@ void slowTautLinks(const State& state, Scratch& scratch) {
   thread_local std::vector<TautLink> taut;  // per rigid; its memory is kept
   taut.assign(state.rigids.size(), {});
   for (const Joint& joint : state.joints) {
-    if (!holds(state, joint) || isInside(state, joint)) continue;
+    if (!holds(state, joint) || isHidden(state, scratch, joint)) continue;
     const JointPull pull = pullOf(state, joint);
     const auto add = [&](std::uint32_t rigid, double sign) {
       if (!moves(scratch, rigid)) return;
@@ -128,8 +143,8 @@ void slowTautLinks(const State& state, Scratch& scratch) {
       taut[rigid].moving += pull.across;
       taut[rigid].turning += pull.across * arm.squaredNorm();
     };
-    add(rigidIndexA(state, joint), -1.0);
-    if (!joint.to_world) add(rigidIndexB(state, joint), 1.0);
+    add(moverA(state, scratch, joint), -1.0);
+    if (!joint.to_world) add(moverB(state, scratch, joint), 1.0);
   }
   const double h2 = state.h * state.h;
   for (const RigidId id : state.present) {

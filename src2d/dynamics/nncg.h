@@ -43,20 +43,36 @@ class Nncg {
     m_.u_before.resize(std::max(m_.u_before.size(), bodies));
     m_.direction.resize(m_.before.size());
     m_.u_direction.resize(m_.u_before.size());
-    std::fill_n(m_.direction.begin(), blocks, Impulses{});
-    std::fill_n(m_.u_direction.begin(), bodies, Twist{});
   }
 
   SweepChange run(int sweeps, bool accelerate) {
     return run(sweeps, accelerate, [] { return false; });
   }
 
+  /// Accelerated sweeps that go on from the last ones, over the same blocks with the same buffers.
+  template <class Enough>
+  SweepChange resume(int sweeps, Enough&& enough) {
+    const double squared = changeSince().squared;
+    if (m_.previous == 0.0 || squared == 0.0) return run(sweeps, true, enough);
+    step(squared / m_.previous);
+    return iterate(sweeps, true, squared, enough);
+  }
+
   /// The same, but for ending after a sweep upon which `enough()`.
   template <class Enough>
   SweepChange run(int sweeps, bool accelerate, Enough&& enough) {
-    SweepChange change;
-    double previous = 0.0;
+    std::fill_n(m_.direction.begin(), blocks_, Impulses{});
+    std::fill_n(m_.u_direction.begin(), bodies_, Twist{});
     if (accelerate) remember();
+    return iterate(sweeps, accelerate, 0.0, enough);
+  }
+
+  int done() const { return done_; }  ///< sweeps of the last run
+
+ private:
+  template <class Enough>
+  SweepChange iterate(int sweeps, bool accelerate, double previous, Enough&& enough) {
+    SweepChange change;
     for (int k = 0; k < sweeps; ++k) {
       if (!accelerate) remember();
       sweep_();
@@ -64,16 +80,14 @@ class Nncg {
       const bool last = done_ == sweeps || enough();
       if (!accelerate && !last) continue;
       change = changeSince();
+      m_.previous = previous;
       if (last || change.squared == 0.0) break;
-      step(k == 0 ? 0.0 : change.squared / previous);
+      step(previous == 0.0 ? 0.0 : change.squared / previous);
       previous = change.squared;
     }
     return change;
   }
 
-  int done() const { return done_; }  ///< sweeps of the last run
-
- private:
   void remember() {
     for (std::size_t i = 0; i < blocks_; ++i) m_.before[i] = impulses_(i);
     for (std::size_t i = 0; i < bodies_; ++i) {

@@ -44,17 +44,25 @@ void startVelocities(const State& state, Scratch& scratch) {
     u.vx += share * state.h * state.gravity.x();
     u.vy += share * state.h * state.gravity.y();
   }
+  for (const BodyId b : scratch.open_members) {
+    const Rigid& r = state[rigidOf(b)];
+    scratch.u[index(b)] = {r.v.x() + state.h * state.gravity.x(),
+                           r.v.y() + state.h * state.gravity.y(), r.omega, 1.0 / state[b].mass,
+                           1.0 / state[b].inertia};
+  }
   for (const Load& load : scratch.loads) {
-    const Rigid& r = state.rigid(load.body);
-    SolverVelocity& u = scratch.u[index(state[load.body].rigid)];
+    const RigidId mover = moverOf(state, scratch, load.body);
+    const Rigid& r = state[mover];
+    SolverVelocity& u = scratch.u[index(mover)];
     const double torque = load.torque + cross(state.pose(load.body).position - r.x, load.force);
     u.vx += state.h * u.inv_mass * load.force.x();
     u.vy += state.h * u.inv_mass * load.force.y();
     u.omega += state.h * u.inv_inertia * torque;
   }
   for (const Kick& kick : scratch.kicks) {
-    const Rigid& r = state.rigid(kick.body);
-    SolverVelocity& u = scratch.u[index(state[kick.body].rigid)];
+    const RigidId mover = moverOf(state, scratch, kick.body);
+    const Rigid& r = state[mover];
+    SolverVelocity& u = scratch.u[index(mover)];
     u.vx += u.inv_mass * kick.impulse.x();
     u.vy += u.inv_mass * kick.impulse.y();
     u.omega += u.inv_inertia * cross(kick.at - r.x, kick.impulse);
@@ -86,8 +94,8 @@ double restitutionBias(const State& state, const Contact& contact, ContactPoint&
 
 /// The points of one pair of bodies, two to a block where they share a normal.
 void listSources(const State& state, const BodyPair& pair, Scratch& scratch) {
-  const RigidId a = state[pair.a].rigid, b = state[pair.b].rigid;
-  if (!simulated(state[a]) && !simulated(state[b])) return;
+  const RigidId a = moverOf(state, scratch, pair.a), b = moverOf(state, scratch, pair.b);
+  if (scratch.u[index(a)].inv_mass == 0.0 && scratch.u[index(b)].inv_mass == 0.0) return;
   auto& sources = scratch.row_sources;
   const std::size_t first = sources.size();
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
@@ -107,12 +115,38 @@ void listSources(const State& state, const BodyPair& pair, Scratch& scratch) {
   }
 }
 
+/// The contacts inside the collections that are open.
+void listInnerSources(const State& state, Scratch& scratch) {
+  if (scratch.open.empty()) return;
+  for (std::uint32_t slot = 0; slot < state.collections.size(); ++slot) {
+    const Collection& c = state.collections[slot];
+    if (c.id == kNoCollection || !scratch.open[index(c.members.front())]) continue;
+    for (std::uint32_t block = 0; block < c.blocks.size(); ++block) {
+      scratch.row_sources.push_back(RowSource::inside(slot, block));
+    }
+  }
+}
+
 struct RowEnds {
   RigidId a{}, b{};
 };
-RowEnds endsOf(const State& state, const RowSource& source) {
+RowEnds endsOf(const State& state, const Scratch& scratch, const RowSource& source) {
+  if (source.isInner()) {
+    const ContactBlock& k = state.collections[source.slot()].blocks[source.block()];
+    return {RigidId{k.a}, RigidId{k.b}};
+  }
   const ContactKey& key = state.contacts.contactOf(source.points[0]).key;
-  return {state[key.a].rigid, state[key.b].rigid};
+  return {moverOf(state, scratch, key.a), moverOf(state, scratch, key.b)};
+}
+
+/// A block of a collection, turned into the world.
+ContactBlock innerBlock(const State& state, const RowSource& source) {
+  const Collection& c = state.collections[source.slot()];
+  ContactBlock k = c.blocks[source.block()];
+  const Vec2 n = state[c.rigid].rotation * Vec2(k.nx, k.ny);
+  k.nx = n.x();
+  k.ny = n.y();
+  return k;
 }
 
 /// Orders the blocks by island and, inside it, by colour: blocks of one colour share no body, so
@@ -122,7 +156,7 @@ void orderBlocks(const State& state, Scratch& scratch) {
   sets.reset(state.rigids.size());
   const auto moves = [&](RigidId id) { return scratch.u[index(id)].inv_mass > 0.0; };
   for (const RowSource& source : scratch.row_sources) {
-    const auto [a, b] = endsOf(state, source);
+    const auto [a, b] = endsOf(state, scratch, source);
     if (moves(a) && moves(b)) {
       sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
     }
@@ -133,7 +167,7 @@ void orderBlocks(const State& state, Scratch& scratch) {
   reserveTightly(scratch.block_order, scratch.row_sources.size());
   scratch.block_order.resize(scratch.row_sources.size());
   for (std::uint32_t i = 0; i < scratch.row_sources.size(); ++i) {
-    const RowEnds ends = endsOf(state, scratch.row_sources[i]);
+    const RowEnds ends = endsOf(state, scratch, scratch.row_sources[i]);
     const bool a_moves = moves(ends.a), b_moves = moves(ends.b);
     std::uint64_t &a = scratch.colours[index(ends.a)], &b = scratch.colours[index(ends.b)];
     const std::uint64_t used = (a_moves ? a : 0) | (b_moves ? b : 0);
@@ -148,9 +182,10 @@ void orderBlocks(const State& state, Scratch& scratch) {
 
 /// The rows of one block, with the impulses of the last step as a start.
 ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& source) {
+  if (source.isInner()) return innerBlock(state, source);
   const Contact& contact = state.contacts.contactOf(source.points[0]);
   const Pose pose_a = state.pose(contact.key.a);
-  const RowEnds ends = endsOf(state, source);
+  const RowEnds ends = endsOf(state, scratch, source);
   const Rigid &a = state[ends.a], &b = state[ends.b];
   const auto count = static_cast<std::size_t>(source.count());
   const SolverSettings& settings = state.settings.solver;
@@ -208,6 +243,15 @@ void buildBlocks(State& state, Scratch& scratch) {
 }
 
 /// The bodies of each island, so that sweeps of one island touch nothing else.
+template <class Visit>
+void forEachMover(const State& state, const Scratch& scratch, Visit&& visit) {
+  const auto ask = [&](std::uint32_t r) {
+    if (scratch.u[r].inv_mass != 0.0 && scratch.colours[r] != 0) visit(r);
+  };
+  for (const RigidId id : state.present) ask(static_cast<std::uint32_t>(id));
+  for (const BodyId b : scratch.open_members) ask(static_cast<std::uint32_t>(b));
+}
+
 void listIslandBodies(const State& state, Scratch& scratch) {
   auto& island_of = scratch.island_of;
   island_of.assign(state.rigids.size(), -1);
@@ -215,12 +259,10 @@ void listIslandBodies(const State& state, Scratch& scratch) {
     island_of[scratch.islands[i].root] = static_cast<std::int32_t>(i);
   }
   for (auto& island : scratch.islands) island.first_body = island.last_body = 0;
-  for (const RigidId id : state.present) {
-    const auto r = static_cast<std::uint32_t>(id);
-    if (scratch.u[r].inv_mass == 0.0 || scratch.colours[r] == 0) continue;
+  forEachMover(state, scratch, [&](std::uint32_t r) {
     island_of[r] = island_of[scratch.sets.find(r)];
     ++scratch.islands[static_cast<std::size_t>(island_of[r])].last_body;
-  }
+  });
   std::uint32_t begin = 0;
   for (auto& island : scratch.islands) {
     const std::uint32_t count = island.last_body;
@@ -228,12 +270,10 @@ void listIslandBodies(const State& state, Scratch& scratch) {
     begin += count;
   }
   scratch.island_bodies.resize(begin);
-  for (const RigidId id : state.present) {
-    const auto r = static_cast<std::uint32_t>(id);
-    if (scratch.u[r].inv_mass == 0.0 || scratch.colours[r] == 0) continue;
+  forEachMover(state, scratch, [&](std::uint32_t r) {
     auto& island = scratch.islands[static_cast<std::size_t>(island_of[r])];
     scratch.island_bodies[island.last_body++] = r;
-  }
+  });
 }
 
 }  // namespace
@@ -267,6 +307,7 @@ void buildRows(State& state, Scratch& scratch) {
   scratch.row_sources.clear();
   reserveTightly(scratch.row_sources, scratch.pairs.size());
   for (const BodyPair& pair : scratch.pairs) listSources(state, pair, scratch);
+  listInnerSources(state, scratch);
   orderBlocks(state, scratch);
   buildBlocks(state, scratch);
   buildJointBlocks(state, scratch);

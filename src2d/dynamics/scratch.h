@@ -72,10 +72,18 @@ struct SweepItem {
   Impulses& impulses() const { return block ? block->lambda : joint->lambda; }
 };
 
-/// What a block of the full solve is made from, and where its impulses go.
+/// What a block of the full solve is made from, and where its impulses go: one or two points of the
+/// contact table, or a block inside an open collection.
 struct RowSource {
-  static constexpr PointIndex kNone = ~PointIndex{0};
+  static constexpr PointIndex kNone = ~PointIndex{0}, kInner = PointIndex{1} << 31;
   std::array<PointIndex, 2> points{kNone, kNone};
+
+  static RowSource inside(std::uint32_t slot, std::uint32_t block) {
+    return {{kInner | slot, block}};
+  }
+  bool isInner() const { return (points[0] & kInner) != 0; }
+  std::uint32_t slot() const { return points[0] & ~kInner; }  ///< of the collection
+  std::uint32_t block() const { return points[1]; }           ///< of Collection::blocks
   int count() const { return points[1] == kNone ? 1 : 2; }
 };
 
@@ -111,12 +119,6 @@ struct JointOrder {
   auto operator<=>(const JointOrder&) const = default;
 };
 
-/// Memory of the conjugate gradient (dynamics/nncg.h), kept between calls.
-struct NncgBuffers {
-  std::vector<Impulses> before, direction;   ///< per block
-  std::vector<Twist> u_before, u_direction;  ///< per body
-};
-
 /// Parts of a collection, each taken as one body, and what they touch (merging/rigid_parts.h).
 struct RigidParts {
   struct Part {
@@ -142,9 +144,9 @@ struct OuterLoad {
 
 /// Why the forces inside a collection are sought in this step.
 enum class Doubt : std::uint8_t {
-  None,  ///< its proofs cover the load
-  Load,  ///< they do not
-  Blow,  ///< something touched or hit it
+  None,    ///< its proofs cover the load
+  Search,  ///< a proof is being sought for a load that was not covered
+  Open,    ///< they do not cover it, or something hits it
 };
 
 /// Lives for one step; its memory is kept.
@@ -184,6 +186,13 @@ struct Scratch {
   std::vector<OuterLoad> outer_loads;     ///< ascending by slot, then by member
   std::vector<std::uint32_t> load_place;  ///< per body: one more than its place there, or 0
   std::vector<Doubt> doubts;              ///< per collection slot; empty: all are swept
+
+  // SingleIterationPGS, where collections are opened: the full solve, with their members on their
+  // own
+  std::vector<BodyId> open_members;
+  std::vector<Twist> open_start;   ///< per body: the velocity with which it began, if open
+  std::vector<std::uint8_t> open;  ///< per body: it is one of them; empty where there are none
+  bool solved = false;             ///< SolveLCP has nothing left to do
 
   // SingleIterationPGS
   bool sweeping = false;                ///< some collection is swept

@@ -1,5 +1,7 @@
 #include "src2d/dynamics/solver.h"
 
+#include <utility>
+
 #include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/nncg.h"
 
@@ -68,6 +70,10 @@ void storeImpulses(State& state, const Scratch& scratch) {
   for (std::size_t i = 0; i < scratch.blocks.size(); ++i) {
     const ContactBlock& k = scratch.blocks[i];
     const RowSource& source = scratch.row_sources[scratch.block_order[i].source()];
+    if (source.isInner()) {
+      state.collections[source.slot()].blocks[source.block()].lambda = k.lambda;
+      continue;
+    }
     for (int p = 0; p < k.count; ++p) {
       ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(p)]);
       const ContactVelocity w = contactVelocity(k, p, k.nx, k.ny, scratch.u[k.a], scratch.u[k.b]);
@@ -83,9 +89,14 @@ void storeImpulses(State& state, const Scratch& scratch) {
 }  // namespace
 
 void solveContacts(State& state, Scratch& scratch) {
+  const bool post = state.settings.solver.stabilisation == Stabilisation::Post;
+  if (std::exchange(scratch.solved, false) && !post) return;
   buildRows(state, scratch);
   scratch.stats.contacts = 0;
-  for (const ContactBlock& k : scratch.blocks) scratch.stats.contacts += k.count;
+  for (std::size_t i = 0; i < scratch.blocks.size(); ++i) {
+    const bool inner = scratch.row_sources[scratch.block_order[i].source()].isInner();
+    if (!inner) scratch.stats.contacts += scratch.blocks[i].count;
+  }
   SweepChange all;
   scratch.joint_memory.next = 0;
   for (const Island& island : scratch.islands) {

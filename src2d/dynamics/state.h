@@ -101,6 +101,12 @@ struct State {
   }
 };
 
+/// What a body moves with in the full solve: itself, where its collection is open.
+inline RigidId moverOf(const State& state, const Scratch& scratch, BodyId b) {
+  const bool open = !scratch.open.empty() && scratch.open[index(b)] != 0;
+  return open ? rigidOf(b) : state[b].rigid;
+}
+
 /// The mixing rules of two bodies: friction by the geometric mean, restitution by the larger.
 inline double frictionOf(const State& state, BodyId a, BodyId b) {
   return std::sqrt(state[a].friction * state[b].friction);

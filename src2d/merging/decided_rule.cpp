@@ -5,10 +5,11 @@
 #include "src2d/merging/collection.h"
 #include "src2d/merging/decided_unmerge.h"
 #include "src2d/merging/default_rule.h"
-#include "src2d/merging/inner_solve.h"
+#include "src2d/merging/disturbance.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/load_certificate.h"
-#include "src2d/merging/refined_sweep.h"
+#include "src2d/merging/open_solve.h"
+#include "src2d/merging/proof_search.h"
 #include "src2d/merging/sweep.h"
 
 namespace merge2d {
@@ -16,23 +17,26 @@ namespace {
 
 constexpr std::int16_t kLongAgo = 1000;  // steps
 
-/// Notes what is new: a touch, a hit or an impulse; and a force that begins or ends.
+/// Notes what hits, and which forces begin or end.
 void notePerturbations(State& state, const Scratch& scratch) {
   for (Collection& c : state.collections) {
     c.since_blow = std::min<std::int16_t>(kLongAgo, static_cast<std::int16_t>(c.since_blow + 1));
   }
-  const auto blow = [&](BodyId b) {
+  const auto hit = [&](BodyId b) {
     if (state.isCollection(state[b].rigid)) state.collection(state[b].rigid).since_blow = 0;
   };
   for (const Meeting& m : scratch.meetings) {
-    blow(scratch.pairs[m.pair].a);
-    blow(scratch.pairs[m.pair].b);
+    if (m.speed <= impactSpeed(state)) continue;
+    hit(scratch.pairs[m.pair].a);
+    hit(scratch.pairs[m.pair].b);
   }
-  for (const Kick& kick : scratch.kicks) blow(kick.body);
+  for (const Kick& kick : scratch.kicks) hit(kick.body);
   for (const BodyId b : scratch.stirred) {
     if (!state.isCollection(state[b].rigid)) continue;
     for (LoadCertificate& proof : state.collection(state[b].rigid).certificate) {
+      proof.witnesses.clear();
       proof.in_doubt = true;
+      proof.search = {};
     }
   }
 }
@@ -41,22 +45,34 @@ void notePerturbations(State& state, const Scratch& scratch) {
 void openCertificate(const State& state, Collection& c) {
   if (!c.certificate.empty()) return;
   LoadCertificate& proof = c.certificate.emplace_back();
+  proof.since = state.step;
   if (!state[c.rigid].floating()) return;
   const auto lighter = [&](BodyId a, BodyId b) { return state[a].mass < state[b].mass; };
   proof.heaviest =
       static_cast<std::uint32_t>(std::ranges::max_element(c.members, lighter) - c.members.begin());
 }
 
+/// A load that is covered by the witnesses leaves the collection quiet; for another one impulses are
+/// sought, unless those for a load beyond it are already.
 Doubt doubtAbout(const State& state, const Scratch& scratch, Collection& c) {
   openCertificate(state, c);
   LoadCertificate& proof = c.certificate.front();
-  if (c.since_blow < kDecided.blow_steps || c.follow_up > 0) return Doubt::Blow;
-  if (proof.in_doubt || !covers(state, c, loadOn(state, scratch, c))) return Doubt::Load;
+  if (isHit(c) || proof.moves) return Doubt::Open;
+  const bool searches = !proof.search.start.empty();
+  if (searches && !proof.search.ahead) return Doubt::Search;
+  const CollectionLoad load = loadOn(state, scratch, c);
+  if (!proof.in_doubt && covers(state, c, load)) {
+    writeImpulses(c);
+    if (anyJointBreaks(state, c)) return Doubt::Open;
+    return searches ? Doubt::Search : Doubt::None;
+  }
+  if (searches && !proof.in_doubt && leadsTo(state, c, load)) return Doubt::Search;
   writeImpulses(c);
-  return anyJointBreaks(state, c) ? Doubt::Load : Doubt::None;
+  beginSearch(state, c, load);
+  return Doubt::Search;
 }
 
-/// Collections that act on each other are solved together.
+/// A hit passes through all collections that touch each other.
 void spreadDoubts(const State& state, Scratch& scratch) {
   auto& sets = scratch.sets;
   sets.reset(state.collections.size());
@@ -74,23 +90,13 @@ void spreadDoubts(const State& state, Scratch& scratch) {
     if (!joint.to_world && holds(state, joint)) unite(joint.a, joint.b);
   }
   const auto slots = static_cast<std::uint32_t>(state.collections.size());
+  std::vector<std::uint8_t> hit(slots, 0);
   for (std::uint32_t i = 0; i < slots; ++i) {
-    Doubt& of_set = scratch.doubts[sets.find(i)];
-    of_set = std::max(of_set, scratch.doubts[i]);
+    if (isSwept(state, state.collections[i]) && isHit(state.collections[i])) hit[sets.find(i)] = 1;
   }
   for (std::uint32_t i = 0; i < slots; ++i) {
-    const bool awake = isSwept(state, state.collections[i]);
-    const Doubt of_set = scratch.doubts[sets.find(i)];
-    if (awake) scratch.doubts[i] = of_set;
+    if (isSwept(state, state.collections[i]) && hit[sets.find(i)]) scratch.doubts[i] = Doubt::Open;
   }
-}
-
-/// Impulses and pushes that were not looked at while the collection was quiet.
-void refresh(const State& state, Collection& c) {
-  writeImpulses(c);
-  if (!c.certificate.front().push_stale) return;
-  c.certificate.front().push_stale = false;
-  layOutPush(state, c);
 }
 
 void findDoubts(State& state, Scratch& scratch) {
@@ -109,18 +115,18 @@ void findDoubts(State& state, Scratch& scratch) {
   spreadDoubts(state, scratch);
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     if (scratch.doubts[slot] != Doubt::None && isSwept(state, state.collections[slot])) {
-      refresh(state, state.collections[slot]);
+      writeImpulses(state.collections[slot]);
     }
   }
 }
 
-bool anyDoubt(const Scratch& scratch, Doubt which) {
-  return std::ranges::find(scratch.doubts, which) != scratch.doubts.end();
-}
-
-void sweepDoubted(State& state, Scratch& scratch) {
-  if (anyDoubt(scratch, Doubt::Load)) solveDoubted(state, scratch);
-  if (anyDoubt(scratch, Doubt::Blow)) sweepRefined(state, scratch);
+void solveDoubted(State& state, Scratch& scratch) {
+  if (std::ranges::find(scratch.doubts, Doubt::Open) != scratch.doubts.end()) {
+    solveOpened(state, scratch);
+  }
+  for (Collection& c : state.collections) {
+    if (doubtOf(state, scratch, c) == Doubt::Search) continueSearch(state, scratch, c);
+  }
 }
 
 /// A weld that was found to move slowly waits for as long as it would still seem at rest.
@@ -136,8 +142,9 @@ int waitUntilSeen(const State& state, const InternalContact& contact, const Weld
 
 UnmergingMethod decided() {
   UnmergingMethod method = kDefaultUnmerging;
+  method.opens = true;
   method.findDoubts = findDoubts;
-  method.sweep = sweepDoubted;
+  method.sweep = solveDoubted;
   method.unmerge = unmergeMovers;
   method.waitAfterSplit = waitUntilSeen;
   return method;

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "src2d/merging/cuts.h"
-#include "src2d/merging/default_unmerge.h"
-#include "src2d/merging/inner_solve.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/limits.h"
 #include "src2d/merging/load_certificate.h"
 #include "src2d/merging/metric.h"
+#include "src2d/merging/open_solve.h"
+#include "src2d/merging/proof_search.h"
 #include "src2d/merging/sweep.h"
 
 namespace merge2d {
@@ -24,27 +25,17 @@ struct WeldMotion {
 class WeldMotions {
  public:
   WeldMotions(const State& state, const Collection& c, const std::vector<SolverVelocity>& u)
-      : state_(state), c_(c), u_(u), turn_(state[c.rigid].rotation) {}
+      : state_(state), c_(c), u_(u) {}
 
   /// Zero where a bound tells that nothing is faster than `ignored`.
   WeldMotion of(const Weld& weld, double ignored) const {
-    const Vec2 between = fromFirstToSecond(weld);
-    const VelocityField a = field(weld.a, Vec2::Zero()), b = field(weld.b, between);
-    double radius = 0.0;
-    for (const BodyId id : {weld.a, weld.b}) {
-      const OrientedBox& box = state_.extent(rigidOf(id)).box;
-      if (isMember(id)) radius = std::max(radius, box.frame.position.norm() + box.half.norm());
-    }
+    const VelocityField a = field(weld.a), b = field(weld.b);
     const double linear = (b.v - a.at(b.x)).norm(), turning = std::abs(b.omega - a.omega);
-    if (linear + turning * (radius + between.norm()) <= ignored) return {};
+    if (linear + turning * reachFrom(b.x, weld) <= ignored) return {};
     WeldMotion motion{0.0, std::numeric_limits<double>::infinity()};
-    const Vec2 origin = state_.pose(weld.a).position;
     for (const BodyId id : {weld.a, weld.b}) {
       if (!isMember(id)) continue;
-      OrientedBox box = state_.extent(rigidOf(id)).box;
-      const Pose pose = state_.pose(id);
-      box.frame = Pose{pose.position - origin, pose.rotation} * box.frame;
-      const double speed = fastestCorner(box, a, b);
+      const double speed = fastestCorner(boxOf(id), a, b);
       motion = {std::max(motion.most, speed), std::min(motion.least, speed)};
     }
     return motion;
@@ -53,22 +44,35 @@ class WeldMotions {
  private:
   bool isMember(BodyId b) const { return state_[b].rigid == c_.rigid; }
 
-  VelocityField field(BodyId b, const Vec2& at) const {
+  /// Its frame's bodies are at rest.
+  VelocityField field(BodyId b) const {
+    if (!isMember(b)) return {};
     const SolverVelocity& u = u_[index(b)];
-    return {at, {u.vx, u.vy}, u.omega};
+    return {state_[b].local, {u.vx, u.vy}, u.omega};
   }
 
-  Vec2 fromFirstToSecond(const Weld& weld) const {
-    if (isMember(weld.a) && isMember(weld.b)) {
-      return turn_ * (state_[weld.b].local - state_[weld.a].local);
+  /// A member's box in the frame.
+  OrientedBox boxOf(BodyId b) const {
+    OrientedBox box = state_.extent(rigidOf(b)).box;
+    box.frame = Pose{state_[b].local, state_[b].local_rotation} * box.frame;
+    return box;
+  }
+
+  /// No corner of a member is farther away than this [m].
+  double reachFrom(const Vec2& x, const Weld& weld) const {
+    double reach = 0.0;
+    for (const BodyId id : {weld.a, weld.b}) {
+      if (!isMember(id)) continue;
+      const OrientedBox& box = state_.extent(rigidOf(id)).box;
+      const double radius = box.frame.position.norm() + box.half.norm();
+      reach = std::max(reach, (state_[id].local - x).norm() + radius);
     }
-    return state_.pose(weld.b).position - state_.pose(weld.a).position;
+    return reach;
   }
 
   const State& state_;
   const Collection& c_;
   const std::vector<SolverVelocity>& u_;
-  Rotation turn_;
 };
 
 /// A point that presses for the first time is a contact like any other from now on, and one that
@@ -148,8 +152,9 @@ Decision decide(const Weld& weld, double speed, double threshold) {
 
 /// Cuts the welds whose bodies move. Returns whether any does.
 bool cutMovers(const State& state, Scratch& scratch, Collection& c) {
-  const WeldMotions motions(state, c, scratch.sweep_u);
-  const double threshold = cutSpeed(state), noise = kDecided.beyond_residual * c.residual;
+  const WeldMotions motions(state, c, scratch.trial_u);
+  const double threshold = isHit(c) ? kDecided.cut_in_hit : cutSpeed(state);
+  const double noise = isHit(c) ? 0.0 : kDecided.beyond_residual * c.residual;
   c.cut_welds.clear();
   for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
     Weld& weld = c.welds[w];
@@ -169,55 +174,87 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c) {
   return !c.cut_welds.empty();
 }
 
-/// Remembers the impulses that carry today's load, and looks whether a load beyond it is carried
-/// too: one that swings then finds its proof before it gets there.
-void prove(const State& state, Scratch& scratch, Collection& c) {
+/// Keeps a proof, and looks whether a load beyond it is carried too: one that swings then finds its
+/// proof before it gets there.
+void prove(const State& state, Collection& c, Witness&& witness) {
+  constexpr int kLasting = 10;  // steps
   LoadCertificate& proof = c.certificate.front();
-  const Witness load = asWitness(state, c, loadOn(state, scratch, c));
-  remember(c, Witness(load));
-  if (proof.witnesses.size() < 2) return;
-  const std::vector<Impulses> today = proof.witnesses.back().lambda;
-  Witness next = beyond(proof, load, kDecided.overshoot);
-  const bool carried = carries(state, scratch, c, next);
-  if (carried) remember(c, std::move(next));
-  std::size_t at = 0;
-  for (ContactBlock& k : c.blocks) k.lambda = today[at++];
-  for (JointBlock& k : c.joints) k.lambda = today[at++];
-  const auto of_today = std::ranges::find(proof.witnesses, today, &Witness::lambda);
-  proof.weights = {};
-  proof.lambda_stale = proof.push_stale = true;
-  if (of_today == proof.witnesses.end()) return;  // the other one took its place
-  proof.weights[static_cast<std::size_t>(of_today - proof.witnesses.begin())] = 1.0;
-  proof.lambda_stale = false;
+  proof.in_doubt = false;
+  const bool goes_on = !proof.witnesses.empty() && state.step - proof.since >= kLasting;
+  Witness load = goes_on ? witness : Witness();
+  remember(c, std::move(witness));
+  if (!goes_on) return;
+  double way = 0.0;
+  Witness next = beyond(proof, load, kDecided.overshoot, kDecided.least_overshoot, way);
+  beginSearchAhead(state, c, std::move(next), way);
 }
 
-/// Where the search has not converged, nothing is concluded but from motion far above its residual.
+/// Nothing moves in the full solve: a proof, where that has converged.
+void keepTogether(const State& state, Scratch& scratch, Collection& c) {
+  LoadCertificate& proof = c.certificate.front();
+  c.settled = !isHit(c) && c.residual <= toleratedResidual(state);
+  if (c.settled) {
+    Witness witness = asWitness(state, c, loadOn(state, scratch, c));
+    readImpulses(c, witness);
+    return prove(state, c, std::move(witness));
+  }
+  proof.in_doubt |= !isHit(c) || proof.witnesses.empty();
+}
+
+/// Where the solve has not converged, only motion that is above its residual counts.
 void decideOne(State& state, Scratch& scratch, Collection& c) {
+  LoadCertificate& proof = c.certificate.front();
+  Witness before = std::move(proof.search.load);
+  proof.search = {};
+  proof.moves = false;
   if (breakJointsInside(state, scratch, c)) return;
   notePressing(c);
   if (!c.joints.empty()) loosenJoints(state, c, scratch.sweep_u);
   Noted noted(scratch.notes);
   const bool cut = cutMovers(state, scratch, c);
   noted.close();
-  c.settled = !cut && !c.certificate.front().in_doubt;
-  if (c.settled) return prove(state, scratch, c);
-  if (!cut) return;
+  if (isHit(c)) swapImpulses(c, before);  // those of a hit are not those of a load
+  if (!cut) return keepTogether(state, scratch, c);
+  c.settled = false;
+  proof.in_doubt = true;
   const Parts parts = componentsOf(c);
   const RigidId id = c.rigid;
   if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, id, parts);
   restate(state, noted, "cut");
 }
 
+/// A search that has converged is a proof, or else the full solve is to say what moves.
+void endSearch(const State& state, Scratch& scratch, Collection& c) {
+  LoadCertificate& proof = c.certificate.front();
+  const bool rests =
+      isAtRest(scratch, c, std::max(cutSpeed(state), c.residual / kDecided.tolerance));
+  if (rests && c.residual > toleratedResidual(state)) {
+    c.settled = proof.search.ahead;
+    return;  // it goes on
+  }
+  ProofSearch search = std::exchange(proof.search, {});
+  if (!search.ahead) readImpulses(c, search.load);
+  c.settled = rests || search.ahead;
+  if (search.ahead && rests) remember(c, std::move(search.load));
+  if (search.ahead) return;
+  proof.moves = !rests;
+  if (rests) prove(state, c, std::move(search.load));
+}
+
 }  // namespace
 
 void unmergeMovers(State& state, Scratch& scratch) {
   const std::size_t slots = scratch.doubts.size();
+  listOuterLoads(state, scratch);
   for (std::size_t slot = 0; slot < slots; ++slot) {
     Collection& c = state.collections[slot];
-    if (c.id == kNoCollection || doubtOf(state, scratch, c) != Doubt::Load) continue;
-    decideOne(state, scratch, c);
+    // After this its slot may be another's.
+    const Doubt doubt =
+        c.id == kNoCollection ? Doubt::None : std::exchange(scratch.doubts[slot], Doubt::None);
+    if (doubt == Doubt::Open) decideOne(state, scratch, c);
+    if (doubt == Doubt::Search) endSearch(state, scratch, c);
   }
-  unmergeConfirmed(state, scratch);
+  closeOpened(state, scratch);
 }
 
 }  // namespace merge2d

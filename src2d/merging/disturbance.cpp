@@ -12,12 +12,6 @@ namespace {
 /// A contact that closes slower than this disturbs nobody [m/s].
 constexpr double kGentle = 1e-3;
 
-/// Pairs that meet faster than this are an impact: gravity alone does not do it within two steps,
-/// so a resting body that lost its contact for a moment is none [m/s].
-double impactSpeed(const State& state) {
-  return std::max(2.0 * state.h * state.gravity.norm(), state.settings.unmerging.velocity);
-}
-
 /// How fast a contact closes that was open in the last step and meets in this one; or that was near
 /// enough to slow its bodies down then, and is hit with the rest now [m/s]. 0 for any other.
 double closingSpeed(const State& state, const Contact& contact) {
@@ -125,6 +119,10 @@ void jolt(State& state, BodyId b) {
 }
 
 }  // namespace
+
+double impactSpeed(const State& state) {
+  return std::max(2.0 * state.h * state.gravity.norm(), state.settings.unmerging.velocity);
+}
 
 double joltVelocity(const State& state) {
   constexpr double kMuch = 5.0;

@@ -7,6 +7,10 @@
 
 namespace merge2d {
 
+/// Pairs that meet faster than this are an impact: gravity alone does not do it within two steps,
+/// so a resting body that lost its contact for a moment is none [m/s].
+double impactSpeed(const State& state);
+
 /// A disturbance is followed for so many steps after the last sign of it.
 inline constexpr std::int16_t kFollowed = 10;
 

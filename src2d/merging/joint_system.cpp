@@ -97,10 +97,9 @@ Eigen::SparseMatrix<double> matrixOf(const std::vector<RowOf>& rows,
 
 }  // namespace
 
-void settleJoints(const State& state, Collection& c, std::vector<SolverVelocity>& u,
+void settleJoints(Collection& c, const Rotation& turn, std::vector<SolverVelocity>& u,
                   double enough) {
   if (c.joints.empty()) return;
-  const Rotation turn = state[c.rigid].rotation;
   const std::vector<RowOf> rows = rowsOf(c);
   const Eigen::VectorXd rest = restOf(rows, turn, u);
   if (rows.empty() || rest.cwiseAbs().maxCoeff() <= enough) return;

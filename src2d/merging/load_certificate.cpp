@@ -1,7 +1,9 @@
 #include "src2d/merging/load_certificate.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "src2d/dynamics/joint_rows.h"
 #include "src2d/merging/nonnegative_fit.h"
@@ -236,8 +238,8 @@ Projection project(std::span<const double> gram, const LoadCertificate::Weights&
 }  // namespace
 
 bool covers(const State& state, Collection& c, const CollectionLoad& load) {
-  constexpr double kFrame = 0.9e-3, kOuter = 0.9e-2;  // of the load that may be left over
-  constexpr double kLeast = 2e-6;                     // [m/s]
+  constexpr double kFrame = 0.9e-3, kOuter = 3e-2;  // of the load that may be left over
+  constexpr double kLeast = 2e-6;                   // [m/s]
   LoadCertificate& proof = c.certificate.front();
   const std::size_t n = proof.witnesses.size();
   if (n == 0) return false;
@@ -250,6 +252,15 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
   proof.lambda_stale |= p.weights != proof.weights;
   proof.weights = p.weights;
   return true;
+}
+
+bool leadsTo(const State& state, const Collection& c, const CollectionLoad& load) {
+  const ProofSearch& search = c.certificate.front().search;
+  const double outer = kOuterWeight * load.outer_norm,
+               square = load.norm * load.norm + outer * outer;
+  const double left =
+      square - 2.0 * product(state, c, load, search.load) + product(search.load, search.load);
+  return left <= search.way * search.way;
 }
 
 namespace {
@@ -319,18 +330,78 @@ void addColumns(LoadCertificate& proof, const CollectionLoad& load) {
 
 }  // namespace
 
-void remember(Collection& c, Witness&& load) {
+void readImpulses(const Collection& c, Witness& to) {
+  to.lambda.clear();
+  to.lambda.reserve(c.blocks.size() + c.joints.size());
+  for (const ContactBlock& k : c.blocks) to.lambda.push_back(k.lambda);
+  for (const JointBlock& k : c.joints) to.lambda.push_back(k.lambda);
+}
+
+void swapImpulses(Collection& c, Witness& with) {
+  std::size_t at = 0;
+  for (ContactBlock& k : c.blocks) std::swap(k.lambda, with.lambda[at++]);
+  for (JointBlock& k : c.joints) std::swap(k.lambda, with.lambda[at++]);
+}
+
+namespace {
+
+/// The nearest combination of the witnesses' loads, of whatever signs; a little damped, as loads
+/// that hardly differ tell little.
+Eigen::VectorXd combinationFor(const LoadCertificate& proof, const Witness& load) {
+  constexpr double kDamping = 1e-8;  // of the largest square
+  const auto n = static_cast<Eigen::Index>(proof.witnesses.size());
+  Eigen::MatrixXd gram(n, n);
+  Eigen::VectorXd b(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      gram(i, j) =
+          proof.gram[static_cast<std::size_t>(i) * kWitnesses + static_cast<std::size_t>(j)];
+    }
+    b[i] = product(proof.witnesses[static_cast<std::size_t>(i)], load);
+  }
+  gram.diagonal().array() += kDamping * gram.diagonal().maxCoeff();
+  return gram.ldlt().solve(b);
+}
+
+void limitImpulses(const Collection& c, Witness& load) {
+  for (std::size_t b = 0; b < c.blocks.size(); ++b) {
+    const ContactBlock& k = c.blocks[b];
+    if (k.bilateral) continue;
+    Impulses& lambda = load.lambda[b];
+    for (std::size_t i = 0; i < 2; ++i) {
+      lambda[i] = static_cast<int>(i) < k.count ? std::max(0.0, lambda[i]) : 0.0;
+      const double most = k.mu * lambda[i];
+      lambda[i + 2] = std::clamp(lambda[i + 2], -most, most);
+    }
+  }
+}
+
+}  // namespace
+
+void predictImpulses(const Collection& c, Witness& load) {
+  const LoadCertificate& proof = c.certificate.front();
+  if (proof.witnesses.empty()) return;
+  const Eigen::VectorXd w = combinationFor(proof, load);
+  load.lambda.assign(c.blocks.size() + c.joints.size(), {});
+  for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
+    const double part = w[static_cast<Eigen::Index>(i)];
+    for (std::size_t k = 0; k < load.lambda.size(); ++k) {
+      for (std::size_t r = 0; r < 4; ++r) {
+        load.lambda[k][r] += part * proof.witnesses[i].lambda[k][r];
+      }
+    }
+  }
+  limitImpulses(c, load);
+}
+
+void remember(Collection& c, Witness&& witness) {
   LoadCertificate& proof = c.certificate.front();
   makePlace(proof);
-  Witness& witness = proof.witnesses.emplace_back(std::move(load));
-  witness.lambda.clear();
-  witness.lambda.reserve(c.blocks.size() + c.joints.size());
-  for (const ContactBlock& k : c.blocks) witness.lambda.push_back(k.lambda);
-  for (const JointBlock& k : c.joints) witness.lambda.push_back(k.lambda);
+  proof.witnesses.push_back(std::move(witness));
   fillGram(proof);
   proof.weights = {};
   proof.weights[proof.witnesses.size() - 1] = 1.0;
-  proof.lambda_stale = false;
+  proof.lambda_stale = true;
 }
 
 Witness asWitness(const State& state, Collection& c, const CollectionLoad& load) {
@@ -347,29 +418,37 @@ Witness asWitness(const State& state, Collection& c, const CollectionLoad& load)
   return witness;
 }
 
-Witness beyond(const LoadCertificate& proof, const Witness& load, double part) {
-  Witness mean;
-  mean.outer.assign(load.outer.size(), {});
-  const double share = 1.0 / static_cast<double>(proof.witnesses.size());
-  for (const Witness& w : proof.witnesses) {
-    for (std::size_t i = 0; i < mean.frame.size(); ++i) mean.frame[i] += share * w.frame[i];
-    for (std::size_t k = 0; k < w.outer.size(); ++k) {
-      mean.outer[k].vx += share * w.outer[k].vx;
-      mean.outer[k].vy += share * w.outer[k].vy;
-      mean.outer[k].omega += share * w.outer[k].omega;
-    }
-  }
-  Witness next = load;
-  next.lambda.clear();
-  for (std::size_t i = 0; i < next.frame.size(); ++i) {
-    next.frame[i] += part * (load.frame[i] - mean.frame[i]);
-  }
+namespace {
+
+/// x + s (x − y), of what two witnesses say of their loads.
+Witness extrapolated(const Witness& x, const Witness& y, double s) {
+  const auto of = [&](double a, double b) { return a + s * (a - b); };
+  Witness next = x;
+  for (std::size_t i = 0; i < next.frame.size(); ++i) next.frame[i] = of(x.frame[i], y.frame[i]);
   for (std::size_t k = 0; k < next.outer.size(); ++k) {
-    next.outer[k].vx += part * (load.outer[k].vx - mean.outer[k].vx);
-    next.outer[k].vy += part * (load.outer[k].vy - mean.outer[k].vy);
-    next.outer[k].omega += part * (load.outer[k].omega - mean.outer[k].omega);
+    const Twist &a = x.outer[k], &b = y.outer[k];
+    next.outer[k] = {of(a.vx, b.vx), of(a.vy, b.vy), of(a.omega, b.omega)};
   }
   return next;
+}
+
+Witness meanOf(const LoadCertificate& proof) {
+  Witness mean = proof.witnesses.front();
+  for (std::size_t n = 1; n < proof.witnesses.size(); ++n) {
+    mean = extrapolated(mean, proof.witnesses[n], -1.0 / static_cast<double>(n + 1));
+  }
+  return mean;
+}
+
+}  // namespace
+
+Witness beyond(const LoadCertificate& proof, const Witness& load, double part, double least,
+               double& way) {
+  const Witness mean = meanOf(proof);
+  const double square = product(load, load) - 2.0 * product(load, mean) + product(mean, mean);
+  const double distance = std::sqrt(std::max(square, 1e-300));
+  way = std::max(part * distance, least * std::sqrt(product(load, load)));
+  return extrapolated(load, mean, way / distance);
 }
 
 Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
@@ -391,11 +470,30 @@ Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
   return u;
 }
 
+void loadMembers(const State& state, const Collection& c, const CollectionLoad& load,
+                 std::vector<Twist>& out) {
+  const OrientedBox& box = state.extent(c.rigid).box;
+  out.resize(c.members.size());
+  const FrameLoad& q = load.frame;
+  const double along = q[2] / load.size, across = q[3] / load.size;
+  for (std::size_t m = 0; m < out.size(); ++m) {
+    const Vec2 arm = state[c.members[m]].local - box.frame.position;
+    out[m] = {q[0] + along * arm.x() - across * arm.y(), q[1] + along * arm.y() + across * arm.x(),
+              q[4] / load.size};
+  }
+  for (const OuterLoad& o : load.outer) {
+    const Twist gain = gainOf(state, c, load, o);
+    Twist& u = out[o.member];
+    u.vx += gain.vx;
+    u.vy += gain.vy;
+    u.omega += gain.omega / load.size;
+  }
+}
+
 void writeImpulses(Collection& c) {
   LoadCertificate& proof = c.certificate.front();
-  if (!proof.lambda_stale) return;
+  if (!proof.lambda_stale || proof.witnesses.empty()) return;
   proof.lambda_stale = false;
-  proof.push_stale = true;
   const auto combine = [&](std::size_t at, Impulses& lambda) {
     lambda = {};
     for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {

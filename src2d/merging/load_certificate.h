@@ -33,18 +33,37 @@ CollectionLoad loadOn(const State& state, const Scratch& scratch, const Collecti
 /// combination.
 bool covers(const State& state, Collection& c, const CollectionLoad& load);
 
+/// True while a load is nearer to the one that is sought ahead than where that search began.
+bool leadsTo(const State& state, const Collection& c, const CollectionLoad& load);
+
 /// The load as a witness that has no impulses yet.
 Witness asWitness(const State& state, Collection& c, const CollectionLoad& load);
 
-/// A load as far beyond this one, seen from the mean of the witnesses, as `part` of its distance.
-Witness beyond(const LoadCertificate& proof, const Witness& load, double part);
+/// A load as far beyond this one, seen from the mean of the witnesses, as `part` of its distance,
+/// and at least as `least` of its size; with the impulses of this one. `way`: how
+/// far that is.
+Witness beyond(const LoadCertificate& proof, const Witness& load, double part, double least,
+               double& way);
 
 /// The velocity that the load gives one member, in the collection's frame.
 Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
                    std::uint32_t member);
 
-/// Takes the impulses that stand in blocks and joints as those of the load.
-void remember(Collection& c, Witness&& load);
+/// The velocities that a load gives all members, in the collection's frame, before contacts and
+/// joints inside act: momentum and angular momentum are zero for what floats.
+void loadMembers(const State& state, const Collection& c, const CollectionLoad& load,
+                 std::vector<Twist>& out);
+
+/// Puts the impulses that stand in blocks and joints into a witness, or takes them from there.
+void readImpulses(const Collection& c, Witness& to);
+void swapImpulses(Collection& c, Witness& with);
+
+/// What the impulses that carry a load would be if they were linear in it, from those of the
+/// witnesses, and brought back to their limits. Nothing without witnesses.
+void predictImpulses(const Collection& c, Witness& load);
+
+/// Keeps a witness; today's load is taken to be its.
+void remember(Collection& c, Witness&& witness);
 
 /// Writes the impulses that belong to the weights into blocks and joints.
 void writeImpulses(Collection& c);

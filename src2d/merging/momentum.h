@@ -17,7 +17,7 @@ VelocityField fieldOf(const State& state, const Collection& c, VelocityOf&& velo
   double l = 0.0;
   for (const BodyId b : c.members) {
     const Body& body = state[b];
-    const SolverVelocity& u = velocityOf(b);
+    const SolverVelocity u = velocityOf(b);
     const Vec2 v(u.vx, u.vy);
     p += body.mass * v;
     l += body.mass * cross(frame * body.local - r.x, v) + body.inertia * u.omega;

@@ -182,7 +182,7 @@ void refineDisturbed(State& state, Scratch& scratch, double blow) {
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!scratch.disturbed[slot]) continue;
-    settleJoints(state, c, scratch.sweep_u, residualVelocity(state));
+    settleJoints(c, state[c.rigid].rotation, scratch.sweep_u, residualVelocity(state));
     scratch.push_stale[slot] = 1;
     c.settled = false;
     const float left = static_cast<float>(change);
@@ -203,7 +203,7 @@ void sweepRefined(State& state, Scratch& scratch) {
   }
   double blow = 0.0;
   for (Collection& c : state.collections) {
-    if (doubtOf(state, scratch, c) != Doubt::Blow) continue;
+    if (doubtOf(state, scratch, c) != Doubt::Open) continue;
     blow = std::max(blow, sweepOnce(state, c, scratch));
   }
   if (refines(state.settings.unmerging)) refineDisturbed(state, scratch, blow);
@@ -225,7 +225,7 @@ void sweepAgain(State& state, Scratch& scratch, Collection& c) {
   const double change =
       sweepUntilQuiet(state, scratch, scope, scratch.doubted, residualVelocity(state));
   c.residual = static_cast<float>(change);
-  settleJoints(state, c, scratch.sweep_u, residualVelocity(state));
+  settleJoints(c, state[c.rigid].rotation, scratch.sweep_u, residualVelocity(state));
   if (!state.joints.empty()) keepJointForces(state, scratch);
   scratch.push_stale[index(c.rigid) - state.bodies.size()] = 1;
 }

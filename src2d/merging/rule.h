@@ -33,6 +33,8 @@ struct UnmergingMethod {
   void (*findDoubts)(State& state, Scratch& scratch);
   /// WarmStart: the orientation of a collection with which its members' velocities begin.
   Rotation (*startingRotation)(const Rigid& collection);
+  /// Collections are opened for the full solve instead of being swept (open_solve.h).
+  bool opens = false;
   /// WarmStart: contacts between free bodies have rows in the sweep too.
   bool sweeps_free_bodies;
 

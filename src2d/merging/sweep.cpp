@@ -44,12 +44,13 @@ void doubtAll(State&, Scratch& scratch) { scratch.doubts.clear(); }
 Doubt doubtOf(const State& state, const Scratch& scratch, const Collection& c) {
   if (!isSwept(state, c)) return Doubt::None;
   const auto slot = static_cast<std::size_t>(&c - state.collections.data());
-  if (scratch.doubts.empty()) return Doubt::Blow;
+  if (scratch.doubts.empty()) return Doubt::Open;
   return slot < scratch.doubts.size() ? scratch.doubts[slot] : Doubt::None;  // formed in this step
 }
 
 void sweepCollections(State& state, Scratch& scratch) {
   if (!scratch.sweeping) return;
+  if (unmergingMethod(state).opens) return unmergingMethod(state).sweep(state, scratch);
   scratch.push_stale.assign(state.collections.size(), 0);
   scratch.restless_bodies.assign(scratch.sweep_u.size(), 0);
   scratch.shaken.assign(scratch.sweep_u.size(), 0);
@@ -76,7 +77,7 @@ double sweepInside(const State& state, Collection& c, Scratch& scratch, int swee
       if (s + 1 == sweeps) watchLimits(c.blocks[i], c.watches[i]);
     }
   }
-  settleJoints(state, c, u, residualVelocity(state));
+  settleJoints(c, turn, u, residualVelocity(state));
   const Rotation back = turn.inverse();
   double largest = 0.0;
   for (std::size_t i = 0; i < n; ++i) {

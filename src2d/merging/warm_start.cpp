@@ -177,6 +177,7 @@ void warmStartSweep(State& state, Scratch& scratch) {
   const bool any = std::ranges::any_of(state.collections, inDoubt);
   scratch.sweeping = any;
   if (!any) return;
+  if (unmergingMethod(state).opens) return;
   scratch.last_sweep = state.step;
   scratch.sweep_u.resize(state.bodies.size() + 1);  // the world's stands last
   scratch.sweep_u.back() = {};

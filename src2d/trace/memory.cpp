@@ -18,6 +18,9 @@ std::size_t bytesOfBroadphase(const Broadphase& b) {
 std::size_t bytesOfProofs(const Collection& c) {
   std::size_t total = bytesOf(c.certificate);
   for (const LoadCertificate& proof : c.certificate) {
+    const ProofSearch& search = proof.search;
+    total += bytesOf(search.start, search.load.outer, search.load.lambda, search.nncg.before,
+                     search.nncg.direction, search.nncg.u_before, search.nncg.u_direction);
     total += bytesOf(proof.columns, proof.witnesses, proof.gram);
     for (const Witness& witness : proof.witnesses) total += bytesOf(witness.outer, witness.lambda);
   }

@@ -48,7 +48,7 @@ class StageWatcher : public Observer {
     copyNew(scratch.notes->decisions, decisions_, seen.after.decisions);
     events_ = scratch.events.size();
     decisions_ = scratch.notes->decisions.size();
-    if (inSweep(stage) && scratch.sweeping) takeOwnVelocities(state, scratch, seen);
+    if (inSweep(stage) && scratch.last_sweep == state.step) takeOwnVelocities(state, scratch, seen);
   }
 
  private:

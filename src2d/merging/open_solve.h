@@ -1,0 +1,20 @@
+#pragma once
+/// Doubted collections in the full solve. They are opened: each member moves on its own there, and
+/// the contacts inside have rigid rows beside those of all other contacts. What moves then against
+/// each other is told from what does not (decided_unmerge.h); what stays together moves on as one
+/// body, with the momentum of its members.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// The full solve of this step, with the collections open about which there is a doubt. The
+/// velocities of the bodies are then in `scratch.sweep_u`, and Collection::residual is the largest
+/// change that one more solve of a row inside would make [m/s].
+void solveOpened(State& state, Scratch& scratch);
+
+/// Gives the collections that were open, and the parts into which they have been split, the
+/// momentum of their members, for AdvanceVelocities.
+void closeOpened(State& state, Scratch& scratch);
+
+}  // namespace merge2d

@@ -1,0 +1,127 @@
+#include "src2d/merging/proof_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src2d/merging/collection.h"
+#include "src2d/merging/momentum.h"
+#include "src2d/merging/relaxation.h"
+#include "src2d/merging/sweep.h"
+
+namespace merge2d {
+
+double cutSpeed(const State& state) { return kDecided.cut_acceleration * state.h; }
+
+double toleratedResidual(const State& state) { return kDecided.tolerance * cutSpeed(state); }
+
+namespace {
+
+/// Nothing of the frame moves.
+void startFrame(const State& state, Scratch& scratch, const Collection& c) {
+  auto& u = scratch.trial_u;
+  u.resize(state.bodies.size() + 1);
+  for (const Weld& weld : c.welds) u[index(weld.a)] = u[index(weld.b)] = {};
+  for (const JointBlock& k : c.joints) u[k.a] = u[k.b] = {};
+}
+
+SolverVelocity memberAt(const State& state, BodyId b, const Twist& u) {
+  return {u.vx, u.vy, u.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia};
+}
+
+/// The motion of an open collection as one body: that of its frame, or of its members' momentum.
+VelocityField motionOf(const State& state, const Scratch& scratch, const Collection& c) {
+  const Rigid& r = state[c.rigid];
+  if (r.floating() || r.anchor == kWorldFrame) return sweptField(state, scratch, c);
+  const Rigid& anchor = state[rigidOf(c.anchor)];
+  return {anchor.x, anchor.v, anchor.omega};
+}
+
+}  // namespace
+
+void relaxOpen(const State& state, Scratch& scratch, Collection& c) {
+  const VelocityField field = motionOf(state, scratch, c);
+  const Pose frame = state[c.rigid].frame();
+  const Rotation back = frame.rotation.inverse();
+  startFrame(state, scratch, c);
+  for (const BodyId b : c.members) {
+    const SolverVelocity& u = scratch.sweep_u[index(b)];
+    const Vec2 v = back * Vec2(Vec2(u.vx, u.vy) - field.at(frame * state[b].local));
+    scratch.trial_u[index(b)] = memberAt(state, b, {v.x(), v.y(), u.omega - field.omega});
+  }
+  c.residual = static_cast<float>(residualInside(c, scratch.trial_u));
+  if (isHit(c) || c.residual <= toleratedResidual(state)) return;
+  c.residual = static_cast<float>(relax(state, scratch, c));
+  for (const BodyId b : c.members) {
+    const SolverVelocity& u = scratch.trial_u[index(b)];
+    const Vec2 v = field.at(frame * state[b].local) + frame.rotation * Vec2(u.vx, u.vy);
+    SolverVelocity& of = scratch.sweep_u[index(b)];
+    of.vx = v.x();
+    of.vy = v.y();
+    of.omega = field.omega + u.omega;
+  }
+}
+
+namespace {
+
+/// A search starts from the impulses that the witnesses foretell, or else from those that there
+/// are.
+ProofSearch& newSearch(Collection& c, Witness&& load) {
+  ProofSearch& search = c.certificate.front().search;
+  search = {};
+  search.load = std::move(load);
+  search.load.lambda.clear();
+  predictImpulses(c, search.load);
+  if (search.load.lambda.empty()) readImpulses(c, search.load);
+  return search;
+}
+
+/// The members' velocities under the load that is sought and the impulses found so far.
+void startMembers(const State& state, Scratch& scratch, Collection& c) {
+  const LoadCertificate& proof = c.certificate.front();
+  layOutPush(state, c);
+  startFrame(state, scratch, c);
+  for (std::uint32_t m = 0; m < c.members.size(); ++m) {
+    if (proof.search.ahead && m == proof.heaviest) continue;
+    const Twist &d = proof.search.start[m], &push = c.push[m];
+    scratch.trial_u[index(c.members[m])] =
+        memberAt(state, c.members[m], {d.vx + push.vx, d.vy + push.vy, d.omega + push.omega});
+  }
+}
+
+}  // namespace
+
+void beginSearch(const State& state, Collection& c, const CollectionLoad& load) {
+  ProofSearch& search = newSearch(c, asWitness(state, c, load));
+  loadMembers(state, c, load, search.start);
+  swapImpulses(c, search.load);  // what is found of them is not lost with the layout
+}
+
+void beginSearchAhead(const State& state, Collection& c, Witness&& load, double way) {
+  ProofSearch& search = newSearch(c, std::move(load));
+  search.ahead = true;
+  search.way = way;
+  for (std::uint32_t m = 0; m < c.members.size(); ++m) {
+    search.start.push_back(loadOnMember(state, c, search.load, m));
+  }
+}
+
+void continueSearch(const State& state, Scratch& scratch, Collection& c) {
+  ProofSearch& search = c.certificate.front().search;
+  if (search.ahead) swapImpulses(c, search.load);
+  startMembers(state, scratch, c);
+  c.residual = static_cast<float>(relax(state, scratch, c));
+  if (search.ahead) swapImpulses(c, search.load);
+}
+
+bool isAtRest(const Scratch& scratch, const Collection& c, double speed) {
+  const auto& u = scratch.trial_u;
+  return std::ranges::all_of(c.blocks, [&](const ContactBlock& k) {
+    for (int p = 0; p < k.count; ++p) {
+      const ContactVelocity w = contactVelocity(k, p, k.nx, k.ny, u[k.a], u[k.b]);
+      if (std::abs(w.n) > speed || std::abs(w.t) > speed) return false;
+    }
+    return true;
+  });
+}
+
+}  // namespace merge2d

@@ -1,0 +1,65 @@
+#pragma once
+/// The search for impulses inside a collection that carry a load: the engine's own block sweeps
+/// inside the conjugate gradient (dynamics/nncg.h) over rigid rows, until they have converged.
+/// Velocities are those against the collection's frame, in its directions.
+
+#include "src2d/dynamics/state.h"
+#include "src2d/merging/load_certificate.h"
+
+namespace merge2d {
+
+/// The numbers of `unmerging.rule = "decided"`, each with the experiment that chose it.
+struct DecidedSettings {
+  /// Bodies of a weld that gain velocity against each other faster than this part [m/s²]: a
+  /// five-hundredth of gravity. `bench/carts` and `bench/tilts` change little between 0.005 and
+  /// 0.05.
+  double cut_acceleration = 0.02;
+  /// The same in a step in which something hits: a slip that is slower ends within 2 µm [m/s].
+  double cut_in_hit = 5e-3;
+  /// A search has converged where the largest row residual is below this part of the cut speed [1].
+  double tolerance = 0.1;
+  /// A weld must also move this many residuals at the box where it moves least: a long body beside
+  /// a short one makes much of the rotation that a residual leaves (ship-crane) [1].
+  double beyond_residual = 1.0;
+  /// Sweeps per step, and how many row sweeps: a search goes on in the next step.
+  int most_sweeps = 200, least_sweeps = 10;
+  double row_sweeps = 1e4;
+  /// A carried load is followed by one this part further from the mean of the witnesses [1]: a wall
+  /// on a swinging platform then needs one search, not one per new extreme.
+  double overshoot = 0.5;
+  double least_overshoot = 0.01;  ///< and at least this part of the load beyond it [1]
+  /// Steps from a hit or an impulse on in which the collection is open.
+  int hit_steps = 3;
+};
+inline constexpr DecidedSettings kDecided;
+
+/// The speed at which bodies of a weld part [m/s].
+double cutSpeed(const State& state);
+
+/// Below this residual a search has converged [m/s].
+double toleratedResidual(const State& state);
+
+/// Something hits it in these steps.
+inline bool isHit(const Collection& c) { return c.since_blow < kDecided.hit_steps; }
+
+/// Goes on, after the full solve, with the contacts inside an open collection until they have
+/// converged, or for as many sweeps as a step may spend; forces from outside stay as they are.
+/// Leaves the members' velocities in `scratch.trial_u` and the largest residual of a row in
+/// Collection::residual.
+void relaxOpen(const State& state, Scratch& scratch, Collection& collection);
+
+/// Begins a search for impulses that carry a load.
+void beginSearch(const State& state, Collection& collection, const CollectionLoad& load);
+
+/// The same for a load beyond those that there were. The heaviest member of a floating collection
+/// is fixed, as its rows follow from those of the others.
+void beginSearchAhead(const State& state, Collection& collection, Witness&& load, double way);
+
+/// Goes on with a search for one step; leaves the members' velocities in `scratch.trial_u` and the
+/// largest residual of a row in Collection::residual.
+void continueSearch(const State& state, Scratch& scratch, Collection& collection);
+
+/// The velocities of the members in `scratch.trial_u` are all below `speed` at the contacts.
+bool isAtRest(const Scratch& scratch, const Collection& collection, double speed);
+
+}  // namespace merge2d

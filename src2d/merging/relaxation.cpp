@@ -1,0 +1,176 @@
+#include "src2d/merging/relaxation.h"
+
+#include <algorithm>
+
+#include "src2d/dynamics/nncg.h"
+#include "src2d/merging/joint_system.h"
+#include "src2d/merging/proof_search.h"
+#include "src2d/merging/refine.h"
+
+namespace merge2d {
+namespace {
+
+/// A few rounds over the rows that want a change and those beside them, as most disturbances are
+/// local; then sweeps over all rows.
+class Relaxation {
+ public:
+  Relaxation(const State& state, Scratch& scratch, Collection& c)
+      : state_(state),
+        u_(scratch.trial_u),
+        scratch_(scratch),
+        c_(c),
+        tolerance_(toleratedResidual(state)),
+        left_(kDecided.row_sweeps) {
+    for (const ContactBlock& k : c.blocks) ends_.push_back({memberOf(k.a), memberOf(k.b)});
+  }
+
+  double run() {
+    bool whole = isUnderWay();
+    if (whole) sweepAll(affordable(c_.blocks.size()));
+    double residual = choose();
+    for (int round = 0; mayGoOn() && !(whole && residual <= tolerance_); ++round) {
+      const bool quiet = residual <= tolerance_;  // but rows just below it can move as a whole
+      whole |= quiet || round == kLocalRounds || 2 * blocks_.size() >= c_.blocks.size();
+      if (!whole) {
+        sweep(kRound);
+      } else {
+        sweepAll(quiet ? kLookEvery : affordable(c_.blocks.size()));
+      }
+      residual = choose();
+    }
+    return residual;
+  }
+
+ private:
+  static constexpr int kRound = 10, kLookEvery = 5;  // sweeps
+  static constexpr int kLocalRounds = 3;
+  static constexpr std::uint32_t kFrame = ~0u;
+
+  std::uint32_t memberOf(std::uint32_t body) const {
+    if (body >= state_.bodies.size() || state_.bodies[body].rigid != c_.rigid) return kFrame;
+    return state_.rigids[body].member;
+  }
+
+  double residualOfBlock(std::uint32_t i) const {
+    const ContactBlock& k = c_.blocks[i];
+    return residualOf(k, k.nx, k.ny, u_[k.a], u_[k.b]);
+  }
+
+  /// Chooses the rows at members at which some row wants a change; returns the largest.
+  double choose() {
+    double most = 0.0;
+    hot_.assign(c_.members.size(), 0);
+    for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) {
+      const double residual = residualOfBlock(i);
+      most = std::max(most, residual);
+      if (residual <= tolerance_) continue;
+      for (const std::uint32_t m : ends_[i]) {
+        if (m != kFrame) hot_[m] = 1;
+      }
+    }
+    take([&](std::uint32_t i) {
+      return std::ranges::any_of(ends_[i], [&](auto m) { return m != kFrame && hot_[m]; });
+    });
+    return most;
+  }
+
+  /// The blocks to be swept, and their members.
+  template <class Wanted>
+  void take(Wanted&& wanted) {
+    blocks_.clear();
+    members_.clear();
+    taken_.assign(c_.members.size(), 0);
+    for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) {
+      if (!wanted(i)) continue;
+      blocks_.push_back(i);
+      for (const std::uint32_t m : ends_[i]) {
+        if (m == kFrame || taken_[m]) continue;
+        taken_[m] = 1;
+        members_.push_back(m);
+      }
+    }
+  }
+
+  void sweepAll(int most) {
+    take([](std::uint32_t) { return true; });
+    sweep(most);
+  }
+
+  void sweep(int most) {
+    const SolverMethod method = state_.settings.solver.method;
+    Nncg iteration(
+        blocks_.size(), [&](std::size_t i) -> Impulses& { return c_.blocks[blocks_[i]].lambda; },
+        members_.size(),
+        [&](std::size_t i) -> SolverVelocity& { return u_[index(c_.members[members_[i]])]; },
+        [&] {
+          for (JointBlock& k : c_.joints) solveJoint(k, {}, u_[k.a], u_[k.b]);
+          for (const std::uint32_t i : blocks_) {
+            ContactBlock& k = c_.blocks[i];
+            sweepBlock(k, Vec2(k.nx, k.ny), u_, method);
+          }
+        },
+        buffers());
+    int done = 0;
+    const auto enough = [&] { return ++done % kLookEvery == 0 && isQuiet(); };
+    if (isUnderWay()) {
+      iteration.resume(most, enough);
+    } else {
+      iteration.run(most, c_.joints.empty(), enough);
+    }
+    settleJoints(c_, {}, u_, tolerance_);
+    sweeps_ += iteration.done();
+    left_ -= iteration.done() * static_cast<double>(blocks_.size());
+  }
+
+  bool isQuiet() const {
+    return std::ranges::all_of(blocks_,
+                               [&](std::uint32_t i) { return residualOfBlock(i) <= tolerance_; });
+  }
+
+  /// Sweeps over all rows of a search are continued in the next step.
+  NncgBuffers& buffers() {
+    const bool all = blocks_.size() == c_.blocks.size();
+    return isSearch() && all ? search().nncg : scratch_.nncg;
+  }
+  ProofSearch& search() { return c_.certificate.front().search; }
+  bool isSearch() { return !search().start.empty(); }
+  bool isUnderWay() { return isSearch() && search().nncg.previous > 0.0; }
+
+  bool mayGoOn() const {
+    return sweeps_ < kDecided.least_sweeps || (sweeps_ < kDecided.most_sweeps && left_ > 0.0);
+  }
+  /// Sweeps over so many rows that this step can still spend.
+  int affordable(std::size_t rows) const {
+    const double sweeps = left_ / static_cast<double>(std::max<std::size_t>(rows, 1));
+    const int least = std::max(1, kDecided.least_sweeps - sweeps_);
+    return std::clamp(static_cast<int>(sweeps), least,
+                      std::max(least, kDecided.most_sweeps - sweeps_));
+  }
+
+  const State& state_;
+  std::vector<SolverVelocity>& u_;
+  Scratch& scratch_;
+  Collection& c_;
+  double tolerance_;
+  double left_;  ///< row sweeps that may still be spent
+  int sweeps_ = 0;
+  std::vector<std::array<std::uint32_t, 2>> ends_;  ///< per block: its members, or the frame
+  std::vector<std::uint32_t> blocks_, members_;     ///< that are swept
+  std::vector<std::uint8_t> hot_, taken_;           ///< per member
+};
+
+}  // namespace
+
+double residualInside(const Collection& c, const std::vector<SolverVelocity>& u) {
+  double most = 0.0;
+  for (const ContactBlock& k : c.blocks) {
+    most = std::max(most, residualOf(k, k.nx, k.ny, u[k.a], u[k.b]));
+  }
+  return most;
+}
+
+double relax(const State& state, Scratch& scratch, Collection& c) {
+  return Relaxation(state, scratch, c).run();
+}
+
+}  // namespace merge2d
