@@ -12,7 +12,7 @@
 namespace merge2d {
 namespace {
 
-constexpr std::size_t kLongestMatch = 258, kFarthest = 32768;  // of deflate [bytes]
+constexpr std::size_t kLongestMatch = 258, kFarthestBack = 32768;  // of deflate [bytes]
 constexpr std::uint32_t kEndOfBlock = 256;
 constexpr int kLongestCode = 15, kLongestLengthCode = 7;
 constexpr int kHashBits = 12;
@@ -152,7 +152,7 @@ PixelDeflate::Match PixelDeflate::bestMatch(const std::uint32_t* first, std::siz
   const std::size_t least = bytes_ == 1 ? 3 : 1;  // deflate copies no less than three bytes
   std::size_t best = least - 1, distance = 0;
   const auto consider = [&](std::size_t length, std::size_t bytes_back) {
-    if (length > best && bytes_back <= kFarthest) best = length, distance = bytes_back;
+    if (length > best && bytes_back <= kFarthestBack) best = length, distance = bytes_back;
   };
   if (x > 0) consider(sameFrom(pixel, pixel - 1, most), bytes_);
   if (best < most && row > 0) consider(sameFrom(pixel, pixel - width_, most), stride);
