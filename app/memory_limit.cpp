@@ -47,6 +47,8 @@ void* counted(std::size_t size, const Allocate& allocate) {
 
 }  // namespace
 
+// All of them, as some runtimes do not make one of the other.
+
 void* operator new(std::size_t size) {
   return counted(size, [size] { return std::malloc(std::max<std::size_t>(size, 1)); });
 }
@@ -54,6 +56,20 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto unit = static_cast<std::size_t>(alignment);
   const std::size_t units = std::max<std::size_t>(1, size / unit + (size % unit != 0 ? 1 : 0));
   return counted(size, [=] { return std::aligned_alloc(unit, units * unit); });
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+void* operator new[](std::size_t size) { return operator new(size); }
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return operator new(size, alignment);
+}
+void* operator new[](std::size_t size, const std::nothrow_t& nothrow) noexcept {
+  return operator new(size, nothrow);
 }
 
 void operator delete(void* block) noexcept {
@@ -65,6 +81,14 @@ void operator delete(void* block, std::align_val_t) noexcept { operator delete(b
 void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
   operator delete(block);
 }
+void operator delete(void* block, const std::nothrow_t&) noexcept { operator delete(block); }
+void operator delete[](void* block) noexcept { operator delete(block); }
+void operator delete[](void* block, std::size_t) noexcept { operator delete(block); }
+void operator delete[](void* block, std::align_val_t) noexcept { operator delete(block); }
+void operator delete[](void* block, std::size_t, std::align_val_t) noexcept {
+  operator delete(block);
+}
+void operator delete[](void* block, const std::nothrow_t&) noexcept { operator delete(block); }
 
 namespace merge2d {
 namespace {

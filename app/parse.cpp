@@ -124,7 +124,8 @@ bool parse(CLI::App& program, std::vector<std::string> arguments) {
     if (command() == nullptr) failWithoutCommand(program, program.remaining());
     failOfExtras(program, *command(), program.remaining(true));
   } catch (const CLI::RequiredError& error) {
-    // A mistyped option may be the reason.
+    // A mistyped option may be the reason, or words before the command.
+    if (command() == nullptr) failWithoutCommand(program, program.remaining(true));
     const std::vector<std::string> extras = program.remaining(true);
     if (!extras.empty()) failOfExtras(program, *command(), extras);
     throw UsageError(

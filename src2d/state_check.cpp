@@ -94,7 +94,7 @@ class StateCheck {
     }
     for (std::size_t i = 0; i < table.order.size(); ++i) {
       const Contact& contact = table.slots[table.order[i]];
-      require(isContact(contact.key, contact.count), "contacts");
+      require(isContact(contact.key, contact.count) && isVain(contact.vain), "contacts");
       const bool ascending = i == 0 || table.slots[table.order[i - 1]].key < contact.key;
       require(ascending && state_[contact.key.a].rigid != state_[contact.key.b].rigid, "contacts");
     }
@@ -141,6 +141,7 @@ class StateCheck {
         require(isBody(body) && !listed[index(body)] && state_[body].rigid == c.rigid, "members");
         listed[index(body)] = true;
       }
+      require(c.refusals >= 0 && c.refusals <= Collection::kMostRefusals, "refusals");
       checkFrame(c);
       checkInner(c);
       checkWelds(c);
@@ -194,6 +195,8 @@ class StateCheck {
     return std::abs(p.x()) <= kFar && std::abs(p.y()) <= kFar;
   }
   static bool isRotation(const Rotation& r) { return std::abs(r.c * r.c + r.s * r.s - 1.0) < 1e-6; }
+  /// How often a weld was cut in vain: powers of two are made of it.
+  static bool isVain(int times) { return times >= 0 && times <= 16; }
   bool ownsShape(BodyId body, std::uint32_t shape) const {
     const Body& owner = state_[body];
     return shape >= owner.first_shape && shape - owner.first_shape < owner.shape_count;
@@ -224,6 +227,7 @@ class StateCheck {
       require(isContact(contact.key, contact.count), "inner contacts");
       require(belongs(c, contact.key.a) && belongs(c, contact.key.b), "inner contacts");
       require(contact.since >= kExpected && contact.since <= state_.step, "inner contacts");
+      require(isVain(contact.vain), "inner contacts");
       const bool has_block = contact.block != InternalContact::kNoBlock;
       require(!has_block || contact.block < c.blocks.size(), "inner contacts");
     }
@@ -281,6 +285,7 @@ class StateCheck {
     for (std::size_t i = 0; i < c.welds.size(); ++i) {
       const Weld& weld = c.welds[i];
       require(isBody(weld.a) && isBody(weld.b) && weld.a < weld.b, "welds");
+      require(isVain(weld.vain) && (weld.vain == 0 || weld.count > 0), "welds");
       require(i == 0 || std::pair(c.welds[i - 1].a, c.welds[i - 1].b) < std::pair(weld.a, weld.b),
               "welds");
     }
