@@ -52,8 +52,8 @@ void openCertificate(const State& state, Collection& c) {
       static_cast<std::uint32_t>(std::ranges::max_element(c.members, lighter) - c.members.begin());
 }
 
-/// A load that is covered by the witnesses leaves the collection quiet; for another one impulses are
-/// sought, unless those for a load beyond it are already.
+/// A load that is covered by the witnesses leaves the collection quiet; for another one impulses
+/// are sought, unless those for a load beyond it are already.
 Doubt doubtAbout(const State& state, const Scratch& scratch, Collection& c) {
   openCertificate(state, c);
   LoadCertificate& proof = c.certificate.front();
