@@ -82,8 +82,8 @@ void fields(Ar& ar, Some<ContactKey> auto& k) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<ContactPoint> auto& p) {
-  auto& [position, gap, breath, feature, fresh, approach, lambda_n, lambda_t, w_n, w_t] = p;
-  ar(position, gap, breath, feature, fresh, approach, lambda_n, lambda_t, w_n, w_t);
+  auto& [position, gap, breath, feature, fresh, struck, lambda_n, lambda_t, w_n, w_t] = p;
+  ar(position, gap, breath, feature, fresh, struck, lambda_n, lambda_t, w_n, w_t);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Contact> auto& c) {
@@ -108,10 +108,10 @@ void fields(Ar& ar, Some<NearPair> auto& p) {
 
 template <class Ar>
 void fields(Ar& ar, Some<ContactBlock> auto& k) {
-  auto& [a, b, count, bilateral, nx, ny, arm_an, arm_bn, arm_at, arm_bt, k11, k12, k22, inv_det,
-         inv_kt, softness, bias, mu, lambda] = k;
-  ar(a, b, count, bilateral, nx, ny, arm_an, arm_bn, arm_at, arm_bt, k11, k12, k22, inv_det, inv_kt,
-     softness, bias, mu, lambda);
+  auto& [a, b, count, bilateral, hits, nx, ny, arm_an, arm_bn, arm_at, arm_bt, k11, k12, k22,
+         inv_det, inv_kt, softness, bias, mu, lambda] = k;
+  ar(a, b, count, bilateral, hits, nx, ny, arm_an, arm_bn, arm_at, arm_bt, k11, k12, k22, inv_det,
+     inv_kt, softness, bias, mu, lambda);
 }
 template <class Ar>
 void fields(Ar& ar, Some<JointRow> auto& r) {

@@ -23,6 +23,24 @@ StartMotion startMotion(const State& state, const Scratch& scratch, RigidId id) 
   return motion;
 }
 
+StartMotion freeMotion(const State& state, const Scratch& scratch, RigidId id) {
+  const Rigid& r = state[id];
+  if (state.isCollection(id) && !r.floating() && r.anchor != kWorldFrame) {
+    const Rigid& frame = state[rigidOf(state.collection(id).anchor)];
+    return {frame.velocityAt(r.x), frame.omega};
+  }
+  StartMotion motion = startMotion(state, scratch, id);
+  if (!r.floating()) return motion;
+  motion.v += state.h * state.gravity;
+  for (const Load& load : scratch.loads) {
+    if (state[load.body].rigid != id) continue;
+    const Vec2 arm = state.pose(load.body).position - r.x;
+    motion.v += state.h * r.inv_mass * load.force;
+    motion.omega += state.h * r.inv_inertia * (load.torque + cross(arm, load.force));
+  }
+  return motion;
+}
+
 double approach(const State& state, const Scratch& scratch, RigidId a, RigidId b) {
   const StartMotion of_a = startMotion(state, scratch, a), of_b = startMotion(state, scratch, b);
   const auto turning = [&](RigidId id, double omega) {
@@ -71,11 +89,17 @@ double farthestApproach(const State& state, const Scratch& scratch) {
   return 2.0 * state.h * fastestPoint(state, at_start);
 }
 
-double farthestMove(const State& state) {
+double farthestMove(const State& state, const Scratch& scratch) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   if (state.settings.solver.stabilisation == Stabilisation::Post) return kUnknown;
   const auto now = [&](RigidId id) { return StartMotion{state[id].v, state[id].omega}; };
-  return state.h * fastestPoint(state, now);
+  double farthest = state.h * fastestPoint(state, now);
+  for (const HitWay& hit : scratch.hit_ways) {
+    const Rigid& r = state[hit.id];
+    const double turning = std::abs(hit.turn) * radius(state.extent(r).bounds, r.center);
+    farthest = std::max(farthest, hit.way.norm() + turning);
+  }
+  return farthest;
 }
 
 }  // namespace merge2d

@@ -13,6 +13,9 @@ struct StartMotion {
 };
 StartMotion startMotion(const State& state, const Scratch& scratch, RigidId id);
 
+/// The same with what gravity and forces add: how it moves through this step if nothing touches it.
+StartMotion freeMotion(const State& state, const Scratch& scratch, RigidId id);
+
 /// An upper bound of the way [m] that a point of the first can go against one of the second in this
 /// step, but for what contacts and forces add.
 double approach(const State& state, const Scratch& scratch, RigidId a, RigidId b);
@@ -25,6 +28,6 @@ double approach(const State& state, const Scratch& scratch, BodyId a, BodyId b);
 
 /// How far the velocities of now carry any point in a step, at most: what advancePositions moves
 /// anything, unless it corrects positions too [m].
-double farthestMove(const State& state);
+double farthestMove(const State& state, const Scratch& scratch);
 
 }  // namespace merge2d

@@ -4,6 +4,8 @@
 
 #include "src2d/contact/approach.h"
 #include "src2d/contact/broadphase.h"
+#include "src2d/contact/cast.h"
+#include "src2d/contact/hidden_sides.h"
 #include "src2d/contact/internal_edges.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
@@ -47,7 +49,6 @@ void inherit(ContactPoint& point, const Contact& old, double inv_mass) {
     point.lambda_t = before.lambda_t;
     point.w_n = before.w_n;
     point.w_t = before.w_t;
-    point.approach = before.approach;
     point.fresh = before.lambda_n * inv_mass <= kRounding;
     return;
   }
@@ -84,8 +85,15 @@ void holdBreath(Contact& contact) {
 
 bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
 
+/// The manifold of now, or of where the two will meet in this step.
+void findManifold(const State& state, Scratch& scratch, Contact& contact) {
+  const double ahead = approach(state, scratch, contact.key.a, contact.key.b);
+  updateManifold(state, contact, ahead);
+  castContact(state, scratch, contact, ahead);
+}
+
 /// Follows the contacts that there are.
-void followContacts(State& state, const Scratch& scratch, double farthest) {
+void followContacts(State& state, Scratch& scratch, double farthest) {
   for (const ContactTable::Slot slot : state.contacts.order) {
     Contact& contact = state.contacts[slot];
     const ContactKey& key = contact.key;
@@ -97,7 +105,7 @@ void followContacts(State& state, const Scratch& scratch, double farthest) {
     } else if (contact.count == 0 && staysApart(state, key, contact.apart, farthest)) {
       loseTouch(contact);
     } else {
-      updateManifold(state, contact, approach(state, scratch, key.a, key.b));
+      findManifold(state, scratch, contact);
     }
   }
 }
@@ -114,7 +122,7 @@ void findTouching(State& state, Scratch& scratch, double farthest) {
     if (staysApart(state, pair.key, pair.apart, farthest)) continue;
     Contact contact;
     contact.key = pair.key;
-    updateManifold(state, contact, approach(state, scratch, pair.key.a, pair.key.b));
+    findManifold(state, scratch, contact);
     pair.apart = contact.apart;
     if (contact.count > 0) scratch.touching.push_back(contact);
   }
@@ -167,9 +175,12 @@ void collectPairs(const State& state, Scratch& scratch) {
 
 void detectContacts(State& state, Scratch& scratch) {
   const double farthest = farthestApproach(state, scratch);
+  scratch.casts.clear();
   updateBroadphase(state, scratch, farthest);
   followContacts(state, scratch, farthest);
   findTouching(state, scratch, farthest);
+  sortCasts(scratch);
+  dropHiddenSides(state, scratch);
   retireContacts(state.contacts);
   collectPairs(state, scratch);
   for (const BodyPair& pair : scratch.pairs) {

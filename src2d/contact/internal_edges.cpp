@@ -9,21 +9,11 @@ constexpr double kBeside = 3e-3;    ///< how far beside the point, along the sur
 constexpr double kBehind = 1.5e-3;  ///< how far before the surface [m]
 constexpr double kSkin = 1e-4;      ///< a place within this of a shape belongs to it [m]
 
-/// Signed distance, at most, of a place from a shape; negative inside.
-double distanceTo(const Collider& shape, const Vec2& p) {
-  if (shape.isCircle()) return (p - shape.origin()).norm() - shape.radius();
-  double most = -1e300;
-  for (int i = 0; i < shape.count(); ++i) {
-    most = std::max(most, shape.normal(i).dot(p - shape.vertex(i)));
-  }
-  return most;
-}
-
 bool insideSibling(const State& state, std::uint32_t shape, const Vec2& p) {
   const auto begin = state.siblings.begin() + state.first_sibling[shape];
   const auto end = state.siblings.begin() + state.first_sibling[shape + 1];
   return std::any_of(begin, end, [&](std::uint32_t sibling) {
-    return distanceTo(state.collider(sibling), p) < kSkin;
+    return signedDistance(state.collider(sibling), p) < kSkin;
   });
 }
 
@@ -33,18 +23,28 @@ bool onInternalEdge(const State& state, std::uint32_t shape, const Vec2& p, cons
   bool covered = false;
   for (const double side : {-kBeside, kBeside}) {
     const Vec2 beside = p + side * perpendicular(normal);
-    if (distanceTo(state.collider(shape), beside) > kSkin) continue;  // beyond the surface's end
+    if (signedDistance(state.collider(shape), beside) > kSkin)
+      continue;  // beyond the surface's end
     if (!insideSibling(state, shape, beside + kBehind * normal)) return false;
     covered = true;
   }
   return covered;
 }
 
+}  // namespace
+
+double signedDistance(const Collider& shape, const Vec2& p) {
+  if (shape.isCircle()) return (p - shape.origin()).norm() - shape.radius();
+  double most = -1e300;
+  for (int i = 0; i < shape.count(); ++i) {
+    most = std::max(most, shape.normal(i).dot(p - shape.vertex(i)));
+  }
+  return most;
+}
+
 bool hasSiblings(const State& state, std::uint32_t shape) {
   return !state.siblings.empty() && state.first_sibling[shape] < state.first_sibling[shape + 1];
 }
-
-}  // namespace
 
 void listSiblings(State& state) {
   state.siblings.clear();

@@ -12,6 +12,12 @@ namespace merge2d {
 /// Lists for each shape of a body with several those that touch it. Called once, at set-up.
 void listSiblings(State& state);
 
+/// Whether a shape's body has others that touch it.
+bool hasSiblings(const State& state, std::uint32_t shape);
+
+/// Signed distance of a place from a shape, or less; negative inside [m].
+double signedDistance(const Collider& shape, const Vec2& p);
+
 /// Drops the points of a contact that lie on edges inside one of the two bodies.
 void dropInternalEdges(const State& state, const Pose& b_in_a, Contact& contact);
 

@@ -36,6 +36,7 @@ struct ContactBlock {
   std::uint32_t a = 0, b = 0;                     ///< indices into the velocities
   std::int32_t count = 0;                         ///< points, 1 or 2
   bool bilateral = false;                         ///< a magnet's contact: pulls, and does not slide
+  std::uint8_t hits = 0;                          ///< bit i: point i is left to dynamics/hits.h
   double nx = 1.0, ny = 0.0;                      ///< normal
   double arm_an[2] = {0, 0}, arm_bn[2] = {0, 0};  ///< r × n [m]
   double arm_at[2] = {0, 0}, arm_bt[2] = {0, 0};  ///< r × t [m]
@@ -258,21 +259,27 @@ struct BlockGeometry {
   double softness = 0.0;
 };
 
-/// Fills geometry and effective masses of `k`. Two points that are too close for their 2×2 matrix
-/// to be inverted well are treated as one, the first.
-inline void prepareBlock(ContactBlock& k, const BlockGeometry& g, const SolverVelocity& a,
-                         const SolverVelocity& b) {
+/// Fills the normal and the lever arms of `k`.
+inline void setArms(ContactBlock& k, const BlockGeometry& g) {
   const Vec2 t = perpendicular(g.normal);
   k.nx = g.normal.x();
   k.ny = g.normal.y();
   k.count = g.count;
-  k.softness = g.softness;
-  const double inv_mass = a.inv_mass + b.inv_mass;
   for (int i = 0; i < g.count; ++i) {
     k.arm_an[i] = cross(g.arm_a[i], g.normal);
     k.arm_bn[i] = cross(g.arm_b[i], g.normal);
     k.arm_at[i] = cross(g.arm_a[i], t);
     k.arm_bt[i] = cross(g.arm_b[i], t);
+  }
+}
+
+/// Fills the effective masses of `k`, whose arms are known. Two points that are too close for their
+/// 2×2 matrix to be inverted well are treated as one, the first.
+inline void fillMasses(ContactBlock& k, double softness, const SolverVelocity& a,
+                       const SolverVelocity& b) {
+  k.softness = softness;
+  const double inv_mass = a.inv_mass + b.inv_mass;
+  for (int i = 0; i < k.count; ++i) {
     k.inv_kt[i] = 1.0 / (inv_mass + a.inv_inertia * k.arm_at[i] * k.arm_at[i] +
                          b.inv_inertia * k.arm_bt[i] * k.arm_bt[i]);
   }
@@ -280,9 +287,9 @@ inline void prepareBlock(ContactBlock& k, const BlockGeometry& g, const SolverVe
     return inv_mass + a.inv_inertia * k.arm_an[i] * k.arm_an[j] +
            b.inv_inertia * k.arm_bn[i] * k.arm_bn[j];
   };
-  k.k11 = normalK(0, 0) + g.softness;
-  if (g.count < 2) return;
-  k.k22 = normalK(1, 1) + g.softness;
+  k.k11 = normalK(0, 0) + softness;
+  if (k.count < 2) return;
+  k.k22 = normalK(1, 1) + softness;
   k.k12 = normalK(0, 1);
   const double det = k.k11 * k.k22 - k.k12 * k.k12;
   if (det < 1e-6 * k.k11 * k.k22) {
@@ -291,6 +298,13 @@ inline void prepareBlock(ContactBlock& k, const BlockGeometry& g, const SolverVe
   } else {
     k.inv_det = 1.0 / det;
   }
+}
+
+/// Fills geometry and effective masses of `k`.
+inline void prepareBlock(ContactBlock& k, const BlockGeometry& g, const SolverVelocity& a,
+                         const SolverVelocity& b) {
+  setArms(k, g);
+  fillMasses(k, g.softness, a, b);
 }
 
 }  // namespace merge2d

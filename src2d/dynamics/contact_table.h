@@ -34,7 +34,7 @@ struct ContactPoint {
   float breath = 0.0F;           ///< change of the gap since the last step [m]
   std::uint32_t feature = 0;
   bool fresh = false;                     ///< was not there, or carried nothing, in the last step
-  float approach = 0.0F;                  ///< fastest approach while it was still open [m/s]
+  float struck = 0.0F;                    ///< impulse of the hits of the last step [N s]
   double lambda_n = 0.0, lambda_t = 0.0;  ///< impulse of the last step [N s]
   float w_n = 0.0F, w_t = 0.0F;           ///< velocity after it [m/s]
 };

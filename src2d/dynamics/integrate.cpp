@@ -19,8 +19,23 @@ void advanceVelocities(State& state, Scratch& scratch) {
   }
 }
 
+namespace {
+
+/// What was hit went another way than its velocity after the step tells.
+void followHits(State& state, const Scratch& scratch) {
+  for (const HitWay& hit : scratch.hit_ways) {
+    Rigid& r = state[hit.id];
+    if (!r.present()) continue;  // a member of what was open
+    r.moveBy(hit.way - state.h * r.v);
+    r.angle += hit.turn - state.h * r.omega;
+    r.rotation = Rotation::of(r.angle);
+  }
+}
+
+}  // namespace
+
 void advancePositions(State& state, Scratch& scratch) {
-  state.moved = farthestMove(state);
+  state.moved = farthestMove(state, scratch);
   for (const RigidId id : state.present) {
     Rigid& r = state[id];
     if (r.asleep || r.anchor == kWorldFrame) continue;
@@ -31,6 +46,7 @@ void advancePositions(State& state, Scratch& scratch) {
     r.angle += state.h * r.omega;
     r.rotation = Rotation::of(r.angle);
   }
+  followHits(state, scratch);
   correctPositions(state, scratch);
   followAnchors(state);
 }

@@ -5,7 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "src2d/contact/cast.h"
 #include "src2d/core/memory.h"
+#include "src2d/dynamics/hits.h"
 #include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/scene/compliance.h"
@@ -75,21 +77,31 @@ double ownInverseMass(const State& state, BodyId b) {
   return state.responds(b) ? 1.0 / state[b].mass : 0.0;
 }
 
-/// A gap below this counts as touching when a bounce is due [m].
-constexpr double kTouching = 1e-4;
-
-/// Bounces (Newton's law of restitution) happen when the bodies touch, with the speed of the
-/// approach remembered from the steps in which the gap was still open: the height of a bounce then
-/// does not depend on where in the step the bodies met.
-double restitutionBias(const State& state, const Contact& contact, ContactPoint& point,
-                       double normal_velocity, double bias) {
-  const double restitution = restitutionOf(state, contact.key.a, contact.key.b);
-  if (restitution == 0.0) return bias;
-  const auto approach = static_cast<float>(-normal_velocity);
-  point.approach = approach > 0.0F ? std::max(point.approach, approach) : 0.0F;
-  const bool fast = point.approach > state.settings.solver.restitution_velocity;
-  if (!fast || point.gap > kTouching) return bias;
-  return std::min<double>(bias, -restitution * std::exchange(point.approach, 0.0F));
+/// Sets the bias of a point, or leaves it to the hits. True when it rests.
+bool aimRow(const State& state, const Scratch& scratch, const Contact& contact, ContactPoint& point,
+            ContactBlock& k, int i, const Cast* cast) {
+  point.struck = 0.0F;
+  const CastEnd* end = cast ? castOf(scratch, contact, point) : nullptr;
+  const double gap = end ? end->carried : point.gap;
+  k.bias[i] = contactBias(state.settings.solver, state.h, gap, k.bilateral);
+  const bool elastic = restitutionOf(state, contact.key.a, contact.key.b) > 0.0;
+  if (elastic || end) {
+    const auto velocity = [&](const SolverVelocity& a, const SolverVelocity& b) {
+      return contactVelocity(k, i, k.nx, k.ny, a, b).n;
+    };
+    const double w_free = velocity(scratch.u[k.a], scratch.u[k.b]);
+    const double w_start =
+        velocity(velocityAtStart(state, scratch, k.a), velocityAtStart(state, scratch, k.b));
+    if (isHit(state, contact, cast, gap, w_start, w_free)) {
+      k.bias[i] = kNeverActs;
+      k.hits = static_cast<std::uint8_t>(k.hits | 1U << i);
+      k.lambda_n(i) = k.lambda_t(i) = 0.0;
+      return false;
+    }
+    // What has bounced and goes leaves an overlap by itself: help would add energy.
+    if (elastic && point.lambda_n == 0.0) k.bias[i] = std::max(k.bias[i], -std::max(0.0, w_free));
+  }
+  return k.bilateral || gap <= 0.0;
 }
 
 /// The points of one pair of bodies, two to a block where they share a normal.
@@ -180,42 +192,59 @@ void orderBlocks(const State& state, Scratch& scratch) {
   std::sort(scratch.block_order.begin(), scratch.block_order.end());
 }
 
-/// The rows of one block, with the impulses of the last step as a start.
+/// Lever arms of the points of a block: as they are now, or as they will be where it was `cast` to.
+void setArms(const State& state, const Scratch& scratch, const RowSource& source, const Cast* cast,
+             BlockGeometry& g) {
+  const ContactKey& key = state.contacts.contactOf(source.points[0]).key;
+  const Pose pose_a = state.pose(key.a);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(source.count()); ++i) {
+    const ContactPoint& point = state.contacts.point(source.points[i]);
+    const Contact& contact = state.contacts.contactOf(source.points[i]);
+    const CastEnd* end = cast ? castOf(scratch, contact, point) : nullptr;
+    const Vec2 p = pose_a * point.position;
+    g.arm_a[i] = p - state[moverOf(state, scratch, key.a)].x;
+    g.arm_b[i] =
+        (end ? state.pose(key.b) * end->on_b : p) - state[moverOf(state, scratch, key.b)].x;
+  }
+}
+
+/// Fills the rows of a block but for their effective masses, with the impulses of the last step as
+/// a start. True when some of it rests.
+bool aimBlock(State& state, const Scratch& scratch, const RowSource& source, const Cast* cast,
+              BlockGeometry& g, ContactBlock& k) {
+  setArms(state, scratch, source, cast, g);
+  setArms(k, g);
+  bool rests = false;
+  for (int i = 0; i < source.count(); ++i) {
+    const PointIndex place = source.points[static_cast<std::size_t>(i)];
+    ContactPoint& point = state.contacts.point(place);
+    k.lambda_n(i) = point.lambda_n;
+    k.lambda_t(i) = point.lambda_t;
+    rests |= aimRow(state, scratch, state.contacts.contactOf(place), point, k, i, cast);
+  }
+  return rests;
+}
+
+/// The rows of one block.
 ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& source) {
   if (source.isInner()) return innerBlock(state, source);
   const Contact& contact = state.contacts.contactOf(source.points[0]);
-  const Pose pose_a = state.pose(contact.key.a);
   const RowEnds ends = endsOf(state, scratch, source);
-  const Rigid &a = state[ends.a], &b = state[ends.b];
-  const auto count = static_cast<std::size_t>(source.count());
-  const SolverSettings& settings = state.settings.solver;
   BlockGeometry g;
-  g.normal = pose_a.rotation * contact.normal;
+  g.normal = state.pose(contact.key.a).rotation * contact.normal;
   g.count = source.count();
   g.softness =
       contactSoftness(state, contact.key.a, contact.key.b, ownInverseMass(state, contact.key.a),
                       ownInverseMass(state, contact.key.b));
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec2 position = pose_a * state.contacts.point(source.points[i]).position;
-    g.arm_a[i] = position - a.x;
-    g.arm_b[i] = position - b.x;
-  }
   ContactBlock k;
   k.a = static_cast<std::uint32_t>(ends.a);
   k.b = static_cast<std::uint32_t>(ends.b);
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
   k.bilateral = isBilateral(state, contact.key.a, contact.key.b);
-  bool rests = false;
-  for (int i = 0; i < source.count(); ++i) {
-    ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(i)]);
-    const Vec2 before = b.v + cross(b.omega, g.arm_b[i]) - a.v - cross(a.omega, g.arm_a[i]);
-    const double rest = contactBias(settings, state.h, point.gap, k.bilateral);
-    k.bias[i] = restitutionBias(state, contact, point, g.normal.dot(before), rest);
-    k.lambda_n(i) = point.lambda_n;
-    k.lambda_t(i) = point.lambda_t;
-    rests |= k.bilateral || (point.gap <= 0.0 && k.bias[i] >= rest);
-  }
-  if (source.count() == 1) {
+  const Cast* cast = castToHit(state, scratch, contact);
+  bool rests = aimBlock(state, scratch, source, cast, g, k);
+  if (cast && k.hits == 0) rests = aimBlock(state, scratch, source, nullptr, g, k);
+  if (source.count() == 1 && k.hits == 0) {
     k.setRolling(rollingOf(state, contact.key.a, contact.key.b), rollingImpulse(state, contact));
   }
   // Only what rests breathes: compliance would take speed from a bounce.
@@ -231,14 +260,18 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
 void buildBlocks(State& state, Scratch& scratch) {
   scratch.islands.clear();
   scratch.blocks.clear();
-  reserveTightly(scratch.blocks, scratch.block_order.size());
-  for (std::uint32_t i = 0; i < scratch.block_order.size(); ++i) {
-    const BlockOrder& order = scratch.block_order[i];
-    scratch.blocks.push_back(makeBlock(state, scratch, scratch.row_sources[order.source()]));
-    if (scratch.islands.empty() || scratch.islands.back().root != order.island()) {
-      scratch.islands.push_back({.root = order.island(), .first = i, .last = i});
+  const auto& order = scratch.block_order;
+  const auto size = static_cast<std::uint32_t>(order.size());
+  reserveTightly(scratch.blocks, size);
+  for (std::uint32_t first = 0, last = 0; first < size; first = last) {
+    while (last < size && order[last].island() == order[first].island()) ++last;
+    Island island{.root = order[first].island(), .first = first, .last = last};
+    for (std::uint32_t i = first; i < last; ++i) {
+      const RowSource& source = scratch.row_sources[order[i].source()];
+      scratch.blocks.push_back(makeBlock(state, scratch, source));
+      island.hits |= scratch.blocks.back().hits != 0;
     }
-    scratch.islands.back().last = i + 1;
+    scratch.islands.push_back(island);
   }
 }
 
@@ -304,6 +337,7 @@ double contactSoftness(const State& state, BodyId a, BodyId b, double inv_mass_a
 
 void buildRows(State& state, Scratch& scratch) {
   startVelocities(state, scratch);
+  withdrawCasts(state, scratch);
   scratch.row_sources.clear();
   reserveTightly(scratch.row_sources, scratch.pairs.size());
   for (const BodyPair& pair : scratch.pairs) listSources(state, pair, scratch);

@@ -50,6 +50,31 @@ struct Meeting {
   double speed = 0.0;         ///< [m/s]
 };
 
+/// A contact of `toucher` with a shape that may have hidden sides (contact/hidden_sides.h).
+struct SeamContact {
+  std::uint32_t toucher = 0;  ///< the shape that touches it
+  std::uint32_t side = 0;     ///< twice its place in ContactTable::order, plus 1 for a's sides
+  std::uint32_t place() const { return side / 2; }
+  bool ofA() const { return side % 2 == 1; }
+};
+
+/// A point of a contact that was predicted ahead, at the meeting.
+struct CastEnd {
+  std::uint32_t feature = 0;
+  double gap = 0.0;          ///< [m]
+  double carried = 0.0;      ///< the gap now that closes then [m]
+  Vec2 on_b = Vec2::Zero();  ///< where the point lies on the second body, in its frame
+};
+
+/// Where such a contact was cast to (contact/cast.h).
+struct Cast {
+  ContactKey key;
+  Vec2 normal = Vec2::UnitX();  ///< of the contact then, to know it by
+  bool hit = false;             ///< they meet in this step; otherwise: where they are nearest
+  bool displaced = false;       ///< by then much has turned, or moved across
+  std::array<CastEnd, 2> ends;
+};
+
 /// A contact outside collections in the single sweep.
 struct SweepContact {
   std::uint32_t slot = 0;  ///< of the contact table
@@ -93,6 +118,14 @@ struct Island {
   std::uint32_t first = 0, last = 0;
   std::uint32_t first_body = 0, last_body = 0;
   std::uint32_t first_joint = 0, last_joint = 0;  ///< of Scratch::joint_blocks
+  bool hits = false;                              ///< some of its points are hit in this step
+};
+
+/// How a rigid thing went through a step in which it was hit, which is not its velocity times h.
+struct HitWay {
+  RigidId id{};
+  Vec2 way = Vec2::Zero();  ///< of its centre of mass [m]
+  double turn = 0.0;        ///< [rad]
 };
 
 /// Where a block stands: by island, then by colour, then by its RowSource; as one number, which is
@@ -166,6 +199,8 @@ struct Scratch {
   std::vector<std::uint8_t> moved_flag;
   std::vector<ContactKey> candidates;
   std::vector<Contact> touching;  ///< idle pairs that have become contacts
+  std::vector<SeamContact> seams;
+  std::vector<Cast> casts;  ///< ascending by key
   std::vector<NearPair> near_candidates;
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
   /// Per rigid: with which other ones, by their index modulo 16.
@@ -231,6 +266,7 @@ struct Scratch {
   std::vector<JointBlock> joint_blocks;  ///< by island
   JointMemory joint_memory;
   std::vector<BlockOrder> block_order;
+  std::vector<HitWay> hit_ways;
   NncgBuffers nncg;
 };
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "src2d/dynamics/hits.h"
 #include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/nncg.h"
 
@@ -97,10 +98,12 @@ void solveContacts(State& state, Scratch& scratch) {
     const bool inner = scratch.row_sources[scratch.block_order[i].source()].isInner();
     if (!inner) scratch.stats.contacts += scratch.blocks[i].count;
   }
+  scratch.hit_ways.clear();
   SweepChange all;
   scratch.joint_memory.next = 0;
   for (const Island& island : scratch.islands) {
     const SweepChange change = solveIsland(state, scratch, island);
+    if (island.hits) resolveHits(state, scratch, island);
     all.squared += change.squared;
     all.total += change.total;
   }

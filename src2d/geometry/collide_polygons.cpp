@@ -166,7 +166,8 @@ Manifold cornerContact(const Polygons& polygons, const FacePair& pair, int end, 
   if (distance <= kCornerDistance) return cornersInOnePlace(polygons, pair.feature(end));
   Manifold m;
   const double height = pair.height(nearest);
-  if (height < -kCornerDistance) {
+  constexpr double kStraight = 0.9;  // cosine: beyond, the corner lies before or behind the edge
+  if (height < -kCornerDistance || -height > kStraight * distance) {
     // a true overlap: only the face's own direction ends it
     m.normal = pair.normalFromA();
     addPoint(m, nearest - 0.5 * height * pair.normal, height, pair.feature(end));

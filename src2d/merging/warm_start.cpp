@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src2d/core/memory.h"
+#include "src2d/dynamics/hits.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/joint_sweep.h"
@@ -63,6 +64,10 @@ void addLoads(const State& state, Scratch& scratch) {
   }
 }
 
+Vec2 velocityAt(const SolverVelocity& u, const Vec2& arm) {
+  return Vec2(u.vx, u.vy) + cross(u.omega, arm);
+}
+
 /// The rows of a contact outside collections, with the bodies' own masses.
 void addOuterContact(const State& state, ContactTable::Slot slot, Scratch& scratch) {
   const Contact& contact = state.contacts[slot];
@@ -87,6 +92,11 @@ void addOuterContact(const State& state, ContactTable::Slot slot, Scratch& scrat
     k.lambda_n(i) = point.lambda_n;
     k.lambda_t(i) = point.lambda_t;
     k.bias[i] = contactBias(settings, state.h, point.gap, k.bilateral);
+    const double e = k.bilateral ? 0.0 : restitutionOf(state, a, b);
+    if (e == 0.0) continue;
+    const double w = g.normal.dot(velocityAt(ub, g.arm_b[i]) - velocityAt(ua, g.arm_a[i]));
+    const bool bounces = -w > leastBounce(state, contact.key) && point.gap + state.h * w < 0.0;
+    if (bounces) k.bias[i] = e * w;  // all of it comes in this step
   }
   k.a = static_cast<std::uint32_t>(a);
   k.b = static_cast<std::uint32_t>(b);

@@ -50,13 +50,13 @@ ContactView view(const State& state, const Contact& contact, const ContactPoint&
   seen.x = frame * p.position;
   seen.normal = frame.rotation * contact.normal;
   seen.gap = p.gap;
-  seen.lambda_n = p.lambda_n;
+  seen.lambda_n = p.lambda_n + p.struck;
   seen.lambda_t = p.lambda_t;
   seen.w_n = p.w_n;
   seen.w_t = p.w_t;
   seen.mu = frictionOf(state, contact.key.a, contact.key.b);
   seen.state =
-      stateOf(p.lambda_n, p.lambda_t, seen.mu, isBilateral(state, contact.key.a, contact.key.b));
+      stateOf(seen.lambda_n, p.lambda_t, seen.mu, isBilateral(state, contact.key.a, contact.key.b));
   seen.fresh = p.fresh;
   return seen;
 }

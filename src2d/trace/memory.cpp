@@ -53,13 +53,14 @@ std::size_t bytesOfParts(const RigidParts& p) {
 
 std::size_t bytesOfScratch(const Scratch& s) {
   return bytesOf(s.loads, s.kicks, s.springs, s.stretches, s.spring_gain, s.pairs, s.events,
-                 s.moved, s.moved_flag, s.candidates, s.touching, s.near_candidates, s.near_refined,
-                 s.paired_with, s.meetings, s.seeds, s.stirred, s.restless, s.island_awake) +
+                 s.moved, s.moved_flag, s.candidates, s.touching, s.seams, s.casts,
+                 s.near_candidates, s.near_refined, s.paired_with, s.meetings, s.seeds, s.stirred,
+                 s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
                  s.outer_loads, s.load_place, s.doubts, s.trial_u, s.push_stale, s.others,
                  s.doubted, s.overloaded_joints, s.leant, s.ready, s.restless_bodies, s.shaken) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
-                 s.joint_order, s.joint_blocks, s.block_order) +
+                 s.joint_order, s.joint_blocks, s.block_order, s.hit_ways) +
          bytesOfParts(s.rigid_parts) + bytesOfBuffers(s.nncg) + s.sets.memoryBytes();
 }
 

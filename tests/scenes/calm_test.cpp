@@ -65,7 +65,7 @@ const std::vector<CalmCase> kCalmAtRest = {
     {"planks", "jammed left", {{1.2, 6.0}}},
     {"seesaw", "beam", {{7.0, 12.0}}},
     {"three-discs", "left", {{7.0, 8.0}}},
-    {"tower-impulse", "brick[1,0]", {{0.8, 1.49}, {6.0, 16.0}}},
+    {"tower-impulse", "brick[1,0]", {{0.8, 1.49}, {8.0, 16.0}}},
     {"tower-lift", "brick[1,0]", {{0.9, 1.49}, {2.8, 6.0}}},
     {"tripod", "third leg", {{2.5, 8.0}}},
     {"truss-arch", "left-leg", {{0.4, 2.0}, {4.0, 8.0}}},

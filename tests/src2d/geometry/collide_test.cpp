@@ -127,6 +127,27 @@ TEST(Collide, ACornerBesideAFaceMayOverlapByAnother) {
   EXPECT_NEAR((m.normal + outward).norm(), 0.0, 1e-12);
 }
 
+/// The corner of a leaning box has sunk into the corner of another by half a millimetre: it is
+/// pushed up or aside, wherever exactly it is.
+TEST(Collide, CornersThatOverlapByAHairAreNotPulledThrough) {
+  const Collider upper(Polygon{{{1.000458014, 0.590663081},
+                                {1.100087956, 0.599258115},
+                                {1.057112789, 1.097407826},
+                                {0.957482846, 1.088812793}}});
+  const Collider lower(Polygon{{{1.100188275, 0.099759015},
+                                {1.200188272, 0.099784021},
+                                {1.200063239, 0.599784006},
+                                {1.100063242, 0.599758999}}});
+  for (const double aside : {-1e-5, 0.0, 1e-5, 1.4e-5, 1.6e-5, 2e-5, 2.4e-5}) {
+    for (const double down : {-1e-5, -1e-6, 0.0, 1e-6, 1e-5}) {
+      const Manifold m = collide(upper, lower, at(aside, down), kMargin);
+      for (int i = 0; i < m.count; ++i) {
+        EXPECT_LT(m.normal.y(), 0.1) << aside << ' ' << down << " gap " << m.points[0].gap;
+      }
+    }
+  }
+}
+
 TEST(Collide, SeesACornerThatPointsAtAFace) {
   const double half_diagonal = std::numbers::sqrt2 / 2.0;
   const Manifold m = collide(box(10.0, 1.0), box(1.0, 1.0),

@@ -1,0 +1,224 @@
+#include "src2d/contact/cast.h"
+
+#include <algorithm>
+
+#include "src2d/contact/approach.h"
+#include "src2d/contact/internal_edges.h"
+#include "src2d/geometry/distance.h"
+
+namespace merge2d {
+namespace {
+
+/// A body that moves through the step as it would without contacts. Places are seen from `origin`,
+/// so that a scene may lie anywhere.
+struct Flight {
+  Pose start;   ///< of the body
+  Vec2 center;  ///< of mass, of the rigid thing that it belongs to, at the start
+  StartMotion motion;
+
+  Flight(const State& state, const Scratch& scratch, BodyId body, const Vec2& origin)
+      : start(state.pose(body)), motion(freeMotion(state, scratch, state[body].rigid)) {
+    const Rigid& r = state.rigid(body);
+    start.position -= origin;
+    // The frame of the world may lie anywhere; it does not turn.
+    center = r.anchor == kWorldFrame ? start.position : Vec2(r.x - origin);
+  }
+  Vec2 centerAt(double t) const { return center + t * motion.v; }
+  Pose at(double t) const {
+    const Rotation turn = Rotation::of(t * motion.omega);
+    return {centerAt(t) + turn * (start.position - center), turn * start.rotation};
+  }
+  Vec2 velocityAt(const Vec2& arm) const { return motion.v + cross(motion.omega, arm); }
+};
+
+struct Flights {
+  Flight a, b;
+  const Collider &shape_a, &shape_b;
+
+  Pose relativeAt(double t) const { return a.at(t).toLocal(b.at(t)); }
+};
+
+/// When two flights meet in this step, or else are nearest.
+struct Encounter {
+  double time = 0.0;  ///< from the start of the step [s]
+  bool hit = false;
+};
+
+/// From the distance and the normal of now on.
+Encounter advance(const Flights& f, double h, double touching, Nearest now) {
+  constexpr int kRounds = 40;
+  const auto turning = [](const Flight& flight, const Collider& shape) {
+    const Vec2 center = flight.start.toLocal(flight.center);
+    return std::abs(flight.motion.omega) * reachFrom(shape, center);
+  };
+  const double turning_both = turning(f.a, f.shape_a) + turning(f.b, f.shape_b);
+  const Vec2 v = f.b.motion.v - f.a.motion.v;
+  Encounter nearest_yet;
+  double least = 1e300, t = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    const Pose pose_a = f.a.at(t);
+    if (round > 0) now = nearest(f.shape_a, f.shape_b, pose_a.toLocal(f.b.at(t)));
+    if (now.distance <= touching) return {t, true};
+    if (now.distance < least) {
+      least = now.distance;
+      nearest_yet.time = t;
+    }
+    if (t >= h) return nearest_yet;
+    const double closing = turning_both - (pose_a.rotation * now.normal).dot(v);
+    if (closing <= 0.0) return nearest_yet;
+    t = std::min(h, t + (now.distance - 0.5 * touching) / closing);
+  }
+  return {t, true};  // so near each other that they had better be kept apart
+}
+
+/// True when some shape turns so far in the step that the motion of now says little.
+bool turnsFar(const Flights& f, double h) {
+  constexpr double kTurn = 0.1;  // rad
+  const auto turns = [&](const Flight& flight, const Collider& shape) {
+    return !shape.isCircle() && std::abs(flight.motion.omega) * h > kTurn;
+  };
+  return turns(f.a, f.shape_a) || turns(f.b, f.shape_b);
+}
+
+/// Whether the contact, taken where it is now, could close in this step.
+bool couldClose(const State& state, const Flights& f, const Contact& contact) {
+  const Vec2 n = f.a.start.rotation * contact.normal;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
+    const Vec2 p = f.a.start.exactly(contact.points[k].position);
+    const Vec2 w = f.b.velocityAt(p - f.b.center) - f.a.velocityAt(p - f.a.center);
+    if (contact.points[k].gap + state.h * n.dot(w) < 0.0) return true;
+  }
+  return false;
+}
+
+/// True when the two come so near in this step, on a way so long, that what is nearest may change:
+/// what hardly moves meets what is nearest now.
+bool isPredicted(const State& state, const Contact& contact, double ahead) {
+  constexpr double kShort = 20.0;  // touching gaps; and twice what gravity moves from rest
+  if (contact.count == 0) return false;
+  const double gravity = 2.0 * state.gravity.norm() * state.h * state.h;
+  const double touching = touchingGap(state, contact.key), gap = smallestGap(contact);
+  return gap > touching && gap < ahead + gravity && ahead > kShort * touching + gravity;
+}
+
+/// The contact as it is at the encounter, in the frames of then. What is remembered of a point is
+/// kept where it is found again.
+Contact contactAt(const State& state, const Flights& f, const Encounter& at, double margin,
+                  const Contact& now) {
+  const Pose b_in_a = f.relativeAt(at.time);
+  const Manifold found = collide(f.shape_a, f.shape_b, b_in_a, margin);
+  Contact then = now;
+  then.normal = found.normal;
+  then.count = static_cast<std::int16_t>(found.count);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(found.count); ++k) {
+    ContactPoint& point = then.points[k] = {};
+    point.fresh = true;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(now.count); ++j) {
+      if (now.points[j].feature == found.points[k].feature) point = now.points[j];
+    }
+    point.position = found.points[k].position;
+    point.gap = found.points[k].gap;
+    point.feature = found.points[k].feature;
+  }
+  dropInternalEdges(state, b_in_a, then);
+  return then;
+}
+
+/// Sees that contact from the start of the step, with its gaps carried back.
+Cast carryBack(const State& state, const Flights& f, const Encounter& at, Contact& contact) {
+  constexpr double kOpen = 1e-12;  // m: what is predicted is not an overlap
+  constexpr double kFar = 10.0;    // touching gaps
+  const Pose pose_a = f.a.at(at.time);
+  const Vec2 n = pose_a.rotation * contact.normal;
+  contact.normal = f.a.start.rotation.inverse() * n;
+  Cast cast{.key = contact.key,
+            .normal = contact.normal,
+            .hit = at.hit,
+            .displaced = turnsFar(f, state.h),
+            .ends = {}};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
+    ContactPoint& point = contact.points[k];
+    const Vec2 p = pose_a.exactly(point.position);
+    const Vec2 arm_a = p - f.a.centerAt(at.time), arm_b = p - f.b.centerAt(at.time);
+    const Vec2 on_a = f.a.center + arm_a, on_b = f.b.center + arm_b;
+    const double w = n.dot(f.b.velocityAt(arm_b) - f.a.velocityAt(arm_a));
+    const double w_now = n.dot(f.b.velocityAt(on_a - f.b.center) - f.a.velocityAt(arm_a));
+    cast.ends[k] = {.feature = point.feature,
+                    .gap = point.gap,
+                    .carried = std::max(point.gap - at.time * w, kOpen),
+                    .on_b = f.b.start.toLocal(on_b)};
+    cast.displaced |= std::abs(cross(on_b - on_a, n)) > kFar * touchingGap(state, contact.key);
+    const double open = at.hit ? 0.0 : -state.h * w_now;  // a miss does not act on what is free
+    point.position = f.a.start.toLocal(on_a);
+    point.gap = std::max({point.gap - at.time * w_now, open, kOpen});
+  }
+  return cast;
+}
+
+}  // namespace
+
+double touchingGap(const State& state, const ContactKey& key) {
+  constexpr double kTouching = 1e-4, kPart = 1e-3;  // m, of the smaller shape
+  const double size = std::min(state.bounds(key.shape_a).extent().minCoeff(),
+                               state.bounds(key.shape_b).extent().minCoeff());
+  return std::min(kTouching, kPart * size);
+}
+
+double smallestGap(const Contact& contact) {
+  return contact.count == 2 ? std::min(contact.points[0].gap, contact.points[1].gap)
+                            : contact.points[0].gap;
+}
+
+void castContact(const State& state, Scratch& scratch, Contact& contact, double ahead) {
+  const ContactKey& key = contact.key;
+  if (!isPredicted(state, contact, ahead) || isBilateral(state, key.a, key.b)) return;
+  const Vec2 origin = state.pose(key.a).position;
+  const Flights f{Flight(state, scratch, key.a, origin), Flight(state, scratch, key.b, origin),
+                  state.collider(key.shape_a), state.collider(key.shape_b)};
+  if (!turnsFar(f, state.h) && !couldClose(state, f, contact)) return;
+  constexpr double kFine = 0.1;  // the normal of a round thing turns with the gap that is left
+  const Encounter at =
+      advance(f, state.h, kFine * touchingGap(state, key), {smallestGap(contact), contact.normal});
+  const double margin = std::max(state.settings.solver.margin, ahead);
+  Contact then = contactAt(state, f, at, margin, contact);
+  if (then.count == 0) {
+    contact.count = 0;
+    contact.quiet_steps = 0;
+    return;
+  }
+  const Cast cast = carryBack(state, f, at, then);
+  // Without restitution a hit that comes about where and as it seems now is as good as it is; and
+  // inside a collection it is solved as the sweep sees it.
+  const auto alone = [&](BodyId body) { return !state.isCollection(state[body].rigid); };
+  const bool follows = cast.displaced && alone(key.a) && alone(key.b);
+  if (at.hit && !follows && restitutionOf(state, key.a, key.b) == 0.0) return;
+  contact = then;
+  scratch.casts.push_back(cast);
+}
+
+void sortCasts(Scratch& scratch) { std::ranges::sort(scratch.casts, {}, &Cast::key); }
+
+const Cast* castOf(const Scratch& scratch, const Contact& contact) {
+  if (scratch.casts.empty() || contact.count == 0 || contact.points[0].gap <= 0.0) return nullptr;
+  const auto cast = std::ranges::lower_bound(scratch.casts, contact.key, {}, &Cast::key);
+  const bool known = cast != scratch.casts.end() && cast->key == contact.key;
+  return known && cast->normal == contact.normal ? &*cast : nullptr;
+}
+
+const CastEnd* castOf(const Scratch& scratch, const Contact& contact, const ContactPoint& point) {
+  const Cast* cast = castOf(scratch, contact);
+  for (std::size_t k = 0; cast && k < cast->ends.size(); ++k) {
+    if (cast->ends[k].feature == point.feature) return &cast->ends[k];
+  }
+  return nullptr;
+}
+
+SurfacePoints surfacePoints(const Scratch& scratch, const Contact& contact,
+                            const ContactPoint& point, const Pose& b_in_a) {
+  const CastEnd* end = castOf(scratch, contact, point);
+  const Vec2 half = 0.5 * (end ? end->gap : point.gap) * contact.normal;
+  const Vec2 on_b = end ? end->on_b : b_in_a.toLocal(point.position);
+  return {point.position - half, on_b + b_in_a.rotation.inverse() * half};
+}
+
+}  // namespace merge2d

@@ -1,0 +1,51 @@
+#pragma once
+/// Contacts that are predicted ahead: whether, where and how two bodies meet in this step.
+///
+/// A row at the nearest points of now, with the gap of now, pushes what will pass by, and hits with
+/// the normal of now. So both bodies are moved through the step as they would move without
+/// contacts, by conservative advancement (Mirtich 1996): with n the direction of the shortest way
+/// between them, v the velocities of the centres of mass and R the reach of a shape from there, no
+/// point comes nearer than −n·(v_b − v_a) + |ω_a|R_a + |ω_b|R_b, so the distance over this bound is
+/// a time in which they cannot meet.
+///
+/// Where they meet, or else where they are nearest, the manifold is found anew, and its gaps are
+/// carried back along w, the relative velocity there: gap − t·w. The row of a hit then closes at
+/// the time of the hit; that of a miss does not act on what moves freely, yet bounds how far other
+/// contacts can push the two into each other.
+///
+/// A row acts on both bodies at one place of now, or it would change their angular momentum: that
+/// of the point on the first body. By the time of the hit the second has moved across; where that
+/// matters, dynamics/hits.h lets both move there.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// A gap up to this is a touch, not a prediction [m]; smaller where one of the shapes is small.
+double touchingGap(const State& state, const ContactKey& key);
+
+/// The least gap of the points of a contact that has some [m].
+double smallestGap(const Contact& contact);
+
+/// Replaces the points of a contact that is open, but would close in this step, by those of the
+/// meeting or of the nearest approach. Without forces the two come nearer by `ahead` [m] at most.
+/// Appends to `scratch.casts`.
+void castContact(const State& state, Scratch& scratch, Contact& contact, double ahead);
+
+/// Makes the casts of this step ready for `castOf`.
+void sortCasts(Scratch& scratch);
+
+/// Where a contact was cast to in this step, or nullptr.
+const Cast* castOf(const Scratch& scratch, const Contact& contact);
+
+/// The same for a point of it.
+const CastEnd* castOf(const Scratch& scratch, const Contact& contact, const ContactPoint& point);
+
+/// Where the two surfaces are at a point of a contact, each in its own body's frame.
+struct SurfacePoints {
+  Vec2 on_a, on_b;
+};
+SurfacePoints surfacePoints(const Scratch& scratch, const Contact& contact,
+                            const ContactPoint& point, const Pose& b_in_a);
+
+}  // namespace merge2d

@@ -1,0 +1,176 @@
+/// Seams between flush bodies, and within compounds: they stop and lift nothing.
+
+#include "src2d/contact/hidden_sides.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/contact_runs.h"
+
+namespace merge2d {
+namespace {
+
+Scene frictionless() {
+  Scene scene;
+  scene.settings.material.friction = 0.0;
+  return scene;
+}
+
+void addSmooth(Scene& scene, BodyDesc body) {
+  body.friction = 0.0;
+  add(scene, std::move(body));
+}
+
+/// `n` pinned tiles of 1 m from x = 0 on, with their surface at y = 0.
+Scene tiles(int n) {
+  Scene scene = frictionless();
+  for (int i = 0; i < n; ++i) addSmooth(scene, pinned(box(1, 1, {0.5 + i, -0.5})));
+  return scene;
+}
+
+/// Two boxes of 50 m side by side, as one body.
+Scene compoundFloor() {
+  Scene scene = frictionless();
+  BodyDesc floor;
+  floor.shapes = {makeBox(50, 1, Pose::at({-25, -0.5}, 0.0)),
+                  makeBox(50, 1, Pose::at({25, -0.5}, 0.0))};
+  addSmooth(scene, pinned(floor));
+  return scene;
+}
+
+/// The first steps press a body into the floor by what its softness allows; after these nothing
+/// changes its speed or lifts it.
+void expectGlides(World& world, double seconds, double speed, double height) {
+  constexpr double kHop = 2e-3;   // m/s: of the first settling
+  constexpr double kLift = 1e-3;  // m: the sag of the contact itself is 0.2 mm
+  const BodyId body = idOf(world, "slider");
+  const int steps = static_cast<int>(std::lround(seconds / world.scene().step));
+  for (int i = 0; i < steps; ++i) {
+    world.step();
+    const BodyState seen = see(world, body);
+    ASSERT_NEAR(seen.v.x(), speed, 1e-6 * std::abs(speed)) << "x = " << seen.x.x();
+    ASSERT_NEAR(seen.x.y(), height, kLift) << "x = " << seen.x.x();
+    if (i < 60) continue;
+    ASSERT_LT(std::abs(seen.v.y()), kHop) << "x = " << seen.x.x();
+  }
+}
+
+TEST(Seams, ABoxSlidesOverTiles) {
+  for (const double speed : {0.5, 5.0, 40.0, -5.0}) {
+    Scene scene = tiles(50);
+    addSmooth(scene,
+              named("slider", moving(box(0.6, 0.6, {speed > 0 ? 2.0 : 48.0, 0.3}), {speed, 0})));
+    SCOPED_TRACE(speed);
+    const double seconds = std::min(2.0, 44.0 / std::abs(speed));
+    inAllModesAndSteps(scene, [&](World& world) { expectGlides(world, seconds, speed, 0.3); });
+  }
+}
+
+TEST(Seams, ADiscSlidesOverTiles) {
+  for (const double speed : {0.5, 5.0, 40.0, -5.0}) {
+    Scene scene = tiles(50);
+    addSmooth(scene, named("slider", moving(disc(0.3, {speed > 0 ? 2.0 : 48.0, 0.3}), {speed, 0})));
+    SCOPED_TRACE(speed);
+    const double seconds = std::min(2.0, 44.0 / std::abs(speed));
+    inAllModesAndSteps(scene, [&](World& world) { expectGlides(world, seconds, speed, 0.3); });
+  }
+}
+
+TEST(Seams, NothingTripsInsideACompound) {
+  for (const double speed : {1.0, 5.0, 20.0}) {
+    for (const BodyDesc& body :
+         {disc(0.3, {-0.5 * speed, 0.3}), box(0.6, 0.6, {-0.5 * speed, 0.3})}) {
+      Scene scene = compoundFloor();
+      addSmooth(scene, named("slider", moving(body, {speed, 0})));
+      SCOPED_TRACE(speed);
+      inAllModesAndSteps(scene, [&](World& world) { expectGlides(world, 1.0, speed, 0.3); });
+    }
+  }
+}
+
+/// A compound slides as well: an L whose foot lies on the floor.
+TEST(Seams, ACompoundSlidesOverTiles) {
+  Scene scene = tiles(50);
+  BodyDesc foot;
+  foot.at = {2.0, 0.1};
+  foot.shapes = {makeBox(0.5, 0.2), makeBox(0.5, 0.2, Pose::at({0.5, 0.0}, 0.0)),
+                 makeBox(0.2, 0.3, Pose::at({0.1, 0.25}, 0.0))};
+  addSmooth(scene, named("slider", moving(foot, {5.0, 0})));
+  const double height = World(scene, inMode(Mode::Reference)).capture().bodies.back().x.y();
+  inAllModesAndSteps(scene, [&](World& world) { expectGlides(world, 2.0, 5.0, height); });
+}
+
+/// v²/(2μg) = 4.077 m, of which the discrete friction takes up to v·h/2.
+TEST(Seams, ACrateGlidesFromTableToTable) {
+  Scene scene;
+  scene.settings.material.friction = 0.2;
+  const auto rough = [&](BodyDesc body) {
+    body.friction = 0.2;
+    add(scene, body);
+  };
+  rough(pinned(box(4, 1, {-2, -0.5})));
+  rough(pinned(box(10, 1, {5, -0.5})));
+  rough(named("crate", moving(box(0.8, 0.8, {-3, 0.4}), {4, 0})));
+  inAllModesAndSteps(scene, [](World& world) {
+    runSeconds(world, 3.0);
+    const double lost = 4.0 * world.scene().step;
+    EXPECT_NEAR(see(world, "crate").x.x(), 16.0 / (2.0 * 0.2 * kGravity) - 3.0, lost);
+    EXPECT_NEAR(see(world, "crate").x.y(), 0.4, 1e-3);
+  });
+}
+
+/// The surfaces of tiles that touch only to a rounding error, overlap, or leave a hair between
+/// them.
+TEST(Seams, ASeamNeedNotBeExact) {
+  for (const double apart : {1e-12, -1e-12, 1e-3, -0.1}) {
+    Scene scene = frictionless();
+    addSmooth(scene, pinned(box(10, 1, {-5, -0.5})));
+    addSmooth(scene, pinned(box(10, 1, {5 + apart, -0.5})));
+    addSmooth(scene, named("slider", moving(box(0.6, 0.6, {-2, 0.3}), {5, 0})));
+    SCOPED_TRACE(apart);
+    inAllModesAndSteps(scene, [](World& world) { expectGlides(world, 0.8, 5.0, 0.3); });
+  }
+}
+
+/// A box of 0.6 m weighs 0.36 kg and sinks in by 0.2 mm: at a step of more it ends against it, and
+/// what is lower by as much lets it go on.
+TEST(Seams, AStepStopsABoxAndADropDoesNot) {
+  for (const double height : {1e-4, 5e-4, 1e-3, 3e-3}) {
+    for (const double direction : {1.0, -1.0}) {
+      Scene scene = frictionless();
+      addSmooth(scene, pinned(box(10, 1, {-5, -0.5})));
+      addSmooth(scene, pinned(box(10, 1, {5, -0.5 + height})));
+      const double start = direction > 0 ? 0.3 : 0.3 + height;
+      addSmooth(scene, named("slider",
+                             moving(box(0.6, 0.6, {-2 * direction, start}), {0.5 * direction, 0})));
+      SCOPED_TRACE(height * direction);
+      inAllModesAndSteps(scene, [&](World& world) {
+        runSeconds(world, 4.2);
+        const double v = see(world, "slider").v.x();
+        if (direction > 0) {
+          EXPECT_LT(v, 0.25) << "a step lets nothing pass";
+        } else {
+          EXPECT_LT(v, -0.45);
+        }
+      });
+    }
+  }
+}
+
+/// A floor that ends at a wall hides nothing of the wall.
+TEST(Seams, AWallOnAFloorStopsABoxAndADisc) {
+  for (const BodyDesc& body :
+       {box(0.6, 0.6, {-2, 0.3}), disc(0.3, {-2, 0.3}), disc(0.02, {-2, 0.02})}) {
+    Scene scene = frictionless();
+    addSmooth(scene, pinned(box(10, 1, {-5, -0.5})));
+    addSmooth(scene, pinned(box(1, 4, {0.5, 1.0})));
+    addSmooth(scene, named("slider", moving(body, {3, 0})));
+    inAllModesAndSteps(scene, [](World& world) {
+      runSeconds(world, 1.5);
+      EXPECT_LT(see(world, "slider").x.x(), 1e-3);
+      EXPECT_NEAR(see(world, "slider").v.norm(), 0.0, 1e-2);
+    });
+  }
+}
+
+}  // namespace
+}  // namespace merge2d
