@@ -60,7 +60,7 @@ class OpenFile {
 bool isStandardInput(const std::filesystem::path& path) { return path == "-"; }
 
 std::string nameOfFile(const std::filesystem::path& path) {
-  return isStandardInput(path) ? "<stdin>" : path.string();
+  return isStandardInput(path) ? std::string(kStandardInput) : path.string();
 }
 
 std::string readFile(const std::filesystem::path& path, const FileKind& kind) {

@@ -18,6 +18,8 @@ struct FileKind {
 
 /// `-` names the standard input.
 bool isStandardInput(const std::filesystem::path& path);
+/// How messages call the standard input.
+inline constexpr std::string_view kStandardInput = "<stdin>";
 /// As messages name it.
 std::string nameOfFile(const std::filesystem::path& path);
 

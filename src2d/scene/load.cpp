@@ -29,7 +29,7 @@ void failAccess(const fs::path& path) {
 
 /// What a scene is called that came from there.
 std::string sceneName(const std::string& source) {
-  if (source == nameOfFile("-")) return "stdin";
+  if (source == kStandardInput) return "stdin";
   return asOneLine(fs::path(source).stem().string());
 }
 
