@@ -20,6 +20,7 @@ class ParallelSink : public FrameSink {
       : writer_(bodies, style,
                 {.folder = folder, .workers = workers(), .resume = resume, .digests = &digests}) {}
 
+  void note(const Snapshot& snapshot) override { writer_.skip(snapshot); }
   void add(std::int64_t, const Snapshot& snapshot) override { writer_.add(snapshot); }
   void finish() override { writer_.finish(); }
   FrameCounts counts() const override {
@@ -49,6 +50,7 @@ class PartialSink : public FrameSink {
         digests_(digests),
         resume_(resume) {}
 
+  void note(const Snapshot& snapshot) override { colors_.update(snapshot); }
   void add(std::int64_t frame, const Snapshot& snapshot) override {
     const CollectionSlots slots = colors_.update(snapshot);
     if (frame < from_) return;

@@ -20,6 +20,8 @@ struct FrameCounts {
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
+  /// A state between two frames in which collections were made: it decides on their colours.
+  virtual void note(const Snapshot& snapshot) = 0;
   virtual void add(std::int64_t frame, const Snapshot& snapshot) = 0;
   /// All frames are there. Throws what went wrong.
   virtual void finish() = 0;

@@ -78,7 +78,7 @@ class Rendering {
   void prepareFolder();
   void drawFrames();
   void noteProgress();
-  void stepTo(std::int64_t step);
+  void stepTo(std::int64_t step, FrameSink& sink);
   void finish(bool complete, const std::string& failure = {});
   fs::path makeAnimation();
   FfmpegJob ffmpegJob() const;
@@ -121,7 +121,14 @@ FrameStyle Rendering::makeStyle() const {
   return style;
 }
 
-void Rendering::stepTo(std::int64_t step) {
+/// Whether a step may have made collections: by merging, or of what came apart.
+bool mayMakeCollections(const std::vector<Event>& events) {
+  return std::ranges::any_of(events, [](const Event& e) {
+    return e.type == EventType::Merge || e.type == EventType::Unmerge;
+  });
+}
+
+void Rendering::stepTo(std::int64_t step, FrameSink& sink) {
   while (world().steps() < step) {
     simulation_.step();
     // Between two frames only the events are of interest.
@@ -131,6 +138,8 @@ void Rendering::stepTo(std::int64_t step) {
     snapshot_.stats = world().stats();
     run_file_.add(snapshot_);
     captions_.add(snapshot_);
+    // The colour of a collection is decided when it is made, whichever frames are drawn.
+    if (mayMakeCollections(snapshot_.events)) sink.note(world().capture());
   }
 }
 
@@ -147,7 +156,7 @@ void Rendering::drawFrames() {
   Progress progress(console_, "frame", film_.to + 1);
   const RenderClock::time_point start = RenderClock::now();
   for (std::int64_t frame = 0; frame <= film_.to; ++frame) {
-    stepTo(film_.stepOf(frame));
+    stepTo(film_.stepOf(frame), *sink);
     stopIfInterrupted();
     world().capture(snapshot_);
     sink->add(frame, snapshot_);

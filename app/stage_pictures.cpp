@@ -45,6 +45,11 @@ Camera StagePictures::cameraFor(const Snapshot& snapshot) const {
   return fit.height < style_.camera.height ? fit : style_.camera;
 }
 
+void StagePictures::note(const Snapshot& snapshot) {
+  if (!drawer_) drawer_.emplace(start_.bodies(), style_);
+  drawer_->note(snapshot);
+}
+
 std::string StagePictures::save(const StepRecord* record, Stage stage, const std::string& file) {
   if (record == nullptr) {
     Canvas canvas(style_.width, style_.height);

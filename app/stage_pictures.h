@@ -18,6 +18,8 @@ class StagePictures {
  public:
   StagePictures(const Scene& scene, Mode mode, FrameStyle style = {});
 
+  /// A state before the step that is drawn, in which collections may have got their colours.
+  void note(const Snapshot& snapshot);
   /// Draws a stage, or without a record the state before the first step, into a file; returns what
   /// it shows. Throws IoError.
   std::string save(const StepRecord* record, Stage stage, const std::string& file);

@@ -22,11 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-StepRecord recordStep(const Scene& scene, const RenderOptions& options) {
+StepRecord recordStep(const Scene& scene, const RenderOptions& options, StagePictures& pictures) {
   Recorder recorder(scene, options.mode);
   while (recorder.world().steps() + 1 < *options.at) {
     stopIfInterrupted();
     recorder.skip();
+    if (!recorder.world().events().empty()) pictures.note(recorder.world().capture());
   }
   return recorder.record();
 }
@@ -56,7 +57,7 @@ class StageFiles {
         pictures_(scene, options.mode, style_) {
     for (std::size_t i = 0; i < kStages; ++i) requirePictureMayAppear(picture(i), options.force);
     if (options.contact_sheet) requirePictureMayAppear(file(".png"), options.force);
-    record_ = recordStep(scene, options);
+    record_ = recordStep(scene, options, pictures_);
   }
 
   const fs::path& folder() const { return folder_; }

@@ -26,6 +26,8 @@ class StageDrawer {
 
   /// What the following pictures show of the world.
   void look(const Camera& camera) { style_.camera = camera; }
+  /// A state that is not drawn: the colours of its collections are kept.
+  void note(const Snapshot& snapshot) { colors_.update(snapshot); }
 
   /// `reference`: the state of the unmerged run after the same step, for AdvanceVelocities; may be
   /// null.
