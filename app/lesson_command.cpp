@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/interrupt.h"
+#include "app/lesson_source.h"
 #include "app/output_file.h"
 #include "app/progress.h"
 #include "app/simulation.h"
@@ -26,6 +27,8 @@ constexpr const char* kLessonExamples = R"(Examples:
   merge2d lesson my-lesson/
   merge2d lesson my-scene.toml -o page.html
   merge2d lesson books --no-live
+  merge2d lesson cycles --embed -o cycles.html
+  merge2d lesson --course -o course
 
 The page is one file with everything in it: it needs no network, and sends nothing anywhere.)";
 
@@ -36,17 +39,9 @@ constexpr std::string_view kPageStart =
 
 struct LessonOptions : SceneOptions {
   std::string output;  ///< empty: frames/<name>/lesson.html
-  bool live = true;
+  bool live = true, embed = false, course = false;
+  std::string language;  ///< of the page's own words; empty: English
 };
-
-/// A built-in lesson's folder, or a folder that holds one.
-std::optional<DataFolder> lessonNamed(const std::string& name) {
-  for (const BuiltinLesson& lesson : builtinLessons()) {
-    if (lesson.name == name) return lesson.folder;
-  }
-  if (fs::is_directory(name)) return DataFolder(fs::path(name));
-  return std::nullopt;
-}
 
 /// Whoever mistypes a lesson's name is told of lessons too, not of scenes alone.
 void refuseUnknownName(const std::string& name) {
@@ -113,15 +108,8 @@ PageContent scenePage(const LessonOptions& options, const Console& console,
   return content;
 }
 
-PageContent lessonPage(const DataFolder& folder, const LessonOptions& options,
-                       const Console& console, std::optional<PageFile>& file) {
-  if (!options.overrides.empty() || options.steps || options.seconds) {
-    throw UsageError(
-        "a lesson says itself how its scene is run; --set, --seed, --steps and "
-        "--seconds are for scenes");
-  }
-  const Lesson lesson = loadLesson(folder);
-  file.emplace(options, lesson.name);
+/// Simulates a lesson, and says what it expects in vain.
+PageContent contentOf(const Lesson& lesson, const Console& console) {
   std::vector<Recording> recordings =
       recordLesson(lesson, [](std::int64_t) { stopIfInterrupted(); });
   for (const std::string& failure : failures(lesson, recordings)) console.warnOfPlace(failure);
@@ -133,15 +121,72 @@ PageContent lessonPage(const DataFolder& folder, const LessonOptions& options,
   return content;
 }
 
+void refuseSceneOptions(const LessonOptions& options) {
+  if (!options.overrides.empty() || options.steps || options.seconds) {
+    throw UsageError(
+        "a lesson says itself how its scene is run; --set, --seed, --steps and "
+        "--seconds are for scenes");
+  }
+}
+
+PageContent lessonPage(const DataFolder& folder, const LessonOptions& options,
+                       const Console& console, std::optional<PageFile>& file) {
+  refuseSceneOptions(options);
+  const Lesson lesson = loadLesson(folder);
+  file.emplace(options, lesson.name);
+  return contentOf(lesson, console);
+}
+
+/// All lessons and a page that lists them, in a folder.
+void writeCourse(const LessonOptions& options, const Console& console) {
+  refuseSceneOptions(options);
+  if (!options.scene.empty()) {
+    throw UsageError("--course writes all lessons; give it no name of one");
+  }
+  const fs::path folder = options.output.empty() ? "course" : options.output;
+  const MadeFolder made(folder);
+  std::vector<Lesson> lessons;
+  for (const BuiltinLesson& lesson : builtinLessons()) lessons.push_back(loadLesson(lesson.folder));
+  const auto fileOf = [](const Lesson& lesson) { return lesson.name + ".html"; };
+  const auto write = [&](const std::string& name, const std::string& page) {
+    OutputFile file((folder / name).string(), {.everything = options.force, .ours = kPageStart});
+    file.stream() << page;
+    file.finish();
+    print(fmt::format("{}\n", (folder / name).string()));
+  };
+  std::vector<CourseEntry> entries;
+  for (std::size_t i = 0; i < lessons.size(); ++i) {
+    const Lesson& lesson = lessons[i];
+    entries.push_back({.title = lesson.title,
+                       .summary = lesson.summary,
+                       .file = fileOf(lesson),
+                       .minutes = lesson.minutes});
+    PageContent content = contentOf(lesson, console);
+    content.course = {.number = static_cast<int>(i) + 1,
+                      .of = static_cast<int>(lessons.size()),
+                      .next_title = i + 1 < lessons.size() ? lessons[i + 1].title : "",
+                      .next_file = i + 1 < lessons.size() ? fileOf(lessons[i + 1]) : "index.html"};
+    if (!options.language.empty()) content.language = options.language;
+    write(fileOf(lesson), makePage(content, options.live));
+  }
+  write("index.html", makeCourseIndex(entries));
+}
+
 void run(const LessonOptions& options) {
   check(options);
   const Console console(options);
   catchInterrupts();
+  if (options.course) return writeCourse(options, console);
+  if (options.scene.empty()) {
+    throw UsageError("which scene or lesson? `merge2d list` names them; --course writes all");
+  }
   std::optional<PageFile> file;
   refuseUnknownName(options.scene);
   const auto folder = lessonNamed(options.scene);
-  const PageContent content =
+  PageContent content =
       folder ? lessonPage(*folder, options, console, file) : scenePage(options, console, file);
+  content.embed = options.embed;
+  if (!options.language.empty()) content.language = options.language;
   file->write(content, options.live);
 }
 
@@ -153,10 +198,20 @@ void addLessonCommand(CLI::App& program, Action& action) {
   command->footer(kLessonExamples);
   const auto options = std::make_shared<LessonOptions>();
   addSceneOptions(*command, *options);
+  command->get_option("SCENE")->required(false);
   addOutputOption(
       *command, "-o,--output", "FILE.html",
       [options](const std::string& s) { options->output = readPath("--output", s); },
-      "The page; by default frames/NAME/lesson.html; - is the standard output");
+      "The page; by default frames/NAME/lesson.html; - is the standard output. Of --course: a "
+      "folder");
+  command->add_flag("--course", options->course, "All lessons, and a page that lists them");
+  command
+      ->add_option("--language", options->language,
+                   "Of the page's own words: en, de or fr; what a lesson says stays as it is")
+      ->check(CLI::IsMember({"en", "de", "fr"}))
+      ->type_name("LANGUAGE");
+  command->add_flag("--embed", options->embed,
+                    "A compact page for slides, notebooks and frames in other pages");
   command->add_flag("!--no-live", options->live,
                     "Leave the engine out (0.7 MB): the page plays the prepared run, and nobody "
                     "can take it over");

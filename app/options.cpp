@@ -142,8 +142,9 @@ void addMessageOptions(CLI::App& command, MessageOptions& options) {
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
   command
-      .add_option("SCENE", options.scene,
-                  "A built-in scene (see merge2d list), a .toml file, or a drawn .png file")
+      .add_option(
+          "SCENE", options.scene,
+          "A built-in scene or lesson (see merge2d list), a .toml file, or a drawn .png file")
       ->type_name("")
       ->required();
   addSimulationOptions(command, options);

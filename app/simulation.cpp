@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/interrupt.h"
+#include "app/lesson_source.h"
 #include "src2d/core/error.h"
 
 namespace merge2d {
@@ -23,10 +24,23 @@ void warnOfIdleSeed(const SceneOptions& options, const Scene& scene, const Conso
       fmt::format("the seed changes nothing: {} has no [[emitter]] with a 'spread'", scene.name));
 }
 
+/// A lesson goes by its name too; a scene of that name comes first.
+Scene sceneOrLesson(const SceneOptions& options) {
+  const auto scenes = builtinScenes();
+  const bool is_scene =
+      std::ranges::find(scenes, options.scene, &BuiltinScene::name) != scenes.end();
+  if (!is_scene) {
+    if (const auto lesson = lessonNamed(options.scene)) {
+      return sceneOfLesson(*lesson, options.overrides);
+    }
+  }
+  return loadScene(options.scene, options.overrides);
+}
+
 }  // namespace
 
 Scene loadScene(const SceneOptions& options, const Console& console) {
-  Scene scene = loadScene(options.scene, options.overrides);
+  Scene scene = sceneOrLesson(options);
   for (const std::string& warning : scene.warnings) console.warn(warning);
   warnOfIdleSeed(options, scene, console);
   if (options.steps) scene.duration = static_cast<double>(*options.steps) * scene.step;

@@ -8,10 +8,12 @@
 #include "app/console.h"
 #include "app/doubts.h"
 #include "app/json.h"
+#include "app/lesson_source.h"
 #include "app/load_doubts.h"
 #include "app/output_file.h"
 #include "app/simulation.h"
 #include "app/usage_error.h"
+#include "lessons/lesson.h"
 #include "lessons/words.h"
 #include "src2d/core/error.h"
 #include "src2d/core/utf8.h"
@@ -23,6 +25,7 @@ namespace {
 constexpr const char* kValidateExamples = R"(Examples:
   merge2d validate tower.toml
   merge2d validate drawing.png --to scene.toml
+  merge2d validate my-lesson/
   merge2d validate pile --json --set step=0.005)";
 
 struct ValidateOptions : SceneOptions {
@@ -125,8 +128,65 @@ std::string json(const Scene& scene, const Inventory& found) {
   return out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// A folder with a lesson.toml, or the name of a built-in lesson.
+std::optional<DataFolder> lessonToValidate(const std::string& name) {
+  const auto scenes = builtinScenes();
+  if (std::ranges::find(scenes, name, &BuiltinScene::name) != scenes.end()) return std::nullopt;
+  return lessonNamed(name);
+}
+
+/// Whether the page's policy would leave a picture of the text away.
+bool asksForPictures(const std::string& html) {
+  for (std::size_t at = html.find("<img"); at != std::string::npos;
+       at = html.find("<img", at + 1)) {
+    if (html.find("src=\"data:", at) >= html.find('>', at)) return true;
+  }
+  return false;
+}
+
+/// What a page would show too early, or not at all.
+std::vector<std::string> doubtsAbout(const Lesson& lesson, const std::vector<Recording>& runs) {
+  std::vector<std::string> out;
+  if (asksForPictures(lesson.intro)) out.emplace_back("text.md: a page shows no pictures of files");
+  for (const LessonPart& part : lesson.parts) {
+    if (asksForPictures(part.html)) {
+      out.push_back(fmt::format("'{}': a page shows no pictures of files", part.title));
+    }
+    const Recording& run = runs[part.trace];
+    const Moment* reveal = part.question ? part.question->reveal() : nullptr;
+    if (reveal == nullptr || reveal->in(run).step > part.at.in(run).step) continue;
+    out.push_back(
+        fmt::format("'{}': the answer is in the picture when the question is asked: "
+                    "step {} is revealed at step {}",
+                    part.title, part.at.in(run).step, reveal->in(run).step));
+  }
+  return out;
+}
+
+/// A lesson's folder: all that can be said without a reader.
+void validateLesson(const DataFolder& folder, const ValidateOptions& options) {
+  if (!options.to.empty() || options.json) {
+    throw UsageError("--to and --json are for scenes; a lesson is checked in words");
+  }
+  const Lesson lesson = loadLesson(folder);
+  const std::vector<Recording> runs = recordLesson(lesson);
+  const Console console(options);
+  for (const std::string& doubt : doubtsAbout(lesson, runs)) console.warn(doubt);
+  const std::vector<std::string> failed = failures(lesson, runs);
+  const auto questions = std::ranges::count_if(
+      lesson.parts, [](const LessonPart& part) { return part.question.has_value(); });
+  print(fmt::format("{}: {}\n  {}, {}, {}\n  {} of {} hold\n", escaped(lesson.name),
+                    escaped(lesson.title), counted(lesson.parts.size(), "part", "parts"),
+                    counted(static_cast<std::size_t>(questions), "question", "questions"),
+                    counted(lesson.traces.size(), "run", "runs"),
+                    lesson.expectations.size() - failed.size(),
+                    counted(lesson.expectations.size(), "expectation", "expectations")));
+  if (!failed.empty()) throw InputError(failed.front());
+}
+
 void validate(const ValidateOptions& options) {
   check(options);
+  if (const auto lesson = lessonToValidate(options.scene)) return validateLesson(*lesson, options);
   if (options.json && options.to == "-") {
     throw UsageError("--json and --to - would both write to the standard output");
   }
@@ -153,7 +213,8 @@ void validate(const ValidateOptions& options) {
 }  // namespace
 
 void addValidateCommand(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("validate", "Check a scene and say what is in it");
+  CLI::App* command =
+      program.add_subcommand("validate", "Check a scene or a lesson and say what is in it");
   command->footer(kValidateExamples);
   const auto options = std::make_shared<ValidateOptions>();
   addSceneOptions(*command, *options);

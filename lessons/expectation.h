@@ -39,6 +39,7 @@ class Expectation {
   using Range = std::pair<double, double>;
 
   std::optional<std::string> look(const Recording& recording) const;
+  std::optional<std::string> lookTogether(const Recording& recording, std::int64_t step) const;
 
   enum class What { Together, Apart, Free, Asleep, Happens, Never, Measure };
   What what_ = What::Measure;

@@ -127,6 +127,7 @@ class Loader {
     LessonTrace first{.label = "as it is", .mode = Mode::MergeSleep, .scene = {}};
     if (const auto mode = top.get("mode")) first.mode = modeOf(*mode);
     const std::string wanted = sceneWanted(top);
+    lesson_.scene_name = wanted;
     const auto load = [&](const Overrides& overrides) {
       Scene scene = folder_.holds(wanted) ? loadSceneFile(folder_, wanted, overrides)
                                           : loadScene(wanted, overrides);

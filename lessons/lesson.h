@@ -37,7 +37,8 @@ struct Lesson {
   std::string name;  ///< of the folder, without its number
   std::string title, summary;
   int minutes = 0;
-  std::string intro;  ///< HTML
+  std::string scene_name;  ///< a file of the folder, or a built-in scene
+  std::string intro;       ///< HTML
   double seconds = 0.0;
   std::vector<LessonTrace> traces;
   std::vector<LessonPart> parts;

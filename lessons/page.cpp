@@ -26,6 +26,10 @@ std::string forScript(std::string_view json) {
 std::string dataOf(const PageContent& content, const Encoding& encoding) {
   JsonText out;
   out.open('{').field("title", content.title).key("lesson").raw(content.lesson);
+  const CoursePlace& place = content.course;
+  out.key("course").open('{').field("number", place.number).field("of", place.of);
+  out.field("next", place.next_title).field("file", place.next_file).close('}');
+  out.field("embed", content.embed).field("language", content.language);
   out.array("traces", content.traces, [&](const NamedRecording& trace) {
     const EncodedTrace encoded = encode(trace.recording, encoding);
     out.open('{').field("label", trace.label);
@@ -65,6 +69,34 @@ constexpr const char* kPage = R"(<!DOCTYPE html>
 </html>
 )";
 
+constexpr const char* kIndex = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="generator" content="merge2d">
+<title>A course on adaptive merging</title>
+<style>
+body {{ margin: 0 auto; max-width: 46rem; padding: 24px 16px 64px; background: #f5f5f2; color: #1b2129; font: 17px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }}
+h1 {{ font-size: 26px; line-height: 1.2; }} ol {{ padding: 0; list-style: none; counter-reset: n; display: grid; gap: 8px; }}
+li {{ counter-increment: n; background: #fff; border: 1px solid #d9dbd7; border-radius: 8px; padding: 12px 16px 12px 56px; position: relative; }}
+li::before {{ content: counter(n); position: absolute; left: 16px; top: 14px; width: 26px; line-height: 26px; text-align: center; border: 1.5px solid #7d8690; border-radius: 50%; font-size: 14px; font-weight: 650; }}
+li p {{ margin: 2px 0 0; }} small {{ color: #525b66; }} a {{ color: inherit; font-weight: 650; display: inline-block; min-height: 28px; }} a:focus-visible {{ outline: 3px solid #1b2129; outline-offset: 2px; }}
+@media (prefers-color-scheme: dark) {{ body {{ background: #101317; color: #e9ecf0; }} li {{ background: #191d23; border-color: #333a43; }} small {{ color: #a9b2bd; }} a:focus-visible {{ outline-color: #e9ecf0; }} }}
+</style>
+</head>
+<body>
+<main>
+<h1>Bodies that move as one: a course on adaptive merging</h1>
+<p>Each page is a lesson that runs by itself, without a network. Answers stay in this browser.</p>
+<ol>
+{items}</ol>
+</main>
+</body>
+</html>
+)";
+
 }  // namespace
 
 std::string escapedHtml(std::string_view text) {
@@ -91,6 +123,16 @@ std::string escapedHtml(std::string_view text) {
     }
   }
   return out;
+}
+
+std::string makeCourseIndex(const std::vector<CourseEntry>& entries) {
+  std::string items;
+  for (const CourseEntry& entry : entries) {
+    items += fmt::format("<li><a href=\"{}\">{}</a><p>{}</p><small>about {} minutes</small></li>\n",
+                         escapedHtml(entry.file), escapedHtml(entry.title),
+                         escapedHtml(entry.summary), entry.minutes);
+  }
+  return fmt::format(kIndex, fmt::arg("policy", kPolicy), fmt::arg("items", items));
 }
 
 std::string makePage(const PageContent& content, bool live) {

@@ -29,6 +29,27 @@ std::set<std::pair<BodyId, BodyId>> touchingPairs(const Recording& r, std::int64
   return pairs;
 }
 
+/// " (its contact slides)", from the events of the step; empty where a neighbour came free of it.
+std::string whyFreed(const Recording& r, BodyId body, std::int64_t step) {
+  for (const TimedEvent& e : r.events) {
+    if (e.step != step || e.event.type != EventType::Unmerge) continue;
+    if (e.event.a != body && e.event.b != body) continue;
+    switch (e.event.reason) {
+      case EventReason::Broken:
+        return " (a contact broke)";
+      case EventReason::Sliding:
+        return " (a contact slides)";
+      case EventReason::RelativeMotion:
+        return " (it moves against the others)";
+      case EventReason::Cycle:
+        return " (its ring fell apart)";
+      default:
+        return "";
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 /// An option of an answer: its text, the bodies it means in the picture, and whether it is right.
@@ -136,7 +157,7 @@ Question::Answer Question::freedBodies(const Recording& r, std::int64_t asked_at
     if (r.collection(b, asked_at) == kNoCollection) continue;
     const bool right = r.collection(b, step) == kNoCollection;
     out.options.push_back({r.bodies[i].name, {b}, right});
-    if (right) freed.push_back(r.bodies[i].name);
+    if (right) freed.push_back(r.bodies[i].name + whyFreed(r, b, step));
   }
   if (!freed.empty())
     out.because = fmt::format("Free at step {}: {}.", step, fmt::join(freed, ", "));

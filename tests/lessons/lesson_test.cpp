@@ -137,6 +137,13 @@ TEST_F(LessonFolder, ExpectationsThatHoldAreSilent) {
               IsEmpty());
 }
 
+TEST_F(LessonFolder, AFixedBodyIsTogetherWithWhatIsWeldedToIt) {
+  EXPECT_THAT(failuresOf("together = [\"ground\", \"low\"]\nat = \"end\"\n"), IsEmpty());
+  EXPECT_THAT(failuresOf("together = [\"high\", \"ground\"]\nat = \"end\"\n"), IsEmpty());
+  EXPECT_THAT(failuresOf("together = [\"ground\", \"low\"]\nat = \"start\"\n"),
+              ElementsAre(HasSubstr("at step 0 low is in no collection")));
+}
+
 TEST_F(LessonFolder, ExpectationsThatDoNotHoldSayWhatIs) {
   EXPECT_THAT(failuresOf("apart = [\"low\", \"high\"]\nat = \"end\"\n"),
               ElementsAre(HasSubstr("low and high are in one collection")));

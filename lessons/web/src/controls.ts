@@ -155,7 +155,13 @@ export function layerSwitches(state: State): HTMLElement {
     h('div', { class: 'popover' }, ...[...kFirst, ...rest].map(chip), h('dl', { class: 'key' }, ...kKey.flatMap(([look, mark, text]) => [
       h('dt', {}, svg('svg', { viewBox: '0 0 24 16', 'aria-hidden': true }, svg('path', { d: mark, class: look }))), h('dd', {}, text)]))));
   closesOutside(more);
-  return h('div', { class: 'layers', role: 'group', 'aria-label': 'Layers of the picture' }, ...kFirst.map(chip), more);
+  const row = h('div', { class: 'chips' }, ...kFirst.map(chip));
+  // What finds no place is in the menu alone.
+  new ResizeObserver(() => {
+    const chips = [...row.children] as HTMLElement[];
+    for (const one of chips) one.style.visibility = one.offsetTop > chips[0].offsetTop + 4 ? 'hidden' : '';
+  }).observe(row);
+  return h('div', { class: 'layers', role: 'group', 'aria-label': 'Layers of the picture' }, row, more);
 }
 
 /** What the marks mean. */

@@ -16,7 +16,14 @@ const mi = (text: string) => math('mi', text);
 const mn = (value: number) => math('mn', number(value));
 const mo = (text: string) => math('mo', text);
 const text = (value: string) => math('mtext', value);
-const sub = (base: string, index: string) => math('msub', mi(base), math('mrow', mi(index)));
+const sub = (base: string, index: string) => named(base + index, math('msub', mi(base), math('mrow', mi(index))));
+/** The number of a symbol: both light up together. */
+const mv = (symbol: string, value: number) => named(symbol, mn(value));
+
+function named(symbol: string, node: MathMLElement): MathMLElement {
+  node.dataset.symbol = symbol;
+  return node;
+}
 const row = (...children: Node[]) => math('mrow', ...children);
 
 interface Line {
@@ -67,6 +74,11 @@ function decisionMeant(state: State, criteria: string[], stage: string): Decisio
   return best;
 }
 
+/** What is less than a hundredth of gravity's part is rounding of the recorded velocities. */
+function rest(value: number, gravity: number): number {
+  return Math.abs(value) < 0.01 * Math.abs(gravity) ? 0 : value;
+}
+
 function between(state: State, x: { a: number; b: number }): string {
   return `${state.trace.name(x.a)} and ${state.trace.name(x.b)}`;
 }
@@ -79,22 +91,30 @@ function bodyMeant(state: State): number {
   return state.trace.head.bodies.findIndex((_, i) => dynamic(i));
 }
 
+/** Whether a collection is welded to a body that forces do not move. */
+function heldFast(state: State, collection: number): boolean {
+  const { trace, step } = state;
+  const fixed = (body: number) => trace.head.bodies[body].motion !== 'dynamic';
+  return trace.contactsAt(step).some((c) => c.internal && ((fixed(c.a) && trace.collection(c.b, step) === collection) || (fixed(c.b) && trace.collection(c.a, step) === collection)));
+}
+
 function line(state: State): Line | null {
   const { trace, step } = state;
   const hh = trace.head.h;
   switch (kStages[state.stage].id) {
     case 'ContactDetection': case 'WarmStart': case 'SingleIterationPGS': case 'SolveLCP': {
       const c = contactMeant(state);
-      const symbols = row(mn(0), mo('≤'), sub('w', 'n'), mo('⊥'), sub('λ', 'n'), mo('≥'), mn(0), mo(','), mo('|'), sub('λ', 't'), mo('|'), mo('≤'), mi('μ'), sub('λ', 'n'));
+      const symbols = row(mn(0), mo('≤'), sub('w', 'n'), mo('⊥'), sub('λ', 'n'), mo('≥'), mn(0), mo(','), mo('|'), sub('λ', 't'), mo('|'), mo('≤'), named('μ', mi('μ')), sub('λ', 'n'));
       if (!c) return { symbols, numbers: null, note: 'Eqs. (4)–(7). Nothing touches now.' };
       // The velocity is known at the end of the step; before and after a stage the impulse alone.
       const change = changeOf(state, c);
       return {
         symbols,
         numbers: change
-          ? row(sub('λ', 'n'), mo(':'), mn(change.before[0]), mo('→'), mn(change.after[0]), text('\u2009N\u2009s'))
-          : row(sub('w', 'n'), mo('='), mn(c.wN), text('\u2009m/s,\u2002'), sub('λ', 'n'), mo('='), mn(c.lambdaN), text('\u2009N\u2009s')),
-        more: row(mo('|'), mn(c.lambdaT), mo('|'), mo(Math.abs(c.lambdaT) <= c.mu * c.lambdaN * (1 + 1e-3) ? '≤' : '>'), mn(c.mu), mo('·'), mn(c.lambdaN), mo('='), mn(c.mu * c.lambdaN), text('\u2009N\u2009s')),
+          ? row(sub('λ', 'n'), mo(':'), mv('λn', change.before[0]), mo('→'), mv('λn', change.after[0]), text('\u2009N\u2009s'),
+            ...(kStages[state.stage].id === 'SolveLCP' ? [text(',\u2002'), sub('w', 'n'), mo('='), mv('wn', c.wN), text('\u2009m/s')] : []))
+          : row(sub('w', 'n'), mo('='), mv('wn', c.wN), text('\u2009m/s,\u2002'), sub('λ', 'n'), mo('='), mv('λn', c.lambdaN), text('\u2009N\u2009s')),
+        more: row(mo('|'), mv('λt', c.lambdaT), mo('|'), mo(Math.abs(c.lambdaT) >= 0.98 * c.mu * c.lambdaN ? '=' : '≤'), mv('μ', c.mu), mo('·'), mv('λn', c.lambdaN), mo('='), mn(c.mu * c.lambdaN), text('\u2009N\u2009s')),
         note: `Eqs. (4)–(7), for ${between(state, c)}${c.internal ? ', inside a collection' : ''}.${deed(state, change)}`,
       };
     }
@@ -117,14 +137,14 @@ function line(state: State): Line | null {
       const g = hh * trace.head.gravity[1];
       return {
         symbols,
-        numbers: row(mn(is.vy), mo('='), mn(was.vy), mo('+'), mo('('), mn(g), mo(')'), mo('+'), mo('('), mn(is.vy - was.vy - g), mo(')'), text('\u2009m/s')),
+        numbers: row(mv('u+', is.vy), mo('='), mv('u−', was.vy), mo('+'), mo('('), mn(g), mo(')'), mo('+'), mo('('), mn(rest(is.vy - was.vy - g, g)), mo(')'), text('\u2009m/s')),
         note: `Eq. (8), upwards, for ${trace.name(b)}: before, by gravity, by all the rest.`,
       };
     }
     case 'AccumulateRelativeMotion': {
       const d = decisionMeant(state, ['relative-motion'], 'AccumulateRelativeMotion');
-      const symbols = row(math('msubsup', mi('v'), mi('rel'), mi('max')), mo('='), math('munder', mo('max'), row(mi('p'), mo('∈'), text('OBBs'))), mo('|'), sub('v', 'rel'), mo('('), mi('p'), mo(')'), mo('|'), mo('<'), mi('ε'));
-      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(d.passed ? '<' : '≥'), mn(d.threshold), text('\u2009m/s')) : null, note: d ? `Eqs. (15)–(17), for ${between(state, d)}: ${d.passed ? `calm; ${d.count} of ${d.needed} steps` : 'too fast; the count starts again'}.` : 'Eqs. (15)–(17). No free pair is in contact now.' };
+      const symbols = row(named('v', math('msubsup', mi('v'), mi('rel'), mi('max'))), mo('='), math('munder', mo('max'), row(mi('p'), mo('∈'), text('OBBs'))), mo('|'), sub('v', 'rel'), mo('('), mi('p'), mo(')'), mo('|'), mo('<'), named('ε', mi('ε')));
+      return { symbols, numbers: d ? row(mv('v', Math.abs(d.value)), mo(d.passed ? '<' : '≥'), mv('ε', d.threshold), text('\u2009m/s')) : null, note: d ? `Eqs. (15)–(17), for ${between(state, d)}: ${d.passed ? `calm; ${d.count} of ${d.needed} steps` : 'too fast; the count starts again'}.` : 'Eqs. (15)–(17). No free pair is in contact now.' };
     }
     case 'AdvancePositions': {
       const symbols = row(sub('x', '+'), mo('='), sub('x', '−'), mo('+'), mi('h'), sub('v', '+'));
@@ -139,6 +159,8 @@ function line(state: State): Line | null {
       const symbols = row(sub('v', 'c'), mo('='), math('mfrac', row(sub('m', 'c'), sub('v', 'c'), mo('+'), sub('m', 'b'), sub('v', 'b')), row(sub('m', 'c'), mo('+'), sub('m', 'b'))));
       if (!merged) return null; // there is nothing to be filled in
       const members = trace.members(merged[4], step);
+      // Welded to what never moves, its mass is infinite: the paper's m_c.
+      if (heldFast(state, merged[4])) return { symbols, numbers: row(sub('m', 'c'), mo('='), mi('∞'), text(',\u2002'), sub('v', 'c'), mo('='), text('that of what holds it')), note: `Eqs. (10)–(14): C${merged[4]} is welded to a body that does not respond to forces.` };
       const mass = members.reduce((sum, b) => sum + trace.head.bodies[b].mass, 0);
       const v = (axis: 'vx' | 'vy') => members.reduce((sum, b) => sum + trace.head.bodies[b].mass * trace.velocity(b, step)[axis], 0) / mass;
       return { symbols, numbers: row(sub('v', 'c'), mo('='), mo('('), mn(v('vx')), mo(','), mn(v('vy')), mo(')'), text('\u2009m/s,\u2002'), sub('m', 'c'), mo('='), mn(mass), text('\u2009kg')), note: `Eqs. (10)–(14): C${merged[4]} has ${members.length} ${members.length === 1 ? 'body' : 'bodies'} now.` };
@@ -146,14 +168,29 @@ function line(state: State): Line | null {
   }
 }
 
+/** Under the pointer, or with the focus, a symbol lights up its numbers, and its arrows in the picture. */
+function lightUp(body: HTMLElement): void {
+  const light = (symbol: string | undefined) => {
+    for (const node of body.querySelectorAll<MathMLElement>('[data-symbol]')) node.classList.toggle('lit', node.dataset.symbol === symbol);
+    document.documentElement.dataset.lit = symbol ?? '';
+  };
+  const symbolOf = (event: Event) => (event.target as Element).closest<MathMLElement>('[data-symbol]')?.dataset.symbol;
+  body.addEventListener('pointerover', (event) => light(symbolOf(event)));
+  body.addEventListener('pointerleave', () => light(undefined));
+  body.addEventListener('focusin', (event) => light(symbolOf(event)));
+  body.addEventListener('focusout', () => light(undefined));
+}
+
 export function equationCard(state: State): HTMLElement {
   const body = h('div', { class: 'equation' });
   const root = h('section', { class: 'card equation-card', 'aria-label': 'Equation of this stage' }, h('h2', {}, 'Equation'), body);
+  lightUp(body);
   state.onChange(() => {
     if (state.playing) return;
     const found = state.veiled ? null : line(state);
     root.hidden = !found;
     if (!found) return body.replaceChildren();
+    for (const node of found.symbols.querySelectorAll<MathMLElement>('[data-symbol]')) node.tabIndex = 0;
     body.replaceChildren(block(found.symbols), ...(found.numbers ? [block(found.numbers)] : []), ...(found.more ? [block(found.more)] : []), h('p', { class: 'hint' }, found.note));
   });
   return root;

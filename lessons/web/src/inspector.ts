@@ -35,6 +35,10 @@ export function inspector(state: State): HTMLElement {
   state.onChange(() => {
     if (state.playing && drawn === 'none' && !state.selection) return;
     const selection = state.selection;
+    if (state.veiled) {
+      drawn = 'veiled';
+      return body.replaceChildren(h('p', { class: 'hint' }, 'Hidden until you have answered.'));
+    }
     const key = selection ? `${JSON.stringify(selection)}-${state.step}-${state.stage}-${state.trace.label}` : 'none';
     if (key === drawn) return;
     drawn = key;
@@ -126,7 +130,8 @@ function pairView(state: State, a: number, b: number): HTMLElement[] {
       row('State', first.internal ? 'welded, inside a collection' : contacts.some((c) => c.state === 'sliding') ? 'sliding' : 'touching'),
       row('Contact points', plural(contacts.length, 'point')),
       row('Normal force', `${number(normal)} N`),
-      row('Friction', `${number(friction)} N of at most ${number(most)} N (μ = ${number(first.mu)})`),
+      row('Friction', Math.abs(friction) > 0.98 * most && most > 0 ? `at its limit of ${number(most)} N (μ = ${number(first.mu)})`
+        : `${number(friction)} N of at most ${number(most)} N (μ = ${number(first.mu)})`),
       row('Gap', `${number(Math.min(...contacts.map((c) => c.gap)) * 1000)} mm`)));
   }
   const now: Series[] = [];

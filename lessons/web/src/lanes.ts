@@ -1,5 +1,6 @@
 // Events over time: a lane for each kind, flags for the parts of a lesson, and where a run was taken over.
 import { svg } from './dom';
+import { eventText } from './now';
 import type { State } from './state';
 
 interface Lane {
@@ -53,7 +54,7 @@ export function lanes(state: State, flags: () => Flag[]): SVGSVGElement {
         before = at;
         d += lane.mark(Number(at.toFixed(1)), y);
       }
-      root.append(svg('path', { d, class: `mark ${lane.kinds[0]}` }, svg('title', {}, lane.label)));
+      root.append(svg('path', { d, class: `mark ${lane.kinds[0]}` }));
     }
     drawFork(height);
     drawFlags(height);
@@ -65,7 +66,7 @@ export function lanes(state: State, flags: () => Flag[]): SVGSVGElement {
     root.append(svg('path', { class: 'fork', d: `M${from} 0V${height - 14}` }),
       svg('text', { class: 'lane-name own', x: width - kSliderInset.right - 4, y: kPitch + kPitch / 2 + 5 }, 'your run'));
     for (const deed of state.live.deeds.filter((one, i, all) => all[i - 1]?.step !== one.step)) {
-      root.append(svg('path', { class: 'deed', d: `M${x(deed.step)} 0v3` }, svg('title', {}, deed.told)));
+      root.append(svg('path', { class: 'deed', d: `M${x(deed.step)} 0v3` }));
     }
   };
 
@@ -88,6 +89,29 @@ export function lanes(state: State, flags: () => Flag[]): SVGSVGElement {
         svg('text', { class: 'flag-name', x: at, y: height - 1 }, `${Number(t.toPrecision(6))} s`));
     }
   };
+
+  /** The step with an event that is nearest to the pointer. */
+  const eventAt = (event: MouseEvent): number | undefined => {
+    const at = event.clientX - root.getBoundingClientRect().left;
+    const until = state.veiled ? state.step : Infinity;
+    const near = state.trace.eventSteps().filter((step) => step <= until && Math.abs(x(step) - at) < 6);
+    return near.sort((p, q) => Math.abs(x(p) - at) - Math.abs(x(q) - at))[0];
+  };
+  const tip = svg('title');
+  root.addEventListener('pointermove', (event) => {
+    const step = eventAt(event);
+    root.style.cursor = step === undefined ? '' : 'pointer';
+    const rows = step === undefined ? [] : state.trace.eventsAt.get(step) ?? [];
+    const more = rows.length > 3 ? `, and ${rows.length - 3} more` : '';
+    tip.textContent = step === undefined ? '' : `${(step * state.trace.head.h).toFixed(2)} s: ${rows.slice(0, 3).map((row) => eventText(state.trace, row)).join('; ')}${more}`;
+    if (tip.parentNode !== root) root.prepend(tip);
+  });
+  root.addEventListener('click', (event) => {
+    const step = eventAt(event);
+    if (step === undefined) return;
+    state.playing = false;
+    state.goTo(step);
+  });
 
   new ResizeObserver(() => {
     const now = root.getBoundingClientRect().width;

@@ -26,6 +26,14 @@ export interface Part {
   select: number[];
   question: Question | null;
 }
+/** Where the lesson stands in a course. */
+export interface CoursePlace {
+  number: number; // 0: it stands alone
+  of: number;
+  next: string;
+  file: string;
+}
+
 export interface Lesson {
   summary: string;
   minutes: number;
@@ -103,7 +111,8 @@ export class LessonPanel {
   private readonly next: HTMLButtonElement;
   private readonly skip: HTMLButtonElement;
 
-  constructor(private readonly lesson: Lesson, private readonly state: State, private readonly pageTitle: string) {
+  constructor(private readonly lesson: Lesson, private readonly state: State, private readonly pageTitle: string,
+    private readonly course: CoursePlace | null = null) {
     this.given = lesson.parts.map(() => ({ chosen: new Set(), done: false, skipped: false }));
     this.memory = new Memory(`merge2d ${pageTitle}`);
     this.back = h('button', { type: 'button', class: 'plain', onclick: () => this.move(-1) }, 'Back');
@@ -193,6 +202,7 @@ export class LessonPanel {
   private primary(): void {
     if (this.pending()) this.answer(false);
     else if (this.current + 1 < this.lesson.parts.length) this.move(1);
+    else if (this.course && this.course.number > 0) location.href = this.course.file;
     else this.goToPart(0);
   }
 
@@ -267,15 +277,18 @@ export class LessonPanel {
     const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
     const part = this.lesson.parts[this.current];
     const start = Math.max(state.step, part.step);
-    if (still || question.reveal <= start || question.reveal - start > 400) {
+    if (still || question.reveal <= start) {
       state.goTo(question.reveal);
       return;
     }
-    const pace = Math.max(30, Math.min(250, 1500 / (question.reveal - start)));
+    // A second and a half, by single steps where these are few.
+    const span = question.reveal - start;
+    const stride = Math.max(1, Math.ceil(span / 50));
+    const pace = Math.max(30, Math.min(250, (1500 * stride) / span));
     let due = start;
     const tick = () => {
       if (state.live || (due !== start && state.step !== due)) return; // the reader has taken over
-      due = Math.min(question.reveal, state.step + 1);
+      due = Math.min(question.reveal, due + stride);
       state.goTo(due);
       if (due < question.reveal) window.setTimeout(tick, pace);
     };
@@ -291,7 +304,7 @@ export class LessonPanel {
     this.next.disabled = question !== null && given.chosen.size === 0 && !question.several;
     const following = this.lesson.parts[this.current + 1];
     this.next.textContent = question ? (question.several && given.chosen.size > 0 ? `Check ${given.chosen.size}` : 'Check')
-      : following ? `Next: ${following.title}` : 'From the start again';
+      : following ? `Next: ${following.title}` : this.course && this.course.number > 0 ? (this.course.next ? `Next lesson: ${this.course.next}` : 'To the list of lessons') : 'From the start again';
   }
 
   private drawQuestion(): void {

@@ -335,7 +335,7 @@ export class LiveRun {
     return this.trace.reach(step);
   }
   resultsOf(step: number): string[] {
-    return this.trace.results.get(step) ?? [];
+    return this.trace.results.get(step) ?? this.world.step(step).results;
   }
   close(): void {
     this.world.close();

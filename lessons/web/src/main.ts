@@ -12,11 +12,13 @@ import { impulseCard } from './impulses';
 import { inspector } from './inspector';
 import { helpDialog, listenToKeys } from './keys';
 import { ledger } from './ledger';
-import { type Lesson, LessonPanel } from './lesson';
+import { type CoursePlace, type Lesson, LessonPanel } from './lesson';
+import { speak } from './language';
 import { copied, follow, linkTo, listenToAddress } from './link';
 import { nowCard } from './now';
 import { Picture } from './picture';
 import { ribbon } from './rail';
+import { soundSwitch } from './sound';
 import { State } from './state';
 import { livePanel } from './take_over';
 import { partsOf, Trace } from './trace';
@@ -27,6 +29,9 @@ interface PageData {
   title: string;
   lesson: Lesson | null;
   traces: Packed[];
+  course: CoursePlace;
+  embed: boolean;
+  language: string;
 }
 
 function themeButton(): HTMLButtonElement {
@@ -116,7 +121,8 @@ function start(): void {
   const data = JSON.parse(source.textContent ?? '') as PageData;
   const state = new State(data.traces.map((packed) => new Trace(partsOf(packed))));
   const picture = new Picture(state.trace);
-  const panel = data.lesson ? new LessonPanel(data.lesson, state, data.title) : null;
+  const panel = data.lesson ? new LessonPanel(data.lesson, state, data.title, data.course) : null;
+  document.documentElement.classList.toggle('embedded', data.embed || new URLSearchParams(location.hash.slice(1)).has('embed'));
   const takeOver = h('button', { type: 'button', class: 'plain take-over', onclick: () => toggleLive() }, 'Take over here');
   const controls = transport(state, () => panel?.flags() ?? [], takeOver);
   const toggleLive = () => {
@@ -169,9 +175,9 @@ function start(): void {
     panel ? h('a', { class: 'skip', href: '#question', onclick: (event) => { event.preventDefault(); panel.focusQuestion(); } }, 'To the question') : h('span'),
     h('a', { class: 'skip', href: '#picture', onclick: (event) => { event.preventDefault(); frame.focus(); } }, 'To the picture'),
     h('header', {},
-      h('h1', {}, h('span', { class: 'kicker' }, data.lesson ? 'Lesson' : 'Scene'), data.title),
+      h('h1', {}, h('span', { class: 'kicker' }, data.course.number > 0 ? `Lesson ${data.course.number} of ${data.course.of}` : data.lesson ? 'Lesson' : 'Scene'), data.title),
       liveHeader(state), panel?.dots ?? null, h('div', { class: 'compare' }), status, moreButton, link,
-      menu(kept, themeButton(), h('button', { type: 'button', class: 'item', onclick: () => help.showModal() }, 'Keys'),
+      menu(kept, themeButton(), soundSwitch(state), h('button', { type: 'button', class: 'item', onclick: () => help.showModal() }, 'Keys'),
         h('label', { class: 'item' }, 'Speed ', controls.speed), h('div', { class: 'item compare' }), thresholdSlider(state),
         ...answers, h('button', { type: 'button', class: 'item', onclick: () => window.print() }, 'Print'))),
     h('main', {}, words, live.root,
@@ -188,6 +194,7 @@ function start(): void {
   follow(state, picture);
   listenToAddress(state, panel);
   state.changed();
+  speak(app, new URLSearchParams(location.hash.slice(1)).get('language') ?? data.language);
   document.documentElement.dataset.ready = 'true';
   void loadEngine(state);
 }

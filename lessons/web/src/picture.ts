@@ -2,7 +2,7 @@
 import { contactMarks, focus, forces, graph, heat } from './contacts';
 import { svg } from './dom';
 import { lookOf } from './groups';
-import type { Vec } from './head';
+import type { BodyInfo, Vec } from './head';
 import { Labels } from './labels';
 import { hands, loads } from './hands';
 import { boxes, corners, newCollections, springs, velocities, ways } from './motions';
@@ -11,7 +11,7 @@ import { type Sight, sightOf } from './sight';
 import type { State } from './state';
 import { fixed, outline } from './strokes';
 import type { Contact, Trace } from './trace';
-import { kHeight, kWidth, type Scales, scalesOf, View } from './view';
+import { kHeight, kWidth, type Scales, scalesOf, View, widthOf } from './view';
 
 /** From back to front. */
 const kPaths = ['springs', 'boxes', 'centre', 'graph', 'welds', 'cone', 'heat-calm', 'heat-warm', 'heat-near', 'heat-over',
@@ -169,20 +169,33 @@ export class Picture {
   private drawLabels({ state, trace, posed, grouped, view }: Sight): void {
     this.labels.clear();
     this.labels.unit = this.lens.unit;
+    // What moves by a script is told apart from what is pinned.
+    for (const [i, body] of trace.head.bodies.entries()) {
+      if (body.motion !== 'scripted' || !trace.present(i, posed)) continue;
+      const pose = trace.pose(i, posed);
+      this.labels.put(view.x(pose.x), view.y(pose.y), `${body.name} ↔`, 'name');
+    }
     if (!state.layers.has('labels')) return;
     const sums = new Map<number, { x: number; y: number; n: number }>();
     const few = this.bodies.length <= 40;
     for (const [i, body] of trace.head.bodies.entries()) {
       if (!trace.present(i, posed)) continue;
       const pose = trace.pose(i, posed);
-      if (few && body.motion === 'dynamic') this.labels.put(view.x(pose.x), view.y(pose.y), body.name, 'name');
+      if (few && body.motion === 'dynamic') this.labels.put(view.x(pose.x), view.y(pose.y), this.nameThatFits(body), 'name');
       if (grouped[i] < 0) continue;
       const sum = sums.get(grouped[i]) ?? { x: 0, y: 0, n: 0 };
       sums.set(grouped[i], { x: sum.x + pose.x, y: sum.y + pose.y, n: sum.n + 1 });
     }
     for (const [id, sum] of sums) {
-      this.labels.put(view.x(sum.x / sum.n), view.y(sum.y / sum.n), `C${id}`, 'collection-name');
+      this.labels.put(view.x(sum.x / sum.n), view.y(sum.y / sum.n), `C${id} · ${sum.n}`, 'collection-name');
     }
+  }
+
+  /** "0,5" of brick[0,5] where the whole name would lie on the neighbours. */
+  private nameThatFits(body: BodyInfo): string {
+    const room = widthOf(body) * this.view.scale;
+    const short = /\[([^\]]*)\]$/.exec(body.name);
+    return short && 8 * this.lens.unit * body.name.length > room ? short[1] : body.name;
   }
 
   /** Marks bodies as chosen or right. */

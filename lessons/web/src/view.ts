@@ -66,8 +66,17 @@ function strongForce(trace: Trace): number {
   return forces[Math.floor(0.97 * forces.length)] ?? 0;
 }
 
+/** Extent of a body along its own x axis [m]. */
+export function widthOf(info: BodyInfo): number {
+  return extents(info)[0];
+}
+
 /** The smaller extent of a body [m]. */
 function thinnest(info: BodyInfo): number {
+  return Math.min(...extents(info));
+}
+
+function extents(info: BodyInfo): [number, number] {
   const xs: number[] = [];
   const ys: number[] = [];
   for (const piece of info.pieces) {
@@ -82,5 +91,5 @@ function thinnest(info: BodyInfo): number {
       }
     }
   }
-  return Math.min(Math.max(...xs) - Math.min(...xs), Math.max(...ys) - Math.min(...ys));
+  return [Math.max(...xs) - Math.min(...xs), Math.max(...ys) - Math.min(...ys)];
 }

@@ -13,6 +13,9 @@ const here = fileURLToPath(new URL('.', import.meta.url));
 const merge2d = process.env.MERGE2D ?? join(here, '../../../build/merge2d');
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
+const kCourse = ['one-step', 'contact-forces', 'what-merging-is', 'how-fast-is-still', 'let-it-breathe', 'momentum', 'one-sweep', 'unmerging',
+  'cycles', 'limits', 'the-engine-decides', 'your-own-scene'];
+
 let folder;
 let browser;
 const files = {};
@@ -50,6 +53,10 @@ ${bodies.join('')}`);
   make('evil', 'evil.toml');
   make('tower-platform', 'tower-platform', ['--steps', '400']);
   make('small', 'long-names.toml', ['--no-live']);
+  make('cycles', 'cycles', ['--embed']);
+  execFileSync(merge2d, ['lesson', '--course', '-o', 'course', '--quiet'], { cwd: folder });
+  files.course = join(folder, 'course', 'index.html');
+  for (const name of kCourse) files[`course/${name}`] = join(folder, 'course', `${name}.html`);
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
 });
 after(async () => {
@@ -64,10 +71,10 @@ async function open(name, options = {}, hash = '') {
   const trouble = [];
   page.on('pageerror', (error) => trouble.push(String(error)));
   page.on('console', (message) => { if (message.type() === 'error') trouble.push(message.text()); });
-  page.on('request', (request) => { if (!request.url().startsWith('file:')) trouble.push(`asked for ${request.url()}`); });
+  page.on('request', (request) => { if (!/^(file|about|data):/.test(request.url())) trouble.push(`asked for ${request.url()}`); });
   const start = Date.now();
   await page.goto(`file://${files[name]}${hash}`);
-  await page.waitForSelector('html[data-ready]');
+  await page.waitForSelector('html[data-ready], main > ol');
   return {
     page, took: Date.now() - start,
     step: () => page.$eval('.slider', (slider) => Number(slider.value)),
@@ -136,7 +143,7 @@ test('the keyboard alone does everything', async () => {
   await page.keyboard.press('Home');
   assert.equal(await step(), 0);
   await page.keyboard.press('2');
-  assert.equal(await page.getAttribute('.layers > [data-layer=forces]', 'aria-pressed'), 'true');
+  assert.equal(await page.getAttribute('.chips > [data-layer=forces]', 'aria-pressed'), 'true');
   await page.keyboard.press('?');
   assert.ok(await page.isVisible('dialog'));
   await page.keyboard.press('Escape');
@@ -197,6 +204,7 @@ test('the sweep and the full solve show impulses before and after, in a step wit
 
 test('a click on a contact or a body shows its numbers against their limits', async () => {
   const { page, close } = await open('what-merging-is');
+  await page.keyboard.press('n'); // to a part whose numbers are not hidden by a question
   for (let i = 0; i < 40 && !(await page.getAttribute('.layer.active', 'd')); ++i) await page.keyboard.press('ArrowRight');
   const mark = await page.$eval('.layer.active', (path) => {
     const at = path.getPointAtLength(0).matrixTransform(path.getScreenCTM());
@@ -205,7 +213,7 @@ test('a click on a contact or a body shows its numbers against their limits', as
   await page.mouse.click(...mark);
   assert.match(await page.textContent('.inspector h3'), /^(platform|brick\[\d,\d\]) and brick/);
   assert.ok((await page.locator('.inspector .threshold').count()) > 0);
-  await page.locator('.picture .body.free').first().click();
+  await page.locator('.picture.interactive .body:not(.fixed)').first().click();
   assert.match(await page.textContent('.inspector h3'), /^brick\[\d,\d\]$/);
   assert.match(await page.textContent('.inspector dl'), /Mass/);
   await close();
@@ -429,10 +437,10 @@ test('a link to a run of one’s own replays it', async () => {
 });
 
 test('a link opens the moment, the stage and the bodies', async () => {
-  const { page, step, stage, close } = await open('what-merging-is', {}, '#part=3&step=200&stage=5&bodies=brick[0,0]%26brick[0,1]');
+  const { page, step, stage, close } = await open('what-merging-is', {}, '#part=2&step=200&stage=5&bodies=brick[0,0]%26brick[0,1]');
   assert.deepEqual([await step(), await stage()], [200, 5]);
   assert.match(await page.textContent('.inspector h3'), /brick\[0,0\] and brick\[0,1\]/);
-  assert.match(await page.textContent('.place'), /Part 3/);
+  assert.match(await page.textContent('.place'), /Part 2/);
   await close();
 });
 
@@ -506,6 +514,72 @@ test('without the engine a page plays, and says that it cannot be taken over', a
   await close();
 });
 
+test('a student goes through the whole course, with right and wrong answers', async () => {
+  const { page, close } = await open('course', { reducedMotion: 'reduce' });
+  assert.equal(await page.locator('li a').count(), kCourse.length);
+  await page.click('li a >> nth=0');
+  for (const [n, name] of kCourse.entries()) {
+    await page.waitForURL(`**/${name}.html`);
+    await page.waitForSelector('html[data-ready]');
+    assert.match(await page.textContent('.kicker'), new RegExp(`Lesson ${n + 1} of ${kCourse.length}`));
+    const parts = await page.locator('.dot-part').count();
+    for (let part = 0; part < parts; ++part) {
+      if (await page.isVisible('.ask fieldset')) {
+        const options = page.locator('.option');
+        await options.nth((n + part) % (await options.count())).click();
+        await page.click('.lesson .primary');
+        assert.match(await page.textContent('.verdict'), /^(Right\.|Not quite\.|\d+ of \d+)/);
+      }
+      await page.click('.lesson .primary');
+      if (part + 1 < parts) assert.match(await page.textContent('.place'), new RegExp(`Part ${part + 2}`));
+    }
+  }
+  await page.waitForURL('**/index.html');
+  await close();
+});
+
+test('a page for a frame in another page is compact, and works in a sandbox', async () => {
+  const { page, close } = await open('cycles', { viewport: { width: 900, height: 600 } });
+  assert.ok(!(await page.isVisible('header')));
+  await page.goto('about:blank');
+  await page.setContent(`<iframe sandbox="allow-scripts" style="width: 880px; height: 580px" srcdoc="${readFileSync(files.cycles, 'utf8').replace(/&/g, '&amp;').replace(/"/g, '&quot;')}"></iframe>`);
+  const frame = page.frameLocator('iframe');
+  await frame.locator('.lesson .primary').click();
+  assert.match(await frame.locator('.lesson .place').textContent(), /Part 2/);
+  await close();
+});
+
+test('the page speaks German and French', async () => {
+  for (const [language, word, stage] of [['de', 'Hier übernehmen', 'Kontaktsuche'], ['fr', 'Prendre la main ici', 'Détection des contacts']]) {
+    const { page, close } = await open('what-merging-is', {}, `#language=${language}`);
+    assert.equal(await page.textContent('.take-over'), word);
+    assert.equal(await page.textContent('.stage:nth-child(1) .name'), stage);
+    assert.equal(await page.getAttribute('html', 'lang'), language);
+    assert.match(await page.textContent('.prose'), /relative/);
+    await close();
+  }
+});
+
+test('a symbol of an equation lights up its number', async () => {
+  const { page, close } = await open('contact-forces');
+  await page.locator('.equation math >> nth=0').locator('[data-symbol="λn"]').first().hover();
+  const lit = await page.locator('.equation .lit').count();
+  assert.ok(lit >= 2, `${lit} lit`);
+  assert.equal(await page.getAttribute('html', 'data-lit'), 'λn');
+  await close();
+});
+
+test('zoom, pan and fit', async () => {
+  const { page, close } = await open('books');
+  const box = () => page.getAttribute('.picture.interactive', 'viewBox');
+  const whole = await box();
+  await page.click('button[aria-label=Closer]');
+  assert.notEqual(await box(), whole);
+  await page.keyboard.press('f');
+  assert.equal(await box(), whole);
+  await close();
+});
+
 test('it prints as a comic strip', async () => {
   const { page, close } = await open('what-merging-is');
   await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
@@ -535,6 +609,23 @@ test('the screen reader hears each state', async () => {
   assert.match(await page.getAttribute('.slider', 'aria-valuetext'), /step \d+ of \d+/);
   await close();
 });
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe finds nothing to complain about in any lesson, taken over, in ${colorScheme}`, async () => {
+    for (const name of kCourse) {
+      const { page, close } = await open(`course/${name}`, { colorScheme });
+      await page.waitForSelector('html[data-engine]');
+      await page.keyboard.press('n');
+      if (await page.isVisible('.ask fieldset')) await page.click('text=Show me instead');
+      await page.keyboard.press('t');
+      await page.click('.all-limits summary');
+      await page.evaluate(axe);
+      const { violations } = await page.evaluate(() => window.axe.run());
+      assert.deepEqual(violations.map((v) => `${name}: ${v.id}: ${v.nodes.map((n) => n.html.slice(0, 120)).join(' | ')}`), []);
+      await close();
+    }
+  });
+}
 
 for (const colorScheme of ['light', 'dark']) {
   test(`axe finds nothing to complain about in ${colorScheme}`, async () => {
