@@ -72,7 +72,7 @@ class JointGraph {
 
   static void unite(Neighbours& into, const Neighbours& more) {
     Neighbours all;
-    std::ranges::set_union(into, more, std::back_inserter(all));
+    std::set_union(into.begin(), into.end(), more.begin(), more.end(), std::back_inserter(all));
     into = std::move(all);
   }
 
