@@ -74,6 +74,7 @@ class HitSolver {
     for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
       const ContactBlock& k = blocks_[i];
       const RowSource& source = scratch_.row_sources[scratch_.block_order[first_ + i].source()];
+      if (source.isInner()) continue;  // the solve has held it, and it is to be closed again
       const Contact& contact = state_.contacts.contactOf(source.points[0]);
       const ContactKey& key = contact.key;
       for (int row = 0; row < k.count; ++row) {

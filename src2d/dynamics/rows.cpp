@@ -307,6 +307,11 @@ void listIslandBodies(const State& state, Scratch& scratch) {
     auto& island = scratch.islands[static_cast<std::size_t>(island_of[r])];
     scratch.island_bodies[island.last_body++] = r;
   });
+  if (scratch.open_members.empty()) return;
+  for (const auto& island : scratch.islands) {
+    const auto bodies = scratch.island_bodies.begin();
+    std::sort(bodies + island.first_body, bodies + island.last_body);
+  }
 }
 
 }  // namespace

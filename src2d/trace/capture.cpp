@@ -106,7 +106,7 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
       }
     }
   }
-  std::sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
+  std::stable_sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
     const auto key = [](const ContactView& c) {
       // Two points may lie in one place: then their impulses tell them apart, so that no sorting
       // algorithm has a choice.
