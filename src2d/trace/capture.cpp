@@ -106,11 +106,12 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
       }
     }
   }
-  std::stable_sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
+  std::sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
     const auto key = [](const ContactView& c) {
-      // Two points may lie in one place: then their impulses tell them apart, so that no sorting
+      // Two points may lie in one place: then the rest tells them apart, so that no sorting
       // algorithm has a choice.
-      return std::tuple(c.a, c.b, c.feature, c.x.x(), c.x.y(), c.lambda_n, c.lambda_t);
+      return std::tuple(c.a, c.b, c.feature, c.x.x(), c.x.y(), c.lambda_n, c.lambda_t, c.internal,
+                        c.fresh);
     };
     return key(x) < key(y);
   });
