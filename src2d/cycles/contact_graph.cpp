@@ -86,8 +86,8 @@ class GraphReader {
         continue;
       }
       if (const std::string_view character = text.substr(i, bytes); isControl(character)) {
-        fail(column, fmt::format("expected text, got the control character {}",
-                                 shownControl(character)));
+        fail(column,
+             fmt::format("expected text, got the control character {}", shownControl(character)));
       }
       if (!inside) line.words.push_back({text.substr(i, 0), column});
       inside = true;

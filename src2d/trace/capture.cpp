@@ -110,8 +110,8 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
     const auto key = [](const ContactView& c) {
       // Two points may lie in one place: then the rest tells them apart, so that no sorting
       // algorithm has a choice.
-      return std::tuple(c.a, c.b, c.feature, c.x.x(), c.x.y(), c.lambda_n, c.lambda_t, c.internal,
-                        c.fresh);
+      return std::tuple(c.a, c.b, c.feature, c.x.x(), c.x.y(), c.lambda_n, c.lambda_t, c.gap, c.w_n,
+                        c.w_t, c.normal.x(), c.normal.y(), c.internal, c.fresh);
     };
     return key(x) < key(y);
   });
