@@ -99,8 +99,28 @@ void spreadDoubts(const State& state, Scratch& scratch) {
   }
 }
 
+/// Between two things that are fixed to different frames the full solve has no row, and no load
+/// tells how one drags at the other: where a frame moves, it is asked with the members on their
+/// own.
+void openWhatFramesDrag(State& state, const Scratch& scratch) {
+  const auto moves = [](const Rigid& r) {
+    return r.anchor > kWorldFrame && (r.v.squaredNorm() > 0.0 || r.omega != 0.0);
+  };
+  for (const BodyPair& pair : scratch.pairs) {
+    const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
+    if (a.floating() || b.floating() || a.anchor == b.anchor || !(moves(a) || moves(b))) continue;
+    for (const BodyId body : {pair.a, pair.b}) {
+      if (!state.isCollection(state[body].rigid)) continue;
+      Collection& c = state.collection(state[body].rigid);
+      openCertificate(state, c);
+      c.certificate.front().moves = true;
+    }
+  }
+}
+
 void findDoubts(State& state, Scratch& scratch) {
   notePerturbations(state, scratch);
+  openWhatFramesDrag(state, scratch);
   listOuterLoads(state, scratch);
   scratch.doubts.assign(state.collections.size(), Doubt::None);
   bool any = false;

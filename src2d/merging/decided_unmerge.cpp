@@ -29,13 +29,14 @@ class WeldMotions {
 
   /// Zero where a bound tells that nothing is faster than `ignored`.
   WeldMotion of(const Weld& weld, double ignored) const {
-    const VelocityField a = field(weld.a), b = field(weld.b);
+    const Vec2 origin = state_[isMember(weld.a) ? weld.a : weld.b].local;
+    const VelocityField a = field(weld.a, origin), b = field(weld.b, origin);
     const double linear = (b.v - a.at(b.x)).norm(), turning = std::abs(b.omega - a.omega);
-    if (linear + turning * reachFrom(b.x, weld) <= ignored) return {};
+    if (linear + turning * reachFrom(origin + b.x, weld) <= ignored) return {};
     WeldMotion motion{0.0, std::numeric_limits<double>::infinity()};
     for (const BodyId id : {weld.a, weld.b}) {
       if (!isMember(id)) continue;
-      const double speed = fastestCorner(boxOf(id), a, b);
+      const double speed = fastestCorner(boxOf(id, origin), a, b);
       motion = {std::max(motion.most, speed), std::min(motion.least, speed)};
     }
     return motion;
@@ -44,17 +45,18 @@ class WeldMotions {
  private:
   bool isMember(BodyId b) const { return state_[b].rigid == c_.rigid; }
 
-  /// Its frame's bodies are at rest.
-  VelocityField field(BodyId b) const {
+  /// Seen from an origin near by, so that the rounding does not depend on where the frame's is. The
+  /// bodies of the frame are at rest.
+  VelocityField field(BodyId b, const Vec2& origin) const {
     if (!isMember(b)) return {};
     const SolverVelocity& u = u_[index(b)];
-    return {state_[b].local, {u.vx, u.vy}, u.omega};
+    return {state_[b].local - origin, {u.vx, u.vy}, u.omega};
   }
 
-  /// A member's box in the frame.
-  OrientedBox boxOf(BodyId b) const {
+  /// The box of a member.
+  OrientedBox boxOf(BodyId b, const Vec2& origin) const {
     OrientedBox box = state_.extent(rigidOf(b)).box;
-    box.frame = Pose{state_[b].local, state_[b].local_rotation} * box.frame;
+    box.frame = Pose{state_[b].local - origin, state_[b].local_rotation} * box.frame;
     return box;
   }
 

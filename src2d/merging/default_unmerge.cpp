@@ -12,7 +12,7 @@
 #include "src2d/merging/spare_welds.h"
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/trial.h"
-#include "src2d/merging/weld_test.h"
+#include "src2d/merging/weld_checks.h"
 
 namespace merge2d {
 namespace {

@@ -12,7 +12,6 @@ template <class VelocityOf>
 VelocityField fieldOf(const State& state, const Collection& c, VelocityOf&& velocityOf) {
   const Rigid& r = state[c.rigid];
   if (!r.floating()) return {r.x, r.v, r.omega};
-  const Pose frame = r.frame();
   Vec2 p = Vec2::Zero();
   double l = 0.0;
   for (const BodyId b : c.members) {
@@ -20,7 +19,7 @@ VelocityField fieldOf(const State& state, const Collection& c, VelocityOf&& velo
     const SolverVelocity u = velocityOf(b);
     const Vec2 v(u.vx, u.vy);
     p += body.mass * v;
-    l += body.mass * cross(frame * body.local - r.x, v) + body.inertia * u.omega;
+    l += body.mass * cross(r.rotation * (body.local - r.center), v) + body.inertia * u.omega;
   }
   return {r.x, p * r.inv_mass, l * r.inv_inertia};
 }

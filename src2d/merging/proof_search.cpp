@@ -29,35 +29,51 @@ SolverVelocity memberAt(const State& state, BodyId b, const Twist& u) {
 }
 
 /// The motion of an open collection as one body: that of its frame, or of its members' momentum.
-VelocityField motionOf(const State& state, const Scratch& scratch, const Collection& c) {
+/// Seen from the centre of mass, so that the rounding does not depend on where that is.
+struct OneBody {
+  Vec2 v = Vec2::Zero();
+  double omega = 0.0;
+  Vec2 at(const Vec2& arm) const { return v + cross(omega, arm); }
+};
+
+OneBody motionOf(const State& state, const Scratch& scratch, const Collection& c) {
   const Rigid& r = state[c.rigid];
-  if (r.floating() || r.anchor == kWorldFrame) return sweptField(state, scratch, c);
+  if (r.floating()) {
+    const VelocityField field = sweptField(state, scratch, c);
+    return {field.v, field.omega};
+  }
+  if (r.anchor == kWorldFrame) return {};
   const Rigid& anchor = state[rigidOf(c.anchor)];
-  return {anchor.x, anchor.v, anchor.omega};
+  return {anchor.v, anchor.omega};
+}
+
+/// From the centre of mass, or the frame's origin.
+Vec2 armOf(const State& state, const Collection& c, BodyId b) {
+  const Rigid& r = state[c.rigid];
+  return r.rotation * (state[b].local - (r.floating() ? r.center : Vec2(Vec2::Zero())));
 }
 
 }  // namespace
 
 void relaxOpen(const State& state, Scratch& scratch, Collection& c) {
-  const VelocityField field = motionOf(state, scratch, c);
-  const Pose frame = state[c.rigid].frame();
-  const Rotation back = frame.rotation.inverse();
+  const OneBody one = motionOf(state, scratch, c);
+  const Rotation turn = state[c.rigid].rotation, back = turn.inverse();
   startFrame(state, scratch, c);
   for (const BodyId b : c.members) {
     const SolverVelocity& u = scratch.sweep_u[index(b)];
-    const Vec2 v = back * Vec2(Vec2(u.vx, u.vy) - field.at(frame * state[b].local));
-    scratch.trial_u[index(b)] = memberAt(state, b, {v.x(), v.y(), u.omega - field.omega});
+    const Vec2 v = back * Vec2(Vec2(u.vx, u.vy) - one.at(armOf(state, c, b)));
+    scratch.trial_u[index(b)] = memberAt(state, b, {v.x(), v.y(), u.omega - one.omega});
   }
   c.residual = static_cast<float>(residualInside(c, scratch.trial_u));
   if (isHit(c) || c.residual <= toleratedResidual(state)) return;
   c.residual = static_cast<float>(relax(state, scratch, c));
   for (const BodyId b : c.members) {
     const SolverVelocity& u = scratch.trial_u[index(b)];
-    const Vec2 v = field.at(frame * state[b].local) + frame.rotation * Vec2(u.vx, u.vy);
+    const Vec2 v = one.at(armOf(state, c, b)) + turn * Vec2(u.vx, u.vy);
     SolverVelocity& of = scratch.sweep_u[index(b)];
     of.vx = v.x();
     of.vy = v.y();
-    of.omega = field.omega + u.omega;
+    of.omega = one.omega + u.omega;
   }
 }
 

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "src2d/merging/joint_welds.h"
-#include "src2d/merging/pair_test.h"
+#include "src2d/merging/pair_readiness.h"
 
 namespace merge2d {
 namespace {

@@ -6,7 +6,7 @@
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/metric.h"
-#include "src2d/merging/pair_test.h"
+#include "src2d/merging/pair_readiness.h"
 
 namespace merge2d {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/momentum.h"
-#include "src2d/merging/weld_test.h"
+#include "src2d/merging/weld_checks.h"
 
 namespace merge2d {
 namespace {

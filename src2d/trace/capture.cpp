@@ -66,9 +66,10 @@ ContactView view(const State& state, const Contact& contact, const ContactPoint&
 void showInternalVelocity(const State& state, const Scratch& scratch, const Collection& c,
                           std::size_t block, int i, ContactPoint& p) {
   const Rigid& r = state[c.rigid];
+  const bool swept = scratch.last_sweep >= 0 && state.step - scratch.last_sweep <= 1;
   if (r.asleep) {
     p.w_n = p.w_t = 0.0F;
-  } else if (c.contacts[c.block_contact[block]].since < scratch.last_sweep) {
+  } else if (swept && c.contacts[c.block_contact[block]].since < scratch.last_sweep) {
     const ContactBlock& k = c.blocks[block];
     const bool step_is_over = state.step > scratch.last_sweep;
     const Rotation turn = step_is_over ? r.previous_rotation : r.rotation;

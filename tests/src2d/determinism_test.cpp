@@ -250,18 +250,26 @@ std::vector<EventKey> eventsOf(const Scene& scene, Mode mode, int steps) {
   return events;
 }
 
+void expectTheSameEvents(const Scene& scene, Mode mode) {
+  const auto here = eventsOf(scene, mode, 400);
+  const auto there = eventsOf(shifted(scene, {1000, 1000}), mode, 400);
+  EXPECT_EQ(here.size(), there.size()) << name(mode);
+  const auto differ = std::mismatch(here.begin(), here.end(), there.begin(), there.end());
+  if (differ.first == here.end()) return;
+  ADD_FAILURE() << "in mode " << name(mode) << " the runs differ from event "
+                << differ.first - here.begin() << " of " << here.size() << ", in step "
+                << std::get<0>(*differ.first);
+}
+
 TEST(Determinism, ASceneMovedByAKilometreHasTheSameEventsAtTheSameSteps) {
-  for (const Mode mode : kModes) {
-    const auto here = eventsOf(towerUnderFire(), mode, 400);
-    const auto there = eventsOf(shifted(towerUnderFire(), {1000, 1000}), mode, 400);
-    EXPECT_EQ(here.size(), there.size()) << name(mode);
-    const auto differ = std::mismatch(here.begin(), here.end(), there.begin(), there.end());
-    if (differ.first == here.end()) continue;
-    ADD_FAILURE() << "in mode " << name(mode) << " the runs differ from event "
-                  << differ.first - here.begin() << " of " << here.size() << ", in step "
-                  << std::get<0>(*differ.first);
-  }
+  for (const Mode mode : kModes) expectTheSameEvents(towerUnderFire(), mode);
   EXPECT_GT(eventsOf(towerUnderFire(), Mode::MergeSleep, 400).size(), 20u);
+}
+
+TEST(Determinism, ASceneMovedByAKilometreHasTheSameEventsWhereWeldsAreDecided) {
+  Scene scene = towerUnderFire();
+  scene.settings.unmerging.rule = UnmergingRule::Decided;
+  for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) expectTheSameEvents(scene, mode);
 }
 
 TEST(Determinism, ASceneMovedByAKilometreHasTheSameVelocitiesBitForBit) {

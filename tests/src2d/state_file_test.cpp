@@ -115,6 +115,13 @@ void expectTheSame(const Scene& scene, Mode mode, int at, int more) {
   EXPECT_EQ(resumed.save(), whole.save());
 }
 
+TEST(StateFile, AResumedRunIsTheRunThatNeverStoppedWhereWeldsAreDecided) {
+  const Scene scene = parseScene(kMixed, "mixed.toml", {{"unmerging.rule", "decided"}});
+  for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+    for (const int at : {40, 100, 150}) expectTheSame(scene, mode, at, 100);
+  }
+}
+
 TEST(StateFile, AResumedRunIsTheRunThatNeverStopped) {
   const Scene scene = parseScene(kMixed, "mixed.toml");
   for (const Mode mode : {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {

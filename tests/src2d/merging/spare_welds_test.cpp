@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src2d/merging/weld_test.h"
+#include "src2d/merging/weld_checks.h"
 #include "src2d/world.h"
 #include "tests/support/scenes.h"
 

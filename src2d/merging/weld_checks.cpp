@@ -1,4 +1,4 @@
-#include "src2d/merging/weld_test.h"
+#include "src2d/merging/weld_checks.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "src2d/merging/pair_test.h"
+#include "src2d/merging/pair_readiness.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
