@@ -180,9 +180,10 @@ struct LoadCertificate {
   /// Of a floating collection: the member whose rows follow from those of the others.
   std::uint32_t heaviest = ~0u;
   bool lambda_stale = false;  ///< blocks and joints hold other impulses than the weights say
-  bool in_doubt = true;       ///< a proof must be sought, whatever the load
-  bool moves = false;         ///< a search has found motion: the full solve is to say what moves
-  std::int64_t since = 0;     ///< step in which the collection was laid out
+  bool in_doubt = true;       ///< a proof must be sought for any load
+  bool moves =
+      false;  ///< a search has found motion, and the full solve is to find the moving welds
+  std::int64_t since = 0;  ///< step in which the collection was laid out
   ProofSearch search;
 };
 

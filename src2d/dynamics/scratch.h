@@ -97,7 +97,7 @@ struct SweepItem {
   Impulses& impulses() const { return block ? block->lambda : joint->lambda; }
 };
 
-/// What a block of the full solve is made from, and where its impulses go: one or two points of the
+/// The source of a block of the full solve, which its impulses go back to: one or two points of the
 /// contact table, or a block inside an open collection.
 struct RowSource {
   static constexpr PointIndex kNone = ~PointIndex{0}, kInner = PointIndex{1} << 31;

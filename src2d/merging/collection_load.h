@@ -39,7 +39,7 @@ Twist memberVelocity(const State& state, const Collection& c, const FrameLoad& l
                      std::uint32_t member);
 
 /// The velocities that a load gives all members, in the collection's frame, before contacts and
-/// joints inside act: momentum and angular momentum are zero for what floats.
+/// joints inside act: momentum and angular momentum of a floating collection are zero.
 void loadMembers(const State& state, const Collection& c, const CollectionLoad& load,
                  std::vector<Twist>& out);
 

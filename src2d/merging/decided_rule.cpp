@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int16_t kLongAgo = 1000;  // steps
 
-/// Notes what hits, and which forces begin or end.
+/// Notes hits, impulses, and forces that begin or end.
 void notePerturbations(State& state, const Scratch& scratch) {
   for (Collection& c : state.collections) {
     c.since_blow = std::min<std::int16_t>(kLongAgo, static_cast<std::int16_t>(c.since_blow + 1));

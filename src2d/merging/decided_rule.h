@@ -3,10 +3,10 @@
 ///
 /// A collection is a hypothesis: its members move as one. Its proof is a set of admissible impulses
 /// (Eqs. (2)-(7)) that carries the load of this step without relative motion. A load that known
-/// proofs cover (load_certificate.h) leaves the collection quiet. Otherwise the impulses are sought
-/// by the engine's own solver until they have converged (inner_solve.h); the welds whose bodies
-/// move then are cut (decided_unmerge.h). For some steps after a touch or a hit the refined sweep
-/// of the default rule decides.
+/// proofs cover (load_certificate.h) leaves the collection quiet. Impulses for any other load are
+/// sought over as many steps as that takes (proof_search.h). Where a search finds motion, or
+/// something hits the collection, its members take part in the full solve (open_solve.h), and the
+/// welds whose bodies move are cut (decided_unmerge.h).
 
 #include "src2d/merging/rule.h"
 

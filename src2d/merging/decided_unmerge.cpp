@@ -225,7 +225,7 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   restate(state, noted, "cut");
 }
 
-/// A search that has converged is a proof, or else the full solve is to say what moves.
+/// A converged search is a proof, or else the full solve is to find the moving welds.
 void endSearch(const State& state, Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
   const bool rests =

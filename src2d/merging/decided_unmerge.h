@@ -1,5 +1,5 @@
 #pragma once
-/// Unmerge of `unmerging.rule = "decided"`: where the impulses inside have converged, the welds
+/// Unmerge of `unmerging.rule = "decided"`: after the full solve with open collections, the welds
 /// whose bodies move are cut, and where none does, the load is remembered as carried. Deviation
 /// from Sections 6.3 and 6.4, which decide from one sweep. Guarded by tests/src2d/merging/
 /// decided_unmerge_test.cpp.

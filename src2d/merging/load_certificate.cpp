@@ -177,8 +177,8 @@ void swapImpulses(Collection& c, Witness& with) {
 
 namespace {
 
-/// The nearest combination of the witnesses' loads, of whatever signs; a little damped, as loads
-/// that hardly differ tell little.
+/// The nearest combination of the witnesses' loads, with weights of any sign; a little damped, as
+/// loads that hardly differ tell little.
 Eigen::VectorXd combinationFor(const LoadCertificate& proof, const Witness& load) {
   constexpr double kDamping = 1e-8;  // of the largest square
   const auto n = static_cast<Eigen::Index>(proof.witnesses.size());
@@ -252,7 +252,7 @@ Witness asWitness(const State& state, Collection& c, const CollectionLoad& load)
 
 namespace {
 
-/// x + s (x − y), of what two witnesses say of their loads.
+/// x + s (x − y) of the loads of two witnesses.
 Witness extrapolated(const Witness& x, const Witness& y, double s) {
   const auto of = [&](double a, double b) { return a + s * (a - b); };
   Witness next = x;

@@ -78,7 +78,7 @@ void solveOpened(State& state, Scratch& scratch) {
 
 namespace {
 
-/// What the step has added to a body.
+/// The gain of a body's velocity in the step.
 SolverVelocity gainOf(const Scratch& scratch, BodyId b) {
   SolverVelocity gain = scratch.sweep_u[index(b)];
   const Twist& before = scratch.open_start[index(b)];

@@ -1,8 +1,8 @@
 #pragma once
 /// Doubted collections in the full solve. They are opened: each member moves on its own there, and
-/// the contacts inside have rigid rows beside those of all other contacts. What moves then against
-/// each other is told from what does not (decided_unmerge.h); what stays together moves on as one
-/// body, with the momentum of its members.
+/// the contacts inside have rigid rows beside those of all other contacts. Unmerge cuts the welds
+/// whose bodies then move against each other (decided_unmerge.h); the parts move on as one body
+/// each, with the momentum of their members.
 
 #include "src2d/dynamics/state.h"
 

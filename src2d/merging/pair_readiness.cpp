@@ -86,7 +86,7 @@ bool PairTest::ready() {
   const double scale = thresholdScale(contactSize(state_, pair_.a, pair_.b));
   const bool loud =
       seen.fastest_slip >= scale * m.sliding || seen.largest_breath >= scale * m.breathing;
-  if (loud && !notes_) return false;  // what takes longer to find out need not be asked
+  if (loud && !notes_) return false;  // the dearer question need not be asked
   if (mergingMethod(state_).refuses_edge) {
     const bool slides = seen.on_edge == seen.active && aboutToSlide(state_, pair_);
     ok &= note("edge", "(20)", seen.on_edge, seen.active, !slides);

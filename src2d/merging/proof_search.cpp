@@ -109,7 +109,7 @@ void startMembers(const State& state, Scratch& scratch, Collection& c) {
 void beginSearch(const State& state, Collection& c, const CollectionLoad& load) {
   ProofSearch& search = newSearch(c, asWitness(state, c, load));
   loadMembers(state, c, load, search.start);
-  swapImpulses(c, search.load);  // what is found of them is not lost with the layout
+  swapImpulses(c, search.load);  // the progress outlives a new layout
 }
 
 void beginSearchAhead(const State& state, Collection& c, Witness&& load, double way) {

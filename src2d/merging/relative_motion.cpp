@@ -81,7 +81,7 @@ void countQuietPairs(State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
     if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) continue;
-    if (hasBelt(state, pair.a, pair.b)) continue;  // what it carries moves, however slowly
+    if (hasBelt(state, pair.a, pair.b)) continue;  // a carried body moves, however slowly
     Contact& first = state.contacts[state.contacts.order[pair.first]];
     const int count = first.quiet_steps;
     if (count < 0) notePatience(scratch.notes, pair, count);
@@ -97,7 +97,7 @@ void countQuietPairs(State& state, Scratch& scratch) {
   }
 }
 
-/// What acts on a rigid thing beside gravity.
+/// The forces on a rigid thing beside gravity.
 struct Ties {
   bool held = false;    ///< forces that are found by iteration: of contacts or joints
   bool loaded = false;  ///< loads
@@ -126,7 +126,7 @@ const std::vector<Ties>& listTies(const State& state, const Scratch& scratch) {
   return ties;
 }
 
-/// The largest change of velocity in a step of what is in balance, at its corners [m/s]. Where no
+/// The largest change of velocity in a step of a body in balance, at its corners [m/s]. Where no
 /// force is found by iteration the loads cancel but for rounding.
 double largestGain(const State& state, const Ties& ties, double velocity) {
   constexpr double kRounding = 1e-6, kSmallest = 1e-9;  // of gravity, and [m/s²]
@@ -136,7 +136,7 @@ double largestGain(const State& state, const Ties& ties, double velocity) {
   return state.h * (kSmallest + kRounding * state.gravity.norm());
 }
 
-/// Section 7: each rigid thing against the inertial frame. Deviation: what accelerates does not
+/// Section 7: each rigid thing against the inertial frame. Deviation: an accelerating body does not
 /// sleep, however slow it is, or a stone would stay at the top of its flight. A load must have been
 /// steady for as long as acceleration is looked ahead for; so may one that is held by contacts
 /// prove that nothing comes of its acceleration. Guarded by Balance.WhatFallsSlowlyFallsOn.
@@ -152,7 +152,7 @@ void countQuietRigids(State& state, Scratch& scratch) {
     const double velocity = sleeping.velocity * thresholdScale(2.0 * box.half.minCoeff());
     r.slow_steps = motion < velocity ? r.slow_steps + 1 : 0;
     const bool slow = r.slow_steps > 0;
-    if (!slow && !scratch.notes) {  // what takes longer to find out need not be asked
+    if (!slow && !scratch.notes) {  // the dearer question need not be asked
       r.quiet_steps = 0;
       continue;
     }

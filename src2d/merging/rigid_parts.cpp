@@ -108,7 +108,7 @@ std::uint32_t outsidePart(const State& state, const Scratch& scratch, const Coll
   const bool rests = restsOn(state, id, field, c, whole);
   const std::uint32_t part =
       addOutside(p, id, field, rests ? 0.0 : r.inv_mass, rests ? 0.0 : r.inv_inertia);
-  p.u[part].surface = state[b].surface_velocity;  // what has a belt is no member of anything
+  p.u[part].surface = state[b].surface_velocity;  // a body with a belt is no member of a collection
   return part;
 }
 

@@ -12,7 +12,7 @@ namespace {
 /// from then on; `stirred` is told of bodies that sleep.
 template <class F>
 void sumLoads(State& state, const Scratch& scratch, F&& stirred) {
-  constexpr double kTrace = 1e-6;  // of the load, and of what gives 1 m/s²
+  constexpr double kTrace = 1e-6;  // of the load, and of the force that gives 1 m/s²
   for (const Load& load : scratch.loads) state[load.body].load.setZero();
   for (const Load& load : scratch.loads) state[load.body].load += load.force;
   for (const Load& load : scratch.loads) {

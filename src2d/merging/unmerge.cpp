@@ -19,8 +19,8 @@ void finishSplits(State& state, Scratch& scratch) {
   collectPairs(state, scratch);
 }
 
-/// The speed that passes from one body to another that it touches: e times what arrives, as in a
-/// row of balls. 0 where they do not bounce, or it is too slow for that [m/s].
+/// The speed that passes from one body to another that it touches: e times the speed of arrival, as
+/// in a row of balls. 0 where they do not bounce, or it is too slow for that [m/s].
 double passedOn(const State& state, BodyId a, BodyId b, const std::vector<double>& arrives) {
   const double e = restitutionOf(state, a, b);
   if (e == 0.0) return 0.0;
@@ -62,7 +62,7 @@ std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch) {
   return arrives;
 }
 
-/// What has been hit and bounces is followed hit by hit (dynamics/hits.h), each body by itself.
+/// A bouncing body that was hit is followed hit by hit (dynamics/hits.h), on its own.
 void releaseBouncing(State& state, Scratch& scratch, const std::vector<double>& arrives) {
   if (arrives.empty()) return;
   for (std::size_t slot = 0, slots = state.collections.size(); slot < slots; ++slot) {
