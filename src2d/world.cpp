@@ -117,7 +117,7 @@ void World::Impl::step() {
   run(Stage::ContactDetection, [&] { detectContacts(state, s); });
   run(Stage::ContactOrdering, [&] { orderContacts(state, s); });
   run(Stage::SleepAndWake, [&] { sleepAndWake(state, s); });
-  run(Stage::WarmStart, [&] { warmStartSweep(state, s); });
+  run(Stage::WarmStart, [&] { warmStart(state, s); });
   run(Stage::SingleIterationPGS, [&] { sweepCollections(state, s); });
   run(Stage::Unmerge, [&] { unmerge(state, s); });
   run(Stage::SolveLCP, [&] { solveContacts(state, s); });

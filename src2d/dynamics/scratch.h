@@ -220,7 +220,7 @@ struct Scratch {
   // WarmStart
   std::vector<OuterLoad> outer_loads;     ///< ascending by slot, then by member
   std::vector<std::uint32_t> load_place;  ///< per body: one more than its place there, or 0
-  std::vector<Doubt> doubts;              ///< per collection slot; empty: all are swept
+  std::vector<Doubt> doubts;              ///< per collection slot, where welds are decided
 
   // SingleIterationPGS, where collections are opened: the full solve, with their members on their
   // own

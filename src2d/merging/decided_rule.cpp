@@ -54,7 +54,7 @@ void openCertificate(const State& state, Collection& c) {
 
 /// A load that is covered by the witnesses leaves the collection quiet; for another one impulses
 /// are sought, unless those for a load beyond it are already.
-Doubt doubtAbout(const State& state, const Scratch& scratch, Collection& c) {
+Doubt findDoubt(const State& state, const Scratch& scratch, Collection& c) {
   openCertificate(state, c);
   LoadCertificate& proof = c.certificate.front();
   if (isHit(c) || proof.moves) return Doubt::Open;
@@ -122,15 +122,18 @@ void findDoubts(State& state, Scratch& scratch) {
   notePerturbations(state, scratch);
   openWhatFramesDrag(state, scratch);
   listOuterLoads(state, scratch);
+  scratch.sweep_contacts.clear();
+  scratch.sweep_joints.clear();
   scratch.doubts.assign(state.collections.size(), Doubt::None);
   bool any = false;
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!isSwept(state, c)) continue;
-    scratch.doubts[slot] = doubtAbout(state, scratch, c);
+    scratch.doubts[slot] = findDoubt(state, scratch, c);
     if (scratch.doubts[slot] == Doubt::None) c.settled = true;
     any |= scratch.doubts[slot] != Doubt::None;
   }
+  scratch.sweeping = any;
   if (!any) return;
   spreadDoubts(state, scratch);
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
@@ -145,7 +148,7 @@ void solveDoubted(State& state, Scratch& scratch) {
     solveOpened(state, scratch);
   }
   for (Collection& c : state.collections) {
-    if (doubtOf(state, scratch, c) == Doubt::Search) continueSearch(state, scratch, c);
+    if (doubtAbout(state, scratch, c) == Doubt::Search) continueSearch(state, scratch, c);
   }
 }
 
@@ -162,8 +165,7 @@ int waitUntilSeen(const State& state, const InternalContact& contact, const Weld
 
 UnmergingMethod decided() {
   UnmergingMethod method = kDefaultUnmerging;
-  method.opens = true;
-  method.findDoubts = findDoubts;
+  method.warmStart = findDoubts;
   method.sweep = solveDoubted;
   method.unmerge = unmergeMovers;
   method.waitAfterSplit = waitUntilSeen;

@@ -7,6 +7,8 @@
 #include "src2d/merging/refined_sweep.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/spare_welds.h"
+#include "src2d/merging/sweep.h"
+#include "src2d/merging/warm_start.h"
 
 namespace merge2d {
 namespace {
@@ -57,6 +59,8 @@ int waitAfterFlicker(const State& state, const InternalContact& inner, const Wel
   return turned ? std::max(rest, stepsUntilSeen(state, cut->turning)) : rest;
 }
 
+void sweepAll(State& state, Scratch& scratch) { sweepAround(state, scratch, sweepRefined); }
+
 }  // namespace
 
 constinit const MergingMethod kDefaultMerging{
@@ -67,10 +71,10 @@ constinit const MergingMethod kDefaultMerging{
 
 constinit const UnmergingMethod kDefaultUnmerging{
     .sleepAndWake = sleepByIslands,
-    .findDoubts = doubtAll,
+    .warmStart = warmStartSweep,
     .startingRotation = beforeLastUpdate,
     .sweeps_free_bodies = false,
-    .sweep = sweepRefined,
+    .sweep = sweepAll,
     .unmerge = unmergeConfirmed,
     .parts = judge,
     .waitAfterSplit = waitAfterFlicker,

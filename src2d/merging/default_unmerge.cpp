@@ -199,7 +199,7 @@ void unmergeConfirmed(State& state, Scratch& scratch) {
   std::vector<Tested> apart;
   const std::size_t slots = state.collections.size();
   for (std::size_t slot = 0; slot < slots; ++slot) {
-    if (doubtOf(state, scratch, state.collections[slot]) != Doubt::Open) continue;
+    if (!isSwept(state, state.collections[slot])) continue;
     Tested tested{slot, Noted(scratch.notes)};
     testCollection(state, scratch, tested);
     tested.noted.close();

@@ -26,7 +26,7 @@ void open(State& state, Scratch& scratch) {
   scratch.open.assign(state.bodies.size(), 0);
   scratch.open_start.resize(state.bodies.size());
   for (Collection& c : state.collections) {
-    if (doubtOf(state, scratch, c) != Doubt::Open) continue;
+    if (doubtAbout(state, scratch, c) != Doubt::Open) continue;
     readImpulses(c, c.certificate.front().search.load);
     for (const BodyId b : c.members) {
       startMember(state, state[c.rigid], b);
@@ -62,6 +62,11 @@ void takeJointImpulses(const State& state, Collection& c) {
 
 }  // namespace
 
+Doubt doubtAbout(const State& state, const Scratch& scratch, const Collection& c) {
+  const auto slot = static_cast<std::size_t>(&c - state.collections.data());
+  return slot < scratch.doubts.size() && isSwept(state, c) ? scratch.doubts[slot] : Doubt::None;
+}
+
 void solveOpened(State& state, Scratch& scratch) {
   open(state, scratch);
   scratch.last_sweep = state.step;
@@ -70,7 +75,7 @@ void solveOpened(State& state, Scratch& scratch) {
   scratch.solved = true;
   showVelocities(state, scratch);
   for (Collection& c : state.collections) {
-    if (doubtOf(state, scratch, c) != Doubt::Open) continue;
+    if (doubtAbout(state, scratch, c) != Doubt::Open) continue;
     takeJointImpulses(state, c);
     relaxOpen(state, scratch, c);
   }

@@ -8,6 +8,9 @@
 
 namespace merge2d {
 
+/// The doubt about a collection that was there when the step began.
+Doubt doubtAbout(const State& state, const Scratch& scratch, const Collection& collection);
+
 /// The full solve of this step, with the collections open about which there is a doubt. The
 /// velocities of the bodies are then in `scratch.sweep_u`, and Collection::residual is the largest
 /// change that one more solve of a row inside would make [m/s].

@@ -7,6 +7,7 @@
 #include "src2d/merging/refine.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/sweep.h"
+#include "src2d/merging/warm_start.h"
 
 namespace merge2d {
 namespace {
@@ -73,6 +74,10 @@ std::vector<SweepItem> sweepItems(State& state, Scratch& scratch) {
   return items;
 }
 
+void sweepByOrder(State& state, Scratch& scratch) {
+  sweepAround(state, scratch, sweepBreadthFirst);
+}
+
 }  // namespace
 
 constinit const MergingMethod kPaperMerging{
@@ -83,10 +88,10 @@ constinit const MergingMethod kPaperMerging{
 
 constinit const UnmergingMethod kPaperUnmerging{
     .sleepAndWake = sleepEachByItself,
-    .findDoubts = doubtAll,
+    .warmStart = warmStartSweep,
     .startingRotation = asItIs,
     .sweeps_free_bodies = true,
-    .sweep = sweepBreadthFirst,
+    .sweep = sweepByOrder,
     .unmerge = unmergeByContacts,
     .parts = components,
     .waitAfterSplit = waitsNever,

@@ -203,7 +203,7 @@ void sweepRefined(State& state, Scratch& scratch) {
   }
   double blow = 0.0;
   for (Collection& c : state.collections) {
-    if (doubtOf(state, scratch, c) != Doubt::Open) continue;
+    if (!isSwept(state, c)) continue;
     blow = std::max(blow, sweepOnce(state, c, scratch));
   }
   if (refines(state.settings.unmerging)) refineDisturbed(state, scratch, blow);

@@ -29,12 +29,10 @@ struct UnmergingMethod {
   /// SleepAndWake.
   void (*sleepAndWake)(State& state, Scratch& scratch);
 
-  /// WarmStart: says in `scratch.doubts` whose inner forces are sought, and how.
-  void (*findDoubts)(State& state, Scratch& scratch);
+  /// WarmStart. Sets `scratch.sweeping` where SingleIterationPGS and Unmerge have something to do.
+  void (*warmStart)(State& state, Scratch& scratch);
   /// WarmStart: the orientation of a collection with which its members' velocities begin.
   Rotation (*startingRotation)(const Rigid& collection);
-  /// Collections are opened for the full solve instead of being swept (open_solve.h).
-  bool opens = false;
   /// WarmStart: contacts between free bodies have rows in the sweep too.
   bool sweeps_free_bodies;
 

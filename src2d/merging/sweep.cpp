@@ -39,22 +39,15 @@ bool isSwept(const State& state, const Collection& c) {
   return c.id != kNoCollection && !state[c.rigid].asleep;
 }
 
-void doubtAll(State&, Scratch& scratch) { scratch.doubts.clear(); }
-
-Doubt doubtOf(const State& state, const Scratch& scratch, const Collection& c) {
-  if (!isSwept(state, c)) return Doubt::None;
-  const auto slot = static_cast<std::size_t>(&c - state.collections.data());
-  if (scratch.doubts.empty()) return Doubt::Open;
-  return slot < scratch.doubts.size() ? scratch.doubts[slot] : Doubt::None;  // formed in this step
+void sweepCollections(State& state, Scratch& scratch) {
+  if (scratch.sweeping) unmergingMethod(state).sweep(state, scratch);
 }
 
-void sweepCollections(State& state, Scratch& scratch) {
-  if (!scratch.sweeping) return;
-  if (unmergingMethod(state).opens) return unmergingMethod(state).sweep(state, scratch);
+void sweepAround(State& state, Scratch& scratch, void (*inside)(State& state, Scratch& scratch)) {
   scratch.push_stale.assign(state.collections.size(), 0);
   scratch.restless_bodies.assign(scratch.sweep_u.size(), 0);
   scratch.shaken.assign(scratch.sweep_u.size(), 0);
-  unmergingMethod(state).sweep(state, scratch);
+  inside(state, scratch);
   keepFixedContacts(state, scratch);
   if (!state.joints.empty()) keepJointForces(state, scratch);
 }

@@ -23,10 +23,8 @@ void renewPushes(State& state, Scratch& scratch);
 /// True for a collection whose inner forces may be sought in this step: it is there and awake.
 bool isSwept(const State& state, const Collection& collection);
 
-/// WarmStart: the forces inside all collections that are awake are swept.
-void doubtAll(State& state, Scratch& scratch);
-
-/// Why those of an awake collection are sought.
-Doubt doubtOf(const State& state, const Scratch& scratch, const Collection& collection);
+/// For the rules that sweep: `inside` updates the impulses inside; the impulses outside that only
+/// the sweep knows are kept.
+void sweepAround(State& state, Scratch& scratch, void (*inside)(State& state, Scratch& scratch));
 
 }  // namespace merge2d

@@ -177,23 +177,20 @@ void warmStartOuter(const State& state, Scratch& scratch) {
 
 }  // namespace
 
+void warmStart(State& state, Scratch& scratch) { unmergingMethod(state).warmStart(state, scratch); }
+
 void warmStartSweep(State& state, Scratch& scratch) {
   scratch.sweep_contacts.clear();
   scratch.sweep_joints.clear();
-  unmergingMethod(state).findDoubts(state, scratch);
-  const auto inDoubt = [&](const Collection& c) {
-    return doubtOf(state, scratch, c) != Doubt::None;
-  };
-  const bool any = std::ranges::any_of(state.collections, inDoubt);
-  scratch.sweeping = any;
-  if (!any) return;
-  if (unmergingMethod(state).opens) return;
+  const auto swept = [&](const Collection& c) { return isSwept(state, c); };
+  scratch.sweeping = std::ranges::any_of(state.collections, swept);
+  if (!scratch.sweeping) return;
   scratch.last_sweep = state.step;
   scratch.sweep_u.resize(state.bodies.size() + 1);  // the world's stands last
   scratch.sweep_u.back() = {};
   startOthers(state, scratch);
   for (const Collection& c : state.collections) {
-    if (inDoubt(c)) startMembers(state, c, scratch);
+    if (swept(c)) startMembers(state, c, scratch);
   }
   addLoads(state, scratch);
   warmStartOuter(state, scratch);

@@ -5,7 +5,9 @@
 
 namespace merge2d {
 
-/// Sets up the velocities that the sweep starts from.
+void warmStart(State& state, Scratch& scratch);
+
+/// For the rules that sweep: sets up the velocities that the sweep starts from.
 void warmStartSweep(State& state, Scratch& scratch);
 
 }  // namespace merge2d
