@@ -108,7 +108,7 @@ PageContent scenePage(const LessonOptions& options, const Console& console,
   return content;
 }
 
-/// Simulates a lesson, and says what it expects in vain.
+/// Simulates a lesson, and names the expectations that do not hold.
 PageContent contentOf(const Lesson& lesson, const Console& console) {
   std::vector<Recording> recordings =
       recordLesson(lesson, [](std::int64_t) { stopIfInterrupted(); });

@@ -16,7 +16,7 @@
 namespace merge2d {
 namespace {
 
-/// The smaller side of what a body covers [m].
+/// The smaller side of the bounding box of a body's shapes [m].
 double sizeOf(const std::vector<ConvexShape>& shapes) {
   std::vector<Vec2> outline;
   for (const ConvexShape& shape : shapes) {
@@ -31,7 +31,7 @@ struct Press {
   double force = 0.0, depth = 0.0;
 };
 
-/// 1/m of what responds to forces, and how large that is at least.
+/// 1/m and the smallest size of the bodies that respond to forces.
 struct Ends {
   double inv_mass = 0.0;
   double size = std::numeric_limits<double>::infinity();
@@ -78,7 +78,7 @@ Press heaviest(const World& world, double part) {
 }  // namespace
 
 void warnOfHeavyLoads(Scene& scene) {
-  constexpr int kSteps = 100;       // until what stands has found its load
+  constexpr int kSteps = 100;       // until the contact forces of a stack have settled
   constexpr double kLittle = 0.02;  // of the size
   World world(scene, {.mode = Mode::Reference, .timings = false});
   try {

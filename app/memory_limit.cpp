@@ -21,8 +21,8 @@ std::atomic<std::size_t> held_bytes{0};
 std::atomic<std::size_t> most_bytes{std::numeric_limits<std::size_t>::max()};
 
 /// Small blocks have some room beyond the limit: a message needs them, and so do libraries that
-/// do not survive a refusal, as the compiler inside the OpenGL driver. What grows without bound
-/// asks for large ones.
+/// do not survive a refusal, as the compiler inside the OpenGL driver. Memory that grows without
+/// bound is requested in large ones.
 bool isBeyondLimit(std::size_t size) {
   constexpr std::size_t kLarge = 64u << 10, kRoom = 64u << 20;
   const std::size_t most = most_bytes.load(std::memory_order_relaxed);
@@ -99,7 +99,7 @@ std::size_t memoryInstalled() {
   return static_cast<std::size_t>(pages) * static_cast<std::size_t>(bytes);
 }
 
-/// What a container may use, by either version of the kernel's control groups; "max" is no number.
+/// The memory limit of the control group [bytes], by either version; "max" is no number.
 std::size_t memoryOfContainer() {
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const char* file :
@@ -112,7 +112,7 @@ std::size_t memoryOfContainer() {
 
 std::size_t memoryOfMachine() { return std::min(memoryInstalled(), memoryOfContainer()); }
 
-/// What a unit stands for [bytes].
+/// Bytes of a unit; 0 for an unknown one.
 double bytesOfUnit(std::string_view unit) {
   constexpr std::array<std::string_view, 4> kLetters{"K", "M", "G", "T"};
   if (unit == "%") return 0.01 * static_cast<double>(memoryOfMachine());

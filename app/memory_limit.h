@@ -1,6 +1,6 @@
 #pragma once
 /// Bounds the memory of the program, so that a scene that needs too much ends with a sentence and
-/// not by the system, which would kill it or whatever else runs beside it.
+/// not by the system, which would kill it or other programs beside it.
 
 #include <cstddef>
 #include <new>
@@ -15,7 +15,7 @@ class MemoryLimitReached : public std::bad_alloc {
 };
 
 /// Blocks of memory are refused from now on where all of them together would exceed so many bytes.
-/// Only what C++ code allocates counts: nearly all that a simulation needs.
+/// Only allocations by C++ code count: nearly all that a simulation needs.
 void limitMemory(std::size_t bytes);
 /// 75% of the memory of the machine, or of the container that the program runs in [bytes].
 std::size_t defaultMemoryLimit();

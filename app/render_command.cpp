@@ -121,7 +121,7 @@ FrameStyle Rendering::makeStyle() const {
   return style;
 }
 
-/// Whether a step may have made collections: by merging, or of what came apart.
+/// Whether a step may have made collections: by merging, or of the parts of a split one.
 bool mayMakeCollections(const std::vector<Event>& events) {
   return std::ranges::any_of(events, [](const Event& e) {
     return e.type == EventType::Merge || e.type == EventType::Unmerge;

@@ -1,5 +1,5 @@
 #pragma once
-/// A run before the run: to see what will be seen.
+/// A run before the run: the camera needs the area that the bodies will cover.
 
 #include <memory>
 
@@ -8,7 +8,8 @@
 
 namespace merge2d {
 
-/// What the bodies cover until the scene ends, or until the simulation fails. Throws Interrupted.
+/// The area that the bodies cover until the scene ends, or until the simulation fails. Throws
+/// Interrupted.
 Coverage coverageOf(const std::shared_ptr<const Scene>& scene, Mode mode);
 
 }  // namespace merge2d

@@ -144,7 +144,7 @@ bool asksForPictures(const std::string& html) {
   return false;
 }
 
-/// What a page would show too early, or not at all.
+/// Answers that a page would show too early, and pictures that it would not show.
 std::vector<std::string> doubtsAbout(const Lesson& lesson, const std::vector<Recording>& runs) {
   std::vector<std::string> out;
   if (asksForPictures(lesson.intro)) out.emplace_back("text.md: a page shows no pictures of files");

@@ -1,5 +1,5 @@
 #pragma once
-/// What never changes about a body, as the pages read it.
+/// The constant properties of a body, as the pages read them.
 
 #include "src2d/trace/json_text.h"
 #include "src2d/trace/snapshot.h"

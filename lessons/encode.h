@@ -25,7 +25,7 @@ struct EncodedTrace {
 
 EncodedTrace encode(const Recording& recording, const Encoding& encoding);
 
-/// The camera of a recording: the scene's, or one that fits what its bodies cover.
+/// The camera of a recording: the scene's, or one that fits the area that its bodies cover.
 Camera cameraOf(const Recording& recording);
 
 }  // namespace merge2d

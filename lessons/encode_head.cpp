@@ -26,7 +26,7 @@ void writeSpring(JsonText& out, const Scene& scene, const SpringDesc& s) {
           to.x(), to.y());
 }
 
-/// What the scene pushes and pulls at bodies with.
+/// The loads of a scene: forces and impulses on bodies.
 void writeLoads(JsonText& out, const Scene& scene) {
   out.array("forces", scene.forces, [&](const ForceDesc& f) {
     const Vec2 at = fromCentre(scene, f.body, f.at);

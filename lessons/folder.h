@@ -10,7 +10,7 @@ namespace merge2d {
 
 /// The files of `lessons/` as they were when the program was built.
 std::span<const EmbeddedFile> embeddedLessons();
-/// `player.js`, `player.css` and the engine, `engine.b64`. They read what this program writes, so
+/// `player.js`, `player.css` and the engine, `engine.b64`. They read the output of this program, so
 /// nothing replaces them.
 std::span<const EmbeddedFile> embeddedPlayer();
 

@@ -160,7 +160,7 @@ std::string settingText(const Settings& settings, std::string_view wanted) {
   return text;
 }
 
-/// Settings that are read in every step. What a body is made of is not among them.
+/// Settings that are read in every step. The material of a body is not among them.
 bool isChangeable(std::string_view key) {
   for (const char* table : {"solver.", "merging.", "unmerging.", "sleeping."}) {
     if (key.starts_with(table)) return true;

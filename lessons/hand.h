@@ -1,5 +1,5 @@
 #pragma once
-/// Changes of a live run in words: what `merge2d step` and the lesson pages let a person do.
+/// Changes of a live run in words: the commands of `merge2d step` and of the lesson pages.
 
 #include <string>
 #include <string_view>
@@ -16,8 +16,9 @@ struct HandCommand {
 const std::vector<HandCommand>& handCommands();
 bool isHandCommand(std::string_view word);
 
-/// Does what the words say, as {"push", "brick[0,5]", "3", "0"}, before the next step. A body goes
-/// by its name, or as @3 by its number. Returns what was done. Throws Refusal; then nothing was.
+/// Executes a command, as {"push", "brick[0,5]", "3", "0"}, before the next step. A body goes by
+/// its name, or as @3 by its number. Returns a sentence about the change. Throws Refusal; then
+/// nothing has changed.
 std::string doByHand(Live& live, const std::vector<std::string>& words);
 
 }  // namespace merge2d

@@ -33,7 +33,7 @@ class Live {
   /// The spring holds until it is let go. It is critically damped for the body's mass, and soft
   /// enough for the time step.
   void drag(BodyId body, const Drag& drag) { drags_[body] = drag; }
-  /// Wakes it: what was held still may have fallen asleep in the air.
+  /// Wakes it: a body that was held still may have fallen asleep in the air.
   void letGo(BodyId body);
   const std::map<BodyId, Drag>& drags() const { return drags_; }
   /// The force that the hand gives in the step to come [N].
@@ -50,7 +50,7 @@ class Live {
     CollectionSlots slots;
   };
   Saved save() const;
-  /// Continues bit for bit from what was saved of the same scene.
+  /// Continues bit for bit from a saved state of the same scene.
   void restore(const Saved& saved);
 
  private:

@@ -1,4 +1,4 @@
-/// What the player lets one change by hand.
+/// The parameters that the player lets one change by hand.
 
 #include <fmt/format.h>
 

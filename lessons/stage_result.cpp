@@ -1,4 +1,4 @@
-/// What each stage did, in a few words: beside its name in a list of the stages.
+/// The result of each stage in a few words: beside its name in a list of the stages.
 
 #include <fmt/format.h>
 

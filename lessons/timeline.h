@@ -12,7 +12,7 @@
 
 namespace merge2d {
 
-/// What a person did between two steps.
+/// A change by a person between two steps.
 struct HandChange {
   std::int64_t step = 0;           ///< after which
   std::vector<std::string> words;  ///< lessons/hand.h
@@ -39,13 +39,13 @@ class Timeline {
   const StepRecord& step(std::int64_t k);
   /// The state after step `k` = 0 … last(); valid until the next call.
   const Snapshot& state(std::int64_t k);
-  /// The run as it stands after step `k` and what was changed there.
+  /// The run after step `k` and the changes made there.
   const Live& at(std::int64_t k);
   /// The colours of the collections after step `k`, of the last 48 that were looked at.
   const CollectionSlots& colors(std::int64_t k) const { return colors_.at(k); }
 
-  /// Changes the run after step `k`; whatever was changed later is forgotten. Returns what was
-  /// done. Throws Refusal; then nothing has changed.
+  /// Changes the run after step `k`; later changes are forgotten. Returns a sentence about the
+  /// change. Throws Refusal; then nothing has changed.
   std::string change(std::int64_t k, const std::vector<std::string>& words);
   /// Takes the last changes back, as far as there are so many. Returns the step of the first one.
   std::optional<std::int64_t> undo(std::size_t count = 1);
@@ -71,7 +71,7 @@ class Timeline {
   Snapshot initial_;
   std::map<std::int64_t, StepRecord> kept_;
   std::map<std::int64_t, CollectionSlots> colors_;  ///< of the kept steps
-  std::map<std::int64_t, Live::Saved> saved_;       ///< after steps, before what was changed there
+  std::map<std::int64_t, Live::Saved> saved_;       ///< after steps, before the changes made there
   std::vector<std::vector<Event>> events_;  ///< of each step simulated so far, from step 1 on
   std::vector<HandChange> changes_;         ///< in order
   std::size_t applied_ = 0;                 ///< so many of them are in `live_`

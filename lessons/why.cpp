@@ -10,7 +10,7 @@
 namespace merge2d {
 namespace {
 
-/// What a test measures, its unit, and whether it stays below its limit by being small.
+/// The quantity that a criterion measures, and its unit.
 struct Measure {
   std::string_view criterion, name, unit;
 };

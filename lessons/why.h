@@ -1,5 +1,5 @@
 #pragma once
-/// Why two bodies are one or not, and what would have to change: for pages and terminals.
+/// Why two bodies are one or not, and the change that would alter it: for pages and terminals.
 
 #include <string>
 
@@ -9,8 +9,8 @@
 
 namespace merge2d {
 
-/// What would have to change for the other outcome: "They merge when …". Empty where the step says
-/// nothing about it.
+/// The condition of the other outcome: "They merge when …". Empty where the step says nothing about
+/// it.
 std::string outlook(const Explanation& explanation);
 
 /// Everything about a pair that the step says, also where nothing was tested: they do not touch,

@@ -10,13 +10,13 @@
 
 namespace merge2d {
 
-/// What the bodies cover in the course of a run.
+/// The area that the bodies cover in the course of a run.
 class Coverage {
  public:
   Coverage() = default;
   Coverage(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies) { add(snapshot, bodies); }
 
-  /// What leaves by more than ten times the size of the beginning is not followed there.
+  /// A body that leaves by more than ten times the size of the beginning is not followed there.
   void add(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies);
 
   const std::vector<Aabb>& ofBodies() const { return bodies_; }  ///< by id; empty: never there
@@ -29,8 +29,8 @@ class Coverage {
 };
 
 /// A camera that shows all dynamic bodies, and of the others as much as belongs with them: a huge
-/// ground is seen where it is near. `aspect` is width over height of the picture, `margin` what is
-/// free on each side, as a part of what is shown.
+/// ground is seen where it is near. `aspect` is width over height of the picture, `margin` the free
+/// strip on each side, as a part of the picture.
 inline constexpr double kUsualMargin = 0.06;
 Camera fitCamera(const Coverage& seen, const std::vector<BodyInfo>& bodies, double aspect,
                  double margin = kUsualMargin);

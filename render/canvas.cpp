@@ -92,7 +92,7 @@ void unpremultiply(std::vector<std::uint8_t>& rgba) {
 
 namespace {
 
-/// What the driver may ask for while it draws: a target, and code for the shapes that are new.
+/// Memory that the driver may ask for while it draws [bytes]: a target, and code for new shapes.
 std::size_t memoryToDraw(int width, int height) {
   constexpr std::size_t kCode = 64u << 20, kPerPixel = 16;
   return kCode + kPerPixel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

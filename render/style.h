@@ -29,15 +29,15 @@ struct FrameStyle {
   double velocity_scale = 0.0;        ///< length of velocity arrows [m per m/s]
 };
 
-/// Fills in what follows from the scene: title, step, camera (the scene's, or one that fits what is
-/// seen) and the arrows' scales. Set size and overlays first: the camera depends on them. A camera
-/// that moves with a body fits the beginning.
+/// Fills in the values that follow from the scene: title, step, camera (the scene's, or one that
+/// fits `seen`) and the arrows' scales. Set size and overlays first: the camera depends on them. A
+/// camera that moves with a body fits the beginning.
 void adaptToScene(FrameStyle& style, const Scene& scene, const Snapshot& initial,
                   const Coverage& seen, const std::vector<BodyInfo>& bodies);
 void adaptToScene(FrameStyle& style, const Scene& scene, const Snapshot& initial,
                   const std::vector<BodyInfo>& bodies);
 
-/// True when the camera depends on what bodies cover over the run.
+/// True when the camera depends on the area that bodies cover over the run.
 inline bool fitsTheRun(const Scene& scene) { return !scene.camera && !scene.follow; }
 
 /// The camera of a frame.

@@ -221,7 +221,7 @@ class StateCheck {
            (!state_[c.rigid].floating() && sameFrame(state_[rigidOf(body)], state_[c.rigid]));
   }
 
-  /// What refers to bodies and lists of the collection, whether or not it is laid out.
+  /// References to bodies and lists of the collection, whether or not it is laid out.
   void checkInner(const Collection& c) const {
     for (const InternalContact& contact : c.contacts) {
       require(isContact(contact.key, contact.count), "inner contacts");
@@ -241,7 +241,7 @@ class StateCheck {
     }
   }
 
-  /// What a layout has put in order.
+  /// Lists that a layout has put in order.
   void checkLayout(const Collection& c) const {
     require(std::is_sorted(c.members.begin(), c.members.end()), "members");
     for (std::size_t i = 0; i < c.contacts.size(); ++i) {

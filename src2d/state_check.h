@@ -1,7 +1,7 @@
 #pragma once
 /// Whether a state that was read from bytes can be used: every index points at something that is
-/// there, lists that belong together are equally long, and what is kept in order is in order. Bytes
-/// may be damaged, or made by somebody with bad intentions.
+/// there, lists that belong together are equally long, and sorted lists are in order. Bytes may be
+/// damaged, or made by somebody with bad intentions.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace merge2d {
 
-/// What was read, beside what the scene gives.
+/// The state that was read, beside the tables that the scene gives.
 struct RestoredState {
   const Setup& restored;
   const std::vector<Body>& bodies;  ///< as they are at the start of the scene

@@ -1,5 +1,5 @@
 #pragma once
-/// What a saved state holds: every member of everything that lives across time steps. Each list
+/// The fields of a saved state: every member of everything that lives across time steps. Each list
 /// names all members of its struct, so that a new one is a compile error here, not a run that
 /// continues differently.
 

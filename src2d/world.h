@@ -101,7 +101,7 @@ class World {
   /// Takes a body out of its collection; it may merge again.
   void release(BodyId body);
   void wake(BodyId body);
-  /// The coefficient of a body's surface, 0 or more; it wakes what it touches.
+  /// The coefficient of a body's surface, 0 or more; it wakes the bodies that it touches.
   void setFriction(BodyId body, double friction);
 
   /// Adds a body behind all others; it may be dynamic or pinned. Ids are never used again.

@@ -13,7 +13,7 @@ struct StartMotion {
 };
 StartMotion startMotion(const State& state, const Scratch& scratch, RigidId id);
 
-/// The same with what gravity and forces add: how it moves through this step if nothing touches it.
+/// The same with gravity and forces: the motion through this step if nothing touches the body.
 StartMotion freeMotion(const State& state, const Scratch& scratch, RigidId id);
 
 /// An upper bound of the way [m] that a point of the first can go against one of the second in this

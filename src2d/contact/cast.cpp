@@ -91,18 +91,18 @@ bool couldClose(const State& state, const Flights& f, const Contact& contact) {
   return false;
 }
 
-/// True when the two come so near in this step, on a way so long, that what is nearest may change:
-/// what hardly moves meets what is nearest now.
+/// True when the two come so near in this step, on a way so long, that their nearest features may
+/// change: bodies that hardly move meet at the features that are nearest now.
 bool isPredicted(const State& state, const Contact& contact, double ahead) {
-  constexpr double kShort = 20.0;  // touching gaps; and twice what gravity moves from rest
+  constexpr double kShort = 20.0;  // touching gaps; and twice the fall from rest by gravity
   if (contact.count == 0) return false;
   const double gravity = 2.0 * state.gravity.norm() * state.h * state.h;
   const double touching = touchingGap(state, contact.key), gap = smallestGap(contact);
   return gap > touching && gap < ahead + gravity && ahead > kShort * touching + gravity;
 }
 
-/// The contact as it is at the encounter, in the frames of then. What is remembered of a point is
-/// kept where it is found again.
+/// The contact as it is at the encounter, in the frames of then. The memory of a point is kept
+/// where the point is found again.
 Contact contactAt(const State& state, const Flights& f, const Encounter& at, double margin,
                   const Contact& now) {
   const Pose b_in_a = f.relativeAt(at.time);
@@ -126,7 +126,7 @@ Contact contactAt(const State& state, const Flights& f, const Encounter& at, dou
 
 /// Sees that contact from the start of the step, with its gaps carried back.
 Cast carryBack(const State& state, const Flights& f, const Encounter& at, Contact& contact) {
-  constexpr double kOpen = 1e-12;  // m: what is predicted is not an overlap
+  constexpr double kOpen = 1e-12;  // m: a predicted contact is no overlap
   constexpr double kFar = 10.0;    // touching gaps
   const Pose pose_a = f.a.at(at.time);
   const Vec2 n = pose_a.rotation * contact.normal;
@@ -148,7 +148,7 @@ Cast carryBack(const State& state, const Flights& f, const Encounter& at, Contac
                     .carried = std::max(point.gap - at.time * w, kOpen),
                     .on_b = f.b.start.toLocal(on_b)};
     cast.displaced |= std::abs(cross(on_b - on_a, n)) > kFar * touchingGap(state, contact.key);
-    const double open = at.hit ? 0.0 : -state.h * w_now;  // a miss does not act on what is free
+    const double open = at.hit ? 0.0 : -state.h * w_now;  // a miss does not act on free motion
     point.position = f.a.start.toLocal(on_a);
     point.gap = std::max({point.gap - at.time * w_now, open, kOpen});
   }

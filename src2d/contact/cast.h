@@ -1,16 +1,16 @@
 #pragma once
 /// Contacts that are predicted ahead: whether, where and how two bodies meet in this step.
 ///
-/// A row at the nearest points of now, with the gap of now, pushes what will pass by, and hits with
-/// the normal of now. So both bodies are moved through the step as they would move without
-/// contacts, by conservative advancement (Mirtich 1996): with n the direction of the shortest way
-/// between them, v the velocities of the centres of mass and R the reach of a shape from there, no
-/// point comes nearer than −n·(v_b − v_a) + |ω_a|R_a + |ω_b|R_b, so the distance over this bound is
-/// a time in which they cannot meet.
+/// A row at the nearest points of now, with the gap of now, pushes bodies that will pass by, and
+/// hits with the normal of now. So both bodies are moved through the step as they would move
+/// without contacts, by conservative advancement (Mirtich 1996): with n the direction of the
+/// shortest way between them, v the velocities of the centres of mass and R the reach of a shape
+/// from there, no point comes nearer than −n·(v_b − v_a) + |ω_a|R_a + |ω_b|R_b, so the distance
+/// over this bound is a time in which they cannot meet.
 ///
 /// Where they meet, or else where they are nearest, the manifold is found anew, and its gaps are
 /// carried back along w, the relative velocity there: gap − t·w. The row of a hit then closes at
-/// the time of the hit; that of a miss does not act on what moves freely, yet bounds how far other
+/// the time of the hit; that of a miss does not act on free motion, yet bounds how far other
 /// contacts can push the two into each other.
 ///
 /// A row acts on both bodies at one place of now, or it would change their angular momentum: that

@@ -3,7 +3,7 @@
 ///
 ///        X →            A box that slides from T to S has sunk into T by a hair, and the narrow
 ///    ┌───────┐          phase finds the left side of S in its way; a disc finds the corner of S.
-///    └───────┘          The point lies on T as well, and what is before that side is T.
+///    └───────┘          The point lies on T as well, and T covers that side.
 ///   ─────T─────┬─────S─────
 ///
 /// It holds within a body of several shapes, and between bodies that do not respond to forces (a

@@ -33,8 +33,8 @@ inline char32_t codePoint(std::string_view character) {
   return code;
 }
 
-/// Whether a terminal obeys the character rather than showing it (C0, DEL and C1), or shows what
-/// follows in another place than it stands in (marks of writing direction, breaks of lines).
+/// Whether a terminal obeys the character rather than showing it (C0, DEL and C1), or shows the
+/// text after it in another place than it stands in (marks of writing direction, breaks of lines).
 inline bool isControl(std::string_view character) {
   const char32_t code = codePoint(character);
   if (code < 0x20u || (code >= 0x7Fu && code < 0xA0u)) return true;

@@ -34,7 +34,7 @@ struct Line {
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-/// "0x1b", or "U+202E" of what is more than a byte.
+/// "0x1b", or "U+202E" for a character of several bytes.
 std::string shownControl(std::string_view character) {
   const auto code = static_cast<std::uint32_t>(codePoint(character));
   return character.size() == 1 ? fmt::format("0x{:02x}", code) : fmt::format("U+{:04X}", code);

@@ -25,7 +25,7 @@ struct alignas(64) SolverVelocity {
   double inv_mass = 0.0;      ///< 0: does not respond to forces [1/kg]
   double inv_inertia = 0.0;   ///< [1/(kg m²)]
   double surface = 0.0;       ///< speed of its belt [m/s]
-  /// What the full solve and the loads made of the velocity of the last step [m/s, rad/s].
+  /// The change of the last step's velocity by the loads and the full solve [m/s, rad/s].
   std::array<float, 3> gained{};
 };
 

@@ -24,7 +24,7 @@ struct HitPoint {
   double e = 0.0;           ///< restitution
   double least = 0.0;       ///< slower approaches do not bounce [m/s]
   double alpha = 0.0;       ///< how much faster the approach becomes by loads [m/s²]
-  double allowed = 0.0;     ///< what approaches slower than this sinks in as it may [m/s]
+  double allowed = 0.0;     ///< slower approaches may sink in [m/s]
   bool holds = false;       ///< touches and does not bounce: bears at any hit
   bool meets = false;       ///< takes part in the hit at hand
   std::int32_t rows = -1;   ///< of that hit, or −1
@@ -123,7 +123,7 @@ class HitSolver {
     time_ += dt;
   }
 
-  /// What Newton's law wants of the points that have met.
+  /// The velocities by Newton's law of the points that have met.
   void aim(HitPoint& p, double met) {
     const double w = velocityOf(p), extra = p.alpha * (time_ - 0.5 * state_.h);
     const bool approaches = w < p.allowed - kStill && p.gap <= met;
@@ -255,8 +255,8 @@ class HitSolver {
     return p.rows < 0 ? 0.0 : rows_[static_cast<std::size_t>(p.rows)].lambda_n(p.row);
   }
 
-  /// Takes back what the impulses would add to the energy: with the part c of them it changes by
-  /// c λ·w⁻ + c²/2 λ·Kλ. Gives that part.
+  /// Takes back the energy that the impulses would add: with the part c of them the energy changes
+  /// by c λ·w⁻ + c²/2 λ·Kλ. Gives that part.
   double weaken() {
     double along = 0.0, change = 0.0, by_loads = 0.0;
     for (const ContactBlock& k : rows_) {

@@ -1,18 +1,18 @@
 #pragma once
-/// Hits: bounces, and what they set off, at the times in the step at which they happen.
+/// Hits: bounces, and the hits that they set off, at the times in the step at which they happen.
 ///
 /// A row can end an approach, but not turn it into a bounce: the step's velocities would have to
 /// bring the bodies together and apart. So a point that is about to bounce takes no part in the
 /// full solve. From its velocities on, the bodies of the island move in straight lines from hit to
 /// hit. At each, Newton's law w⁺ = −e w⁻ holds at the points that have met and approach, pair by
-/// pair: what these set off at contacts that touch already is a further hit at the same time, so
-/// that of a row of balls only the last one leaves. Contacts without restitution, slow ones, and
-/// joints hold meanwhile (w⁺ ≥ 0, w⁺ = w⁻). The velocities after the last hit are those of the
-/// bodies; the way that they went is kept apart (Scratch::hit_ways).
+/// pair: an approach that these cause at contacts that touch already is a further hit at the same
+/// time, so that of a row of balls only the last one leaves. Contacts without restitution, slow
+/// ones, and joints hold meanwhile (w⁺ ≥ 0, w⁺ = w⁻). The velocities after the last hit are those
+/// of the bodies; the way that they went is kept apart (Scratch::hit_ways).
 ///
 /// Source: Newton's law at simultaneous contacts as generalised reflections, Smith, Kaufman, Vouga,
-/// Tamstorf, Grinspun 2012. The energy of hits never grows: what friction would add at an oblique
-/// one (Kane's paradox) is taken back by weakening the impulses.
+/// Tamstorf, Grinspun 2012. The energy of hits never grows: the gain by friction at an oblique one
+/// (Kane's paradox) is taken back by weakening the impulses.
 ///
 /// The velocities of the symplectic Euler scheme are those in the middle of a step. With α the
 /// acceleration of the approach by loads, a hit at time t happens at s + α(t − h/2), and its bounce
@@ -29,7 +29,7 @@ namespace merge2d {
 inline constexpr double kNeverActs = 1e12;
 
 /// Slower approaches of a pair do not bounce [m/s]: `restitution_velocity`, or for small bodies
-/// what a fall of a part of their size ends with.
+/// the final speed of a fall by a part of their size.
 double leastBounce(const State& state, const ContactKey& key);
 
 /// Hits without restitution are followed in small islands alone, as all that bears takes part in
@@ -40,12 +40,12 @@ void withdrawCasts(State& state, Scratch& scratch);
 const Cast* castToHit(const State& state, const Scratch& scratch, const Contact& contact);
 
 /// True for a point that takes no part in the full solve, as it is going to be hit: it approaches
-/// with −`w_start` at the start of the step and −`w_free` with what loads add in it [m/s].
+/// with −`w_start` at the start of the step and −`w_free` with the loads of the step [m/s].
 bool isHit(const State& state, const Contact& contact, const Cast* cast, double gap, double w_start,
            double w_free);
 
-/// The velocity at the start of the step, with the impulses that are about to be given, of what
-/// responds to forces; of anything else its velocity in the step.
+/// The velocity at the start of the step, with the impulses that are about to be given, of a body
+/// that responds to forces; of any other its velocity in the step.
 SolverVelocity velocityAtStart(const State& state, const Scratch& scratch, std::uint32_t rigid);
 
 /// Follows the hits of an island through the step, from the velocities of the full solve on.

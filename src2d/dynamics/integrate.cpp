@@ -21,11 +21,11 @@ void advanceVelocities(State& state, Scratch& scratch) {
 
 namespace {
 
-/// What was hit went another way than its velocity after the step tells.
+/// Bodies that were hit went another way than their velocity after the step tells.
 void followHits(State& state, const Scratch& scratch) {
   for (const HitWay& hit : scratch.hit_ways) {
     Rigid& r = state[hit.id];
-    if (!r.present()) continue;  // a member of what was open
+    if (!r.present()) continue;  // a member of a collection that was open
     r.moveBy(hit.way - state.h * r.v);
     r.angle += hit.turn - state.h * r.omega;
     r.rotation = Rotation::of(r.angle);

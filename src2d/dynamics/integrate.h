@@ -5,7 +5,7 @@
 
 namespace merge2d {
 
-/// u₊ of the solve becomes the velocity; `gained` is what that changes.
+/// u₊ of the solve becomes the velocity; `gained` is the change.
 void advanceVelocities(State& state, Scratch& scratch);
 
 /// x₊ = x₋ + h u₊, and the correction of post-step stabilisation; anchored collections follow their

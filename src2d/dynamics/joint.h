@@ -59,8 +59,8 @@ struct JointPlace {
 using JointErrors = std::array<double, 4>;
 JointErrors errorsOf(const Joint& joint, const JointPlace& place);
 
-/// Whether rows are to remove what error there is, and give way by the joint's compliance; only to
-/// keep it; or to correct positions.
+/// Whether rows are to remove the joint's error, and give way by its compliance; only to keep the
+/// error; or to correct positions.
 enum class JointRows { Soft, Rigid, Correction };
 
 /// Bodies that are there, and not broken apart.

@@ -72,7 +72,7 @@ inline void applyJointImpulses(const JointBlock& k, const Rotation& turn, Solver
   k.forEachRow([&](std::size_t i) { applyJointImpulse(k.rows[i], turn, k.lambda[i], a, b); });
 }
 
-/// What a row still wants to change [m/s, rad/s].
+/// The residual of a row [m/s, rad/s].
 inline double jointRest(const JointBlock& k, std::size_t i, const Rotation& turn,
                         const SolverVelocity& a, const SolverVelocity& b) {
   const JointRow& r = k.rows[i];
@@ -105,8 +105,8 @@ inline void solveJointTogether(JointBlock& k, const Rotation& turn, SolverVeloci
   }
 }
 
-/// Solves one block: motor and limit first, so that what holds the bodies together has the last
-/// word.
+/// Solves one block: motor and limit first, so that the rows that hold the bodies together have the
+/// last word.
 inline void solveJoint(JointBlock& k, const Rotation& turn, SolverVelocity& a, SolverVelocity& b) {
   if (k.motor) solveJointBound(k, kMotorRow, turn, a, b);
   if (k.limit) solveJointBound(k, kLimitRow, turn, a, b);

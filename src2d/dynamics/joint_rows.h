@@ -13,9 +13,9 @@ void uniteJoints(const State& state, Scratch& scratch);
 /// A light link between joints that pull hard turns to and fro faster than steps can follow: with
 /// stiffness k = Σ r·f about its centre of mass, at ω = √(k/I). From ω h = 2 on it would gain
 /// energy in each step, so its inertia in this solve is at least k h², as a finite element's that
-/// limits the step; a rod's ends get a mass likewise. Beside what pulls so hard that is little. See
-/// Andrews, Teichmann, Kry, "Geometric Stiffness for Real-time Constrained Multibody Dynamics"
-/// (2017), which adds a damping instead. To be called before forces act on the velocities.
+/// limits the step; a rod's ends get a mass likewise. That is little beside the masses that pull so
+/// hard. See Andrews, Teichmann, Kry, "Geometric Stiffness for Real-time Constrained Multibody
+/// Dynamics" (2017), which adds a damping instead. To be called before forces act on velocities.
 void slowTautLinks(const State& state, Scratch& scratch);
 
 /// Builds their rows by island, and the islands that have no contacts.
@@ -26,9 +26,9 @@ void warmStartJoints(std::span<const JointBlock> joints, std::vector<SolverVeloc
 
 /// Bodies go straight ahead for a step, and joints would stretch by how much their paths bend: in
 /// a circle at 5 m/s and 5 m by 0.25 mm in a step of 0.01 s, and again in the next one. Adds to the
-/// rows what takes that back already in this step, which also keeps the energy of what swings
-/// (as SHAKE does: Ryckaert, Ciccotti, Berendsen 1977). `bends` is what the rows have of it
-/// already, per joint. False when there is nothing to add.
+/// rows a bias that takes that back already in this step, which also keeps the energy of swinging
+/// bodies (as SHAKE does: Ryckaert, Ciccotti, Berendsen 1977). `bends` is the bias that the rows
+/// have already, per joint. False when there is nothing to add.
 bool allowForBends(const State& state, std::span<JointBlock> joints,
                    const std::vector<SolverVelocity>& u, std::vector<JointErrors>& bends);
 

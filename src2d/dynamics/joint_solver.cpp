@@ -14,7 +14,7 @@ bool isInsideBounds(const JointBlock& k, std::size_t i) {
 }
 
 /// Motor or limit, where one of them is inside its bounds. A motor that presses against a limit
-/// wants what the limit forbids: the limit holds.
+/// wants a motion that the limit forbids: the limit holds.
 int boundRowOf(const JointBlock& k) {
   if (k.coupled > 2) return -1;
   if (k.limit && isInsideBounds(k, kLimitRow)) return kLimitRow;
@@ -163,7 +163,7 @@ void JointSolver::factorise() {
   for (std::uint32_t c = 0; c < m_.columns.size(); ++c) eliminate(c);
 }
 
-/// Turns K of a column into D⁻¹ and L, and takes what that does off the columns that follow.
+/// Turns K of a column into D⁻¹ and L, and subtracts its update from the columns that follow.
 void JointSolver::eliminate(std::uint32_t column) {
   const JointMatrix inverse = inverseOf(m_.inverse[column], m_.columns[column]);
   m_.inverse[column] = inverse;
@@ -179,7 +179,7 @@ void JointSolver::eliminate(std::uint32_t column) {
   }
 }
 
-/// Solves for what the rows still want.
+/// Solves for the residuals of the rows.
 void JointSolver::findChange() {
   auto& x = m_.change;
   x.assign(m_.columns.size(), {});
@@ -217,8 +217,8 @@ void JointSolver::findChange() {
   }
 }
 
-/// A motor or a limit that would have to do more than it can does what it can, and is no equation
-/// any more. True if there was one.
+/// A motor or a limit whose impulse would exceed its bound gets the impulse at the bound, and is no
+/// equation any more. True if there was one.
 bool JointSolver::dropWhatIsBeyondItsBounds() {
   bool any = false;
   for (std::size_t c = 0; c < m_.columns.size(); ++c) {

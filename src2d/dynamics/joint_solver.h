@@ -30,7 +30,7 @@ struct JointColumn {
   std::array<std::uint8_t, 3> row{};
 };
 
-/// What the solvers of the islands remember from step to step, and their memory.
+/// The patterns that the solvers of the islands keep from step to step, and their memory.
 struct JointMemory {
   std::vector<JointPattern> patterns;  ///< in the order in which they were used
   std::size_t next = 0;                ///< which one comes next

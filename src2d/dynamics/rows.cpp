@@ -98,7 +98,7 @@ bool aimRow(const State& state, const Scratch& scratch, const Contact& contact, 
       k.lambda_n(i) = k.lambda_t(i) = 0.0;
       return false;
     }
-    // What has bounced and goes leaves an overlap by itself: help would add energy.
+    // A body that has bounced leaves an overlap by itself: help would add energy.
     if (elastic && point.lambda_n == 0.0) k.bias[i] = std::max(k.bias[i], -std::max(0.0, w_free));
   }
   return k.bilateral || gap <= 0.0;

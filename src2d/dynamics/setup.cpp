@@ -144,7 +144,7 @@ class Builder {
 
   static FrameId anchorOf(const BodyDesc& desc, std::uint32_t id) {
     if (desc.motion == Motion::Scripted) return static_cast<FrameId>(id) + 1;
-    // What is merged with the ground must have contacts of its own with a belt beside it.
+    // A body that is merged with the ground must have contacts of its own with a belt beside it.
     const bool fixed = desc.motion == Motion::Pinned;
     if (fixed && desc.surface_velocity != 0.0) return static_cast<FrameId>(id) + 1;
     if (desc.motion == Motion::Pinned || desc.pinned_until > 0.0) return kWorldFrame;

@@ -21,8 +21,8 @@ void warmStart(std::span<const ContactBlock> blocks, std::vector<SolverVelocity>
   for (const ContactBlock& k : blocks) applyImpulses(k, u[k.a], u[k.b]);
 }
 
-/// Bends change little: contacts need not find their impulses anew. The second time takes back what
-/// the first one bends.
+/// Bends change little: contacts need not find their impulses anew. The second time takes back the
+/// bend by the first one.
 constexpr int kSweepsForBends = 2, kTimesForBends = 2;
 
 /// Far-away bodies do not matter: each island has its own ρ.

@@ -101,7 +101,7 @@ struct State {
   }
 };
 
-/// What a body moves with in the full solve: itself, where its collection is open.
+/// The rigid thing that a body moves with in the full solve: itself, where its collection is open.
 inline RigidId moverOf(const State& state, const Scratch& scratch, BodyId b) {
   const bool open = !scratch.open.empty() && scratch.open[index(b)] != 0;
   return open ? rigidOf(b) : state[b].rigid;
@@ -119,7 +119,7 @@ inline double restitutionOf(const State& state, BodyId a, BodyId b) {
 inline double rollingOf(const State& state, BodyId a, BodyId b) {
   return std::max(state[a].rolling, state[b].rolling);
 }
-/// What resists the rolling of a contact: the impulse stands in the place of a second point
+/// The impulse that resists the rolling of a contact; it stands in the place of a second point
 /// [N m s].
 inline double rollingImpulse(const State& state, const Contact& contact) {
   if (contact.count != 1) return 0.0;

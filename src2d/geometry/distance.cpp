@@ -7,7 +7,7 @@
 namespace merge2d {
 namespace {
 
-/// What is left of a shape without its radius: vertices in the frame of A; a disc has one.
+/// The core of a shape, without its radius: vertices in the frame of A; a disc has one.
 struct Core {
   std::array<Vec2, Polygon::kMaxVertices> vertices;
   std::size_t count = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// Whether a scene can be simulated, whoever wrote it: the rules that loading a file enforces, for
-/// scenes that a program has built. Each function throws the InputError of the first fault that it
+/// Whether a scene can be simulated: the rules that loading a file enforces, for scenes that a
+/// program has built. Each function throws the InputError of the first fault that it
 /// finds, in the words of a file: "'mass' in body 'a' must be positive (1e-12 to 1e12), but is
 /// -1.0".
 
@@ -8,7 +8,7 @@
 
 namespace merge2d {
 
-/// All of a scene: numbers in their ranges, counts, references, and what contradicts itself.
+/// All of a scene: numbers in their ranges, counts, references, and contradictions.
 void check(const Scene& scene);
 /// The same without title, camera and duration, which a simulation does not see.
 void checkSimulated(const Scene& scene);

@@ -160,7 +160,7 @@ class Places {
 
   BoxTree tree_;
   std::vector<std::vector<BodyIndex>>
-      joined_;                              ///< per body: what it is joined to; the world as itself
+      joined_;                              ///< per body: those joined to it; the world as itself
   std::vector<std::size_t> first_, order_;  ///< per body: its parts
   std::vector<std::uint32_t> seen_;         ///< per body: for whom it was counted last
 };
@@ -174,12 +174,12 @@ std::string withCommas(std::size_t number) {
   return digits;
 }
 
-/// What comes out of an emitter within one step, before it can move away.
+/// The bodies that come out of an emitter within one step, before they can move away.
 std::optional<Crowd> crowdOf(const EmitterDesc& emitter, double step) {
   const double at_once = std::min<double>(emitter.count, std::ceil(step / emitter.every));
   Aabb box;
   for (const ConvexShape& shape : emitter.body.shapes) box.include(bounds(shape));
-  // In the place of one lies what is nearer than half its size on either side.
+  // A body lies in the place of one if it is nearer than half its size on either side.
   const Vec2 size = box.extent(), room = size + 2.0 * emitter.spread;
   const double share = size.prod() / room.prod();
   const double others = (at_once - 1.0) * share;

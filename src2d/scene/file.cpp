@@ -73,7 +73,7 @@ std::string readFile(const std::filesystem::path& path, const FileKind& kind) {
   if (file.size() > kind.most) failSize(fmt::format("{} MB", file.size() >> 20u));
   std::string bytes(std::max(file.size(), kind.start.size()), '\0');
   bytes.resize(file.read(bytes.data(), bytes.size()));
-  // What has no end, such as /dev/zero, is known by its start or by its size.
+  // A file without an end, such as /dev/zero, is known by its start or by its size.
   constexpr std::size_t kBlock = 1u << 20;
   for (std::size_t more = kBlock; bytes.starts_with(kind.start) && more == kBlock;) {
     const std::size_t before = bytes.size();

@@ -9,11 +9,11 @@
 
 namespace merge2d {
 
-/// What a file is expected to be.
+/// The expected kind of a file.
 struct FileKind {
   std::string_view what = "a scene file";      ///< in messages
   std::size_t most = SceneLimits::kFileBytes;  ///< bytes
-  std::string_view start = {};                 ///< what begins otherwise is not read to its end
+  std::string_view start = {};                 ///< another file is not read to its end
 };
 
 /// `-` names the standard input.

@@ -27,7 +27,7 @@ void failAccess(const fs::path& path) {
   if (!missing) throw IoError(fmt::format("{}: {}", path.string(), error.message()));
 }
 
-/// What a scene is called that came from there.
+/// The name of a scene from that source.
 std::string sceneName(const std::string& source) {
   if (source == kStandardInput) return "stdin";
   return asOneLine(fs::path(source).stem().string());
@@ -57,7 +57,7 @@ DataFile resolve(const std::string& name_or_path) {
                                name_or_path, didYouMean(name_or_path, names)));
 }
 
-/// A picture is no text, and what it is shows in its name, where it has one.
+/// A picture is no text, and its kind shows in its name, where it has one.
 void refusePicture(std::string_view kind, const std::string& source) {
   if (kind.empty()) return;
   if (kind == "PNG") {

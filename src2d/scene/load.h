@@ -16,7 +16,7 @@ namespace merge2d {
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
 /// A built-in name, a `.toml` scene, a drawn `.png` scene, or a pipe or `-` (the standard input)
-/// with either of them. Throws InputError with the place, what was expected and a suggestion;
+/// with either of them. Throws InputError with the place, the expected value and a suggestion;
 /// IoError when it cannot be read.
 Scene loadScene(const std::string& name_or_path, const Overrides& overrides = {});
 

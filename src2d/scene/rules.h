@@ -1,6 +1,6 @@
 #pragma once
-/// What a description may not say, whatever it comes from: a scene file, where the reader adds the
-/// place, or a program that fills in the structs itself.
+/// The faults of a description, be it from a scene file, where the reader adds the place, or from a
+/// program that fills in the structs itself.
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace merge2d {
 
-/// What is wrong: the key of a scene file that says it, and the sentence for the user.
+/// A fault: the key of a scene file that has it, and the sentence for the user.
 struct Complaint {
   std::string_view key;
   std::string sentence;

@@ -180,7 +180,7 @@ struct Scene {
   std::uint64_t seed = 1;
   std::optional<Camera> camera;     ///< default: fits all bodies over the whole run
   std::optional<BodyIndex> follow;  ///< the camera moves with this body
-  double margin = 0.06;             ///< of a camera that fits, on each side, of what it shows
+  double margin = 0.06;             ///< of a camera that fits, on each side, as a part of its view
   Settings settings;
   std::vector<BodyDesc> bodies;
   std::vector<SpringDesc> springs;

@@ -80,7 +80,7 @@ struct UnmergingSettings {
 struct SleepingSettings {
   double velocity = 1e-5;  ///< [m/s]
   int steps = 3;
-  double time = 1.0;  ///< what accelerates must stay below `velocity` for so long ahead [s]
+  double time = 1.0;  ///< an accelerating body must stay below `velocity` for so long ahead [s]
 };
 
 /// [material]: what a body has that does not say otherwise.

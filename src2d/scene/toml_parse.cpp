@@ -255,7 +255,7 @@ std::optional<toml::source_position> firstBrokenCharacter(std::string_view text)
   throw InputError(source.message(place, "a line is key = value, or a [heading]"));
 }
 
-/// What a text is that was saved in another way than scenes are; empty for the right way.
+/// A complaint about a text that is not saved as UTF-8 with LF or CR LF; empty for one that is.
 std::string_view otherEncoding(std::string_view text) {
   const bool marked = (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) &&
                       text.find('\0') != std::string_view::npos;

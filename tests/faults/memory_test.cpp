@@ -1,4 +1,4 @@
-/// Memory: what needs more than there may be ends with a sentence.
+/// Memory: a command that needs more than the limit ends with a sentence.
 
 #include "tests/faults/fault_testing.h"
 
@@ -45,7 +45,7 @@ TEST_F(Memory, EveryCommandThatSimulatesKeepsToTheLimit) {
     EXPECT_EQ(outcome.err,
               "error: this needs more memory than the limit of 60 MB; --memory-limit changes it\n")
         << arguments[0];
-    fs::remove_all(folder() / "frames");  // a rendering may go on from what it has
+    fs::remove_all(folder() / "frames");  // a rendering may go on from its frames
     EXPECT_THAT(leftOver({"dense.toml", "stack.toml"}), testing::IsEmpty()) << arguments[0];
   }
 }

@@ -1,4 +1,4 @@
-/// What is said when something goes wrong: the reason, in words of ours.
+/// The messages of errors: the reason, in words of ours.
 
 #include <cmath>
 

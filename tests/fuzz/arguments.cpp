@@ -1,4 +1,5 @@
-/// Command lines, a word in each line: the program itself, but for what writes files or takes long.
+/// Command lines, a word in each line: the program itself, but for commands that write files or
+/// take long.
 
 #include <algorithm>
 #include <array>
@@ -27,7 +28,7 @@ bool isTame(std::string_view word) {
   return std::find(kCommands.begin(), kCommands.end(), word) == kCommands.end();
 }
 
-/// What keeps the commands short that simulate.
+/// Adds options that keep a simulating command short.
 void shorten(std::vector<std::string>& words) {
   const auto has = [&](std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();

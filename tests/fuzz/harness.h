@@ -1,7 +1,7 @@
 #pragma once
-/// What the fuzz harnesses share. Each defines `tryInput`, which must return for any bytes at all:
-/// libFuzzer calls it with bytes that it makes up (clang, `./check --long`), and the tests with the
-/// files of corpus/ (any compiler).
+/// The common part of the fuzz harnesses. Each defines `tryInput`, which must return for any bytes
+/// at all: libFuzzer calls it with bytes that it makes up (clang, `./check --long`), and the tests
+/// with the files of corpus/ (any compiler).
 
 #include <cstdint>
 #include <cstdio>
@@ -45,8 +45,8 @@ inline void simulate(const Scene& scene) {
   }
 }
 
-/// What is written loads again, to what is written in the same way; whatever loads can be checked
-/// and simulated.
+/// The written text of a scene loads again, to a scene of the same text; a scene that loads can be
+/// checked and simulated.
 inline void requireSound(const Scene& scene) {
   constexpr std::size_t kMany = 1000;  // of which more tell nothing new, slowly
   if (scene.bodies.size() > kMany) return;

@@ -105,7 +105,7 @@ void overwrite(std::string& bytes, std::size_t at, T number) {
   std::memcpy(bytes.data() + at % (bytes.size() - sizeof number + 1), &number, sizeof number);
 }
 
-/// Each change: what it is, where, and a number.
+/// Each change: its kind, its place, and a number.
 std::string changed(std::string bytes, Numbers input) {
   constexpr std::size_t kHeader = kStateStart.size() + 4 + 3 * 8 + sizeof(Mode);
   std::string body = bytes.substr(kHeader, bytes.size() - kHeader - sizeof(std::uint64_t));

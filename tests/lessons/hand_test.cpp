@@ -5,7 +5,7 @@
 
 #include "lessons/player_words.h"
 #include "lessons/timeline.h"
-#include "src2d/scene/load.h"
+#include "tests/lessons/live_testing.h"
 #include "tests/support/fingerprint.h"
 
 namespace merge2d {
@@ -13,23 +13,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kStack = R"(format = 1
-[[body]]
-name = "ground"
-motion = "pinned"
-box = [20, 1]
-at = [0, -0.5]
-[[body]]
-name = "low"
-box = [1, 1]
-at = [0, 0.5]
-[[body]]
-name = "high"
-box = [1, 1]
-at = [0, 1.5]
-)";
-
-Live stack() { return Live(parseScene(kStack, "stack.toml")); }
 std::string say(Live& live, const std::string& line) { return doByHand(live, wordsOf(line)); }
 std::string refusal(Live& live, const std::string& line) {
   try {
@@ -138,7 +121,7 @@ std::vector<Fingerprint> goThrough(Timeline& run, std::int64_t last) {
 }
 
 TEST(Timeline, GoesBackThroughChangesAndOnAgainBitForBit) {
-  Timeline run(parseScene(kStack, "stack.toml"), Mode::MergeSleep, 1000);
+  Timeline run(stackScene(), Mode::MergeSleep, 1000);
   run.change(60, {"push", "high", "2", "1"});
   run.change(70, {"add", "disc", "0", "4", "0.3"});
   run.change(90, {"drag", "low", "to", "2", "3"});
@@ -151,7 +134,7 @@ TEST(Timeline, GoesBackThroughChangesAndOnAgainBitForBit) {
 }
 
 TEST(Timeline, AChangeForgetsWhatCameLater) {
-  Timeline run(parseScene(kStack, "stack.toml"), Mode::MergeSleep, 1000);
+  Timeline run(stackScene(), Mode::MergeSleep, 1000);
   run.change(60, {"push", "high", "2", "1"});
   run.step(100);
   run.change(40, {"pin", "high"});
@@ -161,7 +144,7 @@ TEST(Timeline, AChangeForgetsWhatCameLater) {
 }
 
 TEST(Timeline, UndoRunsAgainWithoutTheLastChanges) {
-  const Scene scene = parseScene(kStack, "stack.toml");
+  const Scene scene = stackScene();
   Timeline run(scene, Mode::MergeSleep, 1000), untouched(scene, Mode::MergeSleep, 1000);
   run.change(55, {"set", "mode=reference"});
   run.change(60, {"push", "high", "2", "1"});
@@ -174,7 +157,7 @@ TEST(Timeline, UndoRunsAgainWithoutTheLastChanges) {
 }
 
 TEST(Timeline, ARefusedChangeLeavesTheRunAsItWas) {
-  const Scene scene = parseScene(kStack, "stack.toml");
+  const Scene scene = stackScene();
   Timeline run(scene, Mode::MergeSleep, 1000), untouched(scene, Mode::MergeSleep, 1000);
   run.step(80);
   EXPECT_THROW(run.change(50, {"push", "nobody", "1", "0"}), Refusal);

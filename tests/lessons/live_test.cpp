@@ -5,35 +5,17 @@
 #include <nlohmann/json.hpp>
 
 #include "lessons/step_text.h"
-#include "src2d/scene/load.h"
+#include "tests/lessons/live_testing.h"
 
 namespace merge2d {
 namespace {
 
 using nlohmann::json;
 
-constexpr const char* kPair = R"(format = 1
-[[body]]
-name = "ground"
-motion = "pinned"
-box = [20, 1]
-at = [0, -0.5]
-[[body]]
-name = "low"
-box = [1, 1]
-at = [0, 0.5]
-[[body]]
-name = "high"
-box = [1, 1]
-at = [0, 1.5]
-)";
-
-Live pair(Mode mode = Mode::MergeSleep) { return Live(parseScene(kPair, "pair.toml"), mode); }
-
 Vec2 placeOf(const Live& live, BodyId id) { return live.world().capture().bodies[index(id)].x; }
 
 TEST(Live, AHeldBodyComesToTheHandAndStaysThere) {
-  Live live = pair();
+  Live live = stack();
   live.skipTo(100);
   live.drag(BodyId{2}, {.grip = {0, 0}, .target = {3, 3}});
   live.skipTo(400);
@@ -43,14 +25,14 @@ TEST(Live, AHeldBodyComesToTheHandAndStaysThere) {
 }
 
 TEST(Live, TheForceOfTheHandCarriesTheWeight) {
-  Live live = pair();
+  Live live = stack();
   live.drag(BodyId{2}, {.grip = {0, 0}, .target = {3, 3}});
   live.skipTo(400);
   EXPECT_NEAR(live.force(BodyId{2}).y(), 9.81, 0.2);  // 1 kg
 }
 
 TEST(Live, ABodyLetGoWhileItMovesIsThrown) {
-  Live live = pair();
+  Live live = stack();
   live.drag(BodyId{2}, {.grip = {0, 0}, .target = {3, 4}});
   live.skipTo(10);
   live.letGo(BodyId{2});
@@ -60,14 +42,14 @@ TEST(Live, ABodyLetGoWhileItMovesIsThrown) {
 }
 
 TEST(Live, AHandAtAFixedBodyMovesNothing) {
-  Live live = pair();
+  Live live = stack();
   live.drag(BodyId{0}, {.grip = {0, 0}, .target = {3, 3}});
   live.skipTo(20);
   EXPECT_EQ(placeOf(live, BodyId{0}), Vec2(0, -0.5));
 }
 
 TEST(StepText, HoldsTheStateTheDecisionsAndTheImpulsesInside) {
-  Live live = pair(Mode::Merge);  // what sleeps is not swept
+  Live live = stack(Mode::Merge);  // sleeping bodies are not swept
   live.skipTo(100);
   const StepRecord record = live.step();
   const json step = json::parse(stepText(record, live.world().bodies()));
@@ -82,7 +64,7 @@ TEST(StepText, HoldsTheStateTheDecisionsAndTheImpulsesInside) {
 }
 
 TEST(StepText, TellsAMergeAndItsMomentum) {
-  Live live = pair();
+  Live live = stack();
   for (int i = 0; i < 100; ++i) {
     const json step = json::parse(stepText(live.step(), live.world().bodies()));
     if (step["events"].empty() || step["events"][0][1] != "merge") continue;

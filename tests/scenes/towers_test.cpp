@@ -94,9 +94,9 @@ void expectWithin(double part, double merged, double reference) {
   EXPECT_NEAR(merged, reference, part * reference);
 }
 
-/// Hit one swing earlier than in the scene, which takes a fifth of the time. What flies off at once
-/// is much the same with any ball; what follows is chaotic: one ball more or less heavy, and the
-/// two modes differ by twice as much.
+/// Hit one swing earlier than in the scene, which takes a fifth of the time. The bricks that fly
+/// off at once are much the same with any ball; the later course is chaotic: one ball more or less
+/// heavy, and the two modes differ by twice as much.
 TEST(TowerPlatform, AtFirstTheBlowMovesAsManyAsInTheReference) {
   double far[2][2] = {}, near[2][2] = {};  // sums over balls: by mode, at either time
   for (const char* mass : {"21", "23", "25", "27", "29"}) {

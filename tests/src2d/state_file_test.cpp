@@ -232,8 +232,8 @@ TEST_F(StateFileErrors, AnotherModeIsRefused) {
             "saved.state: the snapshot was made with --mode merge+sleep, not reference");
 }
 
-/// Whoever makes such bytes on purpose gets an error or a strange run, but never reads or writes
-/// memory that is not a world's.
+/// Bytes made so on purpose give an error or a strange run, but never an access to memory that is
+/// not a world's.
 TEST_F(StateFileErrors, NoForgedFieldIsFollowedOutOfTheTables) {
   std::mt19937_64 random(5);
   int refused = 0, taken = 0;

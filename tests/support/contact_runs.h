@@ -1,5 +1,5 @@
 #pragma once
-/// What holds of contacts holds in every mode and at every step size.
+/// Runs of a scene in every mode and at every step size.
 
 #include <array>
 #include <string>

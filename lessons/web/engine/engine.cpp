@@ -115,7 +115,7 @@ MERGE2D_EXPORT int stepWorld(int handle, int k) {
     return 1;
   });
 }
-/// Leaves the text of the state after step `k` and what was changed there.
+/// Leaves the text of the state after step `k` and the changes made there.
 MERGE2D_EXPORT int seeWorld(int handle, int k) {
   return guarded([&] {
     const Live& live = at(handle).at(k);
@@ -123,8 +123,8 @@ MERGE2D_EXPORT int seeWorld(int handle, int k) {
     return 1;
   });
 }
-/// Changes the run after step `k` as the words in the buffer say (lessons/hand.h), and leaves what
-/// was done.
+/// Changes the run after step `k` by the command in the buffer (lessons/hand.h), and leaves a
+/// sentence about the change.
 MERGE2D_EXPORT int changeWorld(int handle, int k) {
   return guarded([&] {
     const std::string line = buffer;

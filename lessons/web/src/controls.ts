@@ -156,7 +156,7 @@ export function layerSwitches(state: State): HTMLElement {
       h('dt', {}, svg('svg', { viewBox: '0 0 24 16', 'aria-hidden': true }, svg('path', { d: mark, class: look }))), h('dd', {}, text)]))));
   closesOutside(more);
   const row = h('div', { class: 'chips' }, ...kFirst.map(chip));
-  // What finds no place is in the menu alone.
+  // Chips that find no place are in the menu alone.
   new ResizeObserver(() => {
     const chips = [...row.children] as HTMLElement[];
     for (const one of chips) one.style.visibility = one.offsetTop > chips[0].offsetTop + 4 ? 'hidden' : '';
@@ -164,7 +164,7 @@ export function layerSwitches(state: State): HTMLElement {
   return h('div', { class: 'layers', role: 'group', 'aria-label': 'Layers of the picture' }, row, more);
 }
 
-/** What the marks mean. */
+/** The legend of the marks. */
 const kKey: [string, string, string][] = [
   ['merged', 'M8 4h8v8h-8z', 'merged: inside a collection, not solved'],
   ['active', 'M12 8m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0', 'solved in this step'],

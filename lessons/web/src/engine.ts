@@ -80,7 +80,7 @@ export class Engine {
   }
 }
 
-/** What lessons/step_text.cpp writes. */
+/** The output of lessons/step_text.cpp. */
 export interface StateText {
   step: number;
   bodies: number[][];
@@ -99,7 +99,7 @@ export interface StepText extends StateText {
   results: string[];
 }
 
-/** What lessons/why.cpp writes. */
+/** The output of lessons/why.cpp. */
 export interface Reason {
   heading: string;
   text: string;
@@ -120,11 +120,11 @@ export class World {
   step(step: number): StepText {
     return this.engine.json(this.engine.exports.stepWorld(this.handle, step));
   }
-  /** The state after a step and what was changed there. */
+  /** The state after a step and the changes made there. */
   see(step: number): StateText {
     return this.engine.json(this.engine.exports.seeWorld(this.handle, step));
   }
-  /** Does after a step what a line of lessons/hand.h says; gives what was done. Throws a refusal. */
+  /** Executes after a step a command of lessons/hand.h; gives a sentence about the change. Throws a refusal. */
   change(step: number, line: string): string {
     this.engine.write(new TextEncoder().encode(line));
     this.engine.done(this.engine.exports.changeWorld(this.handle, step));

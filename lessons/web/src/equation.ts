@@ -74,7 +74,7 @@ function decisionMeant(state: State, criteria: string[], stage: string): Decisio
   return best;
 }
 
-/** What is less than a hundredth of gravity's part is rounding of the recorded velocities. */
+/** Values below a hundredth of gravity's part are rounding of the recorded velocities. */
 function rest(value: number, gravity: number): number {
   return Math.abs(value) < 0.01 * Math.abs(gravity) ? 0 : value;
 }
@@ -159,7 +159,7 @@ function line(state: State): Line | null {
       const symbols = row(sub('v', 'c'), mo('='), math('mfrac', row(sub('m', 'c'), sub('v', 'c'), mo('+'), sub('m', 'b'), sub('v', 'b')), row(sub('m', 'c'), mo('+'), sub('m', 'b'))));
       if (!merged) return null; // there is nothing to be filled in
       const members = trace.members(merged[4], step);
-      // Welded to what never moves, its mass is infinite: the paper's m_c.
+      // Welded to a body that never moves, its mass is infinite: the paper's m_c.
       if (heldFast(state, merged[4])) return { symbols, numbers: row(sub('m', 'c'), mo('='), mi('∞'), text(',\u2002'), sub('v', 'c'), mo('='), text('that of what holds it')), note: `Eqs. (10)–(14): C${merged[4]} is welded to a body that does not respond to forces.` };
       const mass = members.reduce((sum, b) => sum + trace.head.bodies[b].mass, 0);
       const v = (axis: 'vx' | 'vy') => members.reduce((sum, b) => sum + trace.head.bodies[b].mass * trace.velocity(b, step)[axis], 0) / mass;

@@ -1,4 +1,4 @@
-// Hands on a live run: what pulls at a body is drawn, and a pointer in the picture pulls, pushes, throws, pins, adds.
+// Hands on a live run: loads on a body are drawn, and a pointer in the picture pulls, pushes, throws, pins, adds.
 import type { Picture } from './picture';
 import type { Paths, Sight } from './sight';
 import type { State } from './state';
@@ -20,7 +20,7 @@ export function hands(sight: Sight): Paths {
   return { hand };
 }
 
-/** What the scene itself pushes and pulls at bodies with. */
+/** The loads of the scene itself on bodies. */
 export function loads(sight: Sight): Paths {
   const { state, trace, view, scales, posed } = sight;
   let d = '';
@@ -165,7 +165,7 @@ function aimLine(state: State, pull: Pull): string {
   return state.tool === 'push' ? `push @${pull.body} ${x} ${y} at ${short(pull.from[0])} ${short(pull.from[1])}` : `throw @${pull.body} ${x} ${y}`;
 }
 
-/** What a click with a tool does; empty where it chooses. */
+/** The command of a click with a tool; empty where it chooses. */
 export function clickLine(state: State, body: number | undefined, at: [number, number]): string {
   const size = 0.06 * state.trace.head.camera[2];
   const place = `${short(at[0])} ${short(at[1])}`;

@@ -38,9 +38,9 @@ export interface Head {
   criteria: Criterion[];
   events: EventRow[];
   colors: [number, number][];
-  /** What the scene itself pulls with: body, point in its frame, force, from, until (null: for ever). */
+  /** The forces of the scene: body, point in its frame, force, from, until (null: for ever). */
   forces?: [number, number, number, number, number, number, number | null][];
-  /** And hits with: body, point in the world, impulse, time. */
+  /** Its impulses: body, point in the world, impulse, time. */
   impulses?: [number, number, number, number, number, number][];
   springs: [number, number, number, number, number, number][];
   ledger?: number[][];

@@ -1,5 +1,5 @@
-// The page's own words in other languages: one table for all of them. What a lesson says is its author's, what a
-// sentence about a pair says is the engine's; both stay as they are.
+// The page's own words in other languages: one table for all of them. The text of a lesson is its author's, a sentence
+// about a pair is the engine's; both stay as they are.
 import table from './texts.json';
 
 type Language = 'de' | 'fr';
@@ -17,7 +17,7 @@ function rules(): { exact: Map<string, Row>; patterns: Rule[] } {
   return { exact, patterns };
 }
 
-/** A word or sentence of the page in a language; what the table does not know stays English. */
+/** A word or sentence of the page in a language; a text that the table does not know stays English. */
 export function translator(language: string): (text: string) => string {
   if (language !== 'de' && language !== 'fr') return (text) => text;
   const { exact, patterns } = rules();
@@ -37,7 +37,7 @@ export function translator(language: string): (text: string) => string {
 
 const kAttributes = ['aria-label', 'title', 'aria-valuetext'];
 
-/** Translates all that is in the page, and what comes into it. */
+/** Translates the page, and elements that are added to it. */
 export function speak(root: HTMLElement, language: string): void {
   document.documentElement.lang = language;
   if (language === 'en') return;

@@ -9,7 +9,7 @@ export class Lens {
   readonly scaleBar = svg('g', { class: 'scale-bar' });
   /** Whether the pointer that was just lifted has moved the picture: then it has chosen nothing. */
   moved = false;
-  /** Told when what is seen changes. */
+  /** Called when the visible part of the picture changes. */
   onChange: () => void = () => {};
   /** Units of the picture per pixel. */
   unit = 1;
@@ -67,7 +67,7 @@ export class Lens {
     const power = 10 ** Math.floor(Math.log10(longest));
     const round = [5, 2, 1].map((m) => m * power).find((m) => m <= longest) ?? power;
     const length = round * perMetre;
-    // The picture is in the middle of its frame: its left edge may be left of what is fitted.
+    // The picture is in the middle of its frame: its left edge may be left of the fitted part.
     const [left, top] = [this.x - Math.max(0, box.width * unit - kWidth) / 2 / this.zoom, this.y - Math.max(0, box.height * unit - kHeight) / 2 / this.zoom];
     this.scaleBar.setAttribute('transform', `translate(${fixed(left)} ${fixed(top)}) scale(${(unit / this.zoom).toFixed(4)})`);
     this.scaleBar.replaceChildren(svg('path', { d: `M16 24v8h${fixed(length)}v-8` }),

@@ -82,7 +82,7 @@ class Memory {
   }
 }
 
-/** The order in which choices are shown: by the question, not by the one who wrote it. Numbers stay in order. */
+/** The order in which choices are shown: by the question, not by its author. Numbers stay in order. */
 export function shownOrder(question: Question): number[] {
   const order = question.options.map((_, i) => i);
   if (question.several || question.options.some((option) => option.bodies.length > 0 || /^\d+$/.test(option.text))) return order;
@@ -295,7 +295,7 @@ export class LessonPanel {
     tick();
   }
 
-  /** The one primary button names what it does. */
+  /** The one primary button names its action. */
   private drawActions(): void {
     const question = this.pending();
     const given = this.given[this.current];

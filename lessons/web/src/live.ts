@@ -41,7 +41,7 @@ type LiveBody = Omit<BodyTrack, (typeof kBodyColumns)[number]> & Record<(typeof 
 const columns = <K extends string>(names: readonly K[]) =>
   Object.fromEntries(names.map((name) => [name, [] as number[]])) as Record<K, number[]>;
 
-/** Cuts what comes after `n` samples. */
+/** Cuts the samples after the first `n`. */
 function cut<K extends string>(track: Record<K, number[]>, names: readonly K[], n: number): void {
   for (const name of names) track[name].length = Math.min(track[name].length, n);
 }
@@ -51,7 +51,7 @@ const same = (code: number) => code;
 export class LiveTrace extends Trace {
   /** The last step that was simulated. */
   known: number;
-  /** What each stage did, by steps. */
+  /** The results of the stages, by steps. */
   readonly results = new Map<number, string[]>();
   private readonly contactOf = new Map<string, LiveContact>();
   private readonly decisionOf = new Map<string, LiveDecision>();
@@ -143,7 +143,7 @@ export class LiveTrace extends Trace {
     return true;
   }
 
-  /** Forgets what comes after a step, and looks anew at what was changed there. */
+  /** Forgets the steps after a step, and looks anew at the state with the changes made there. */
   changedAt(step: number): void {
     this.known = Math.min(this.known, step);
     this.forgetAfter(step);
@@ -171,7 +171,7 @@ export class LiveTrace extends Trace {
     cut(track, names, n);
   }
 
-  /** The state after a step once more, as the engine has it: exact, and with what was changed there. */
+  /** The state after a step once more, as the engine has it: exact, and with the changes made there. */
   private look(step: number): void {
     const seen = this.world.see(step);
     for (const track of this.bodies as LiveBody[]) cut(track, kBodyColumns, Math.max(0, step - track.first));
@@ -259,7 +259,7 @@ export interface Deed {
 /** Which other world goes beside the own one. */
 export type Beside = 'reference' | 'paper';
 
-/** What makes the other world another one stays as it is there. */
+/** Settings in which the other world differs on purpose stay as they are there. */
 const kItsOwn = /^set (mode|merging\.rule|unmerging\.rule|merging\.cycles)=/;
 
 const kPaper = ['set merging.rule=paper', 'set unmerging.rule=paper', 'set merging.cycles=off'];
@@ -275,7 +275,7 @@ export class LiveRun {
     this.trace = new LiveTrace(this.world, prepared, fork, 'your run');
   }
 
-  /** Does what a line says after a step; what was done later is forgotten. Throws a refusal. */
+  /** Executes a command after a step; later ones are forgotten. Throws a refusal. */
   act(step: number, line: string): string {
     const told = this.world.change(step, line);
     const later = this.deeds.findIndex((deed) => deed.step > step);

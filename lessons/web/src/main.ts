@@ -53,7 +53,7 @@ function themeButton(): HTMLButtonElement {
   return button;
 }
 
-/** What a page of a scene alone says where a lesson would be. */
+/** The words of a page of a scene alone, in the place of a lesson. */
 function sceneWords(state: State, title: string, now: HTMLElement): HTMLElement {
   const next = h('button', { type: 'button', class: 'primary', onclick: () => { if (!state.nextEvent(['merge', 'unmerge'], 1)) state.goTo(0); } });
   state.onChange(() => {

@@ -71,7 +71,7 @@ export class Picture {
       svg('rect', { width: 8, height: 8, class: 'hatch-back' }), svg('line', { x1: 0, y1: 0, x2: 0, y2: 8, class: 'hatch-line' })));
   }
 
-  /** What moves stands in front of what is fixed. Names and pins may come later: a live run adds bodies. */
+  /** Moving bodies stand in front of fixed ones. Names and pins may come later: a live run adds bodies. */
   private buildBodies(trace: Trace): void {
     this.bodyRoot.replaceChildren();
     this.ghostGroup.replaceChildren();
@@ -169,7 +169,7 @@ export class Picture {
   private drawLabels({ state, trace, posed, grouped, view }: Sight): void {
     this.labels.clear();
     this.labels.unit = this.lens.unit;
-    // What moves by a script is told apart from what is pinned.
+    // Scripted bodies are told apart from pinned ones.
     for (const [i, body] of trace.head.bodies.entries()) {
       if (body.motion !== 'scripted' || !trace.present(i, posed)) continue;
       const pose = trace.pose(i, posed);

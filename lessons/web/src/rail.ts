@@ -1,4 +1,4 @@
-// The eleven stages of the step, each with what it did in this one.
+// The eleven stages of the step, each with its result in this one.
 import { h } from './dom';
 import { kStages } from './stages';
 import type { State } from './state';

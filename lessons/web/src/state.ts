@@ -24,7 +24,7 @@ export type LayerId = (typeof kLayers)[number]['id'];
 /** Layers that need a run without merging. */
 export const kOfReference: readonly LayerId[] = ['ghost', 'beside'];
 
-/** What a pointer does to a body of a live run. */
+/** The action of a pointer on a body of a live run. */
 export type Tool = 'drag' | 'push' | 'throw' | 'pin' | 'box' | 'disc' | 'delete' | 'ask';
 
 export class State {
@@ -35,9 +35,9 @@ export class State {
   selection: Selection = null;
   tool: Tool = 'drag';
   besideKind: Beside = 'reference';
-  /** Why playing stopped, or what could not be done; told until something else happens. */
+  /** The reason why playing stopped, or a command was refused; told until something else happens. */
   notice = '';
-  /** Whether what shows the answer of an open question is hidden. */
+  /** Whether elements that show the answer of an open question are hidden. */
   veiled = false;
   readonly layers = new Set<LayerId>(['contacts']);
   trace: Trace;
@@ -122,7 +122,7 @@ export class State {
 
   /** Where playing has to stop on its way, as before a question. */
   stopBefore: (from: number, to: number) => { step: number; why: string } | undefined = () => undefined;
-  /** What is done by hand before the next steps of a live run. */
+  /** The commands by hand before the next steps of a live run. */
   beforeSteps: () => void = () => {};
 
   nextEvent(types: readonly string[] | undefined, direction: 1 | -1): boolean {
@@ -168,7 +168,7 @@ export class State {
     this.goTo(Math.max(this.step, this.live.fork));
   }
 
-  /** Does by hand what a line says, from the next step on. What cannot be done is told. */
+  /** Executes a command by hand, from the next step on. A refusal is told. */
   act(line: string): boolean {
     if (!this.live) return false;
     try {
@@ -187,7 +187,7 @@ export class State {
     if (step !== undefined) this.goTo(step);
   }
 
-  /** Looks into steps of what is shown; null where the page has no engine. */
+  /** Looks into steps of the run that is shown; null where the page has no engine. */
   get probe(): Probe | LiveRun | null {
     if (this.live) return this.live;
     if (!this.engine || !this.trace.head.full) return null;

@@ -1,4 +1,4 @@
-// The panel of a run that was taken over: tools, limits, what was done, the way back.
+// The panel of a run that was taken over: tools, limits, the list of changes, the way back.
 import { h, number } from './dom';
 import { roving } from './rail';
 import type { State, Tool } from './state';

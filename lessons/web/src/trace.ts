@@ -74,7 +74,7 @@ function logarithmic(floor: number, steps: number): Scale {
   return (code) => Math.sign(code) * floor * (2 ** (Math.abs(code) / steps) - 1);
 }
 
-/** All that a run is made of, and what its columns mean. */
+/** The data of a run, and the meaning of its columns. */
 export interface TraceParts {
   head: Head;
   label: string;

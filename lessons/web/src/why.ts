@@ -1,4 +1,4 @@
-// Why two bodies are one, or not: one sentence, a gauge, and what would have to change. The engine says it.
+// Why two bodies are one, or not: one sentence, a gauge, and the change that would alter it. The engine says it.
 import { h, number, svg } from './dom';
 import type { Reason } from './engine';
 import { criterionName } from './inspector';

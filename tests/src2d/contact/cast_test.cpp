@@ -75,7 +75,7 @@ TEST(NearMiss, ABoxFallsPastAnEdge) {
   inAllModesAndSteps(scene, [&](World& world) { expectFliesFreely(world, 0.8, "box"); });
 }
 
-/// Whatever the speed and wherever in a step it comes to the plate.
+/// At each speed, and at each time in a step at which it comes to the plate.
 TEST(Cast, ABulletNeverPassesAThinPlate) {
   for (const double speed : {10.0, 99.0, 300.0, 777.0, 1000.0}) {
     for (const double start : {-1.0, -1.37, -2.2}) {
@@ -110,7 +110,7 @@ TEST(Cast, ABulletNeverPassesAFreePlate) {
 
 /// A frictionless hit off centre turns neither disc, and drives the other one along the line
 /// between the centres, wherever in the step the hit is. Without restitution the step in which they
-/// meet only brings them together, and what is left of the approach acts a step later, along a line
+/// meet only brings them together, and the rest of the approach acts a step later, along a line
 /// that has turned by up to v·h/(2r) = 0.1 rad.
 TEST(Cast, AHitActsAlongTheLineOfTheCentresAtTheHit) {
   for (const double start : {-2.0, -2.013, -2.04}) {

@@ -37,7 +37,7 @@ Scene compoundFloor() {
   return scene;
 }
 
-/// The first steps press a body into the floor by what its softness allows; after these nothing
+/// The first steps press a body into the floor as far as its softness allows; after these nothing
 /// changes its speed or lifts it.
 void expectGlides(World& world, double seconds, double speed, double height) {
   constexpr double kHop = 2e-3;   // m/s: of the first settling
@@ -132,7 +132,7 @@ TEST(Seams, ASeamNeedNotBeExact) {
 }
 
 /// A box of 0.6 m weighs 0.36 kg and sinks in by 0.2 mm: at a step of more it ends against it, and
-/// what is lower by as much lets it go on.
+/// a drop by as much lets it go on.
 TEST(Seams, AStepStopsABoxAndADropDoesNot) {
   for (const double height : {1e-4, 5e-4, 1e-3, 3e-3}) {
     for (const double direction : {1.0, -1.0}) {

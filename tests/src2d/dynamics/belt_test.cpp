@@ -24,8 +24,8 @@ std::string boxAt(const std::string& name, double x, double y, const std::string
                      more);
 }
 
-// What is put on a belt slips for t₀ = v/(μ g) and is then carried: x = v t − v²/(2 μ g). The
-// tolerance is one step at the belt's speed.
+// A body that is put on a belt slips for t₀ = v/(μ g) and is then carried: x = v t − v²/(2 μ g).
+// The tolerance is one step at the belt's speed.
 TEST(Belt, CarriesWhatIsPutOnIt) {
   inEachModeAndStep([](Mode mode, double h) {
     World world = worldOf(kBelt + boxAt("box", 0, 0.25), mode, h);
@@ -108,7 +108,7 @@ TEST(Belt, ASlowOneCarriesToo) {
   });
 }
 
-// A wall stops what the belt drives: it presses with the friction of its weight, 0.6 m g.
+// A wall stops a box that the belt drives: it presses with the friction of its weight, 0.6 m g.
 TEST(Belt, PressesAgainstAWall) {
   inEachModeAndStep([](Mode mode, double h) {
     World world = worldOf(kBelt + boxAt("box", 0, 0.25, "mass = 2") +

@@ -1,4 +1,4 @@
-/// Joints are as hard as they are said to be, whatever hangs on them.
+/// Joints are as hard as they are said to be, under any load.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ double widestGap(const World& world) {
   return widest;
 }
 
-// The tolerance is a hundredth of what was asked for: 0.001 % of the length.
+// The tolerance is a hundredth of the required one: 0.001 % of the length.
 TEST(Chain, HangsAsLongAsItIs) {
   for (const double mass : {1.0, 10.0, 100.0, 1000.0, 10000.0}) {
     SCOPED_TRACE(mass);
@@ -106,8 +106,8 @@ TEST(Chain, RodsAndRopesStayAsLongAsTheyAreToo) {
   }
 }
 
-// A heavy ball keeps the chain straight: a pendulum, whose energy stays. Tolerance: 1 % of what it
-// has at first, over four swings.
+// A heavy ball keeps the chain straight: a pendulum, whose energy stays. Tolerance: 1 % of its
+// energy at first, over four swings.
 TEST(Chain, KeepsItsEnergyWhileItSwings) {
   inEachModeAndStep([](Mode mode, double h) {
     World world = worldOf(chain(1000.0, 60 * kDegree), mode, h);

@@ -39,8 +39,8 @@ void expectKeepsEnergy(World& world, double seconds, double least) {
   EXPECT_GE(energyOf(world), least * before);
 }
 
-/// The approach along the line of the centres is given back, what is across it stays: the discs are
-/// 0.4 m apart in the centres and 0.2 m off at the hit, so the line is at 30°.
+/// The approach along the line of the centres is given back, the velocity across it stays: the
+/// discs are 0.4 m apart in the centres and 0.2 m off at the hit, so the line is at 30°.
 TEST(Hits, AnObliqueElasticHitKeepsItsEnergy) {
   Scene scene = noGravity();
   add(scene, named("a", elastic(moving(disc(0.2, {0, 0}), {3, 0}))));
@@ -126,7 +126,7 @@ TEST(Hits, FrictionAddsNoEnergyToAGasOfBoxes) {
   inAllModesAndSteps(scene, [](World& world) { expectKeepsEnergy(world, 5.0, 0.0); });
 }
 
-/// Whatever the gaps, also none: only the last one leaves. On a floor each sinks in by a hair, and
+/// With any gaps, also none: only the last one leaves. On a floor each sinks in by a hair, and
 /// boxes that have merged with it keep a lean of 10⁻⁴ with which their faces do not meet at once.
 TEST(Hits, OfARowOnlyTheLastOneLeaves) {
   for (const double gap : {0.0, 1e-4, 1e-3, 5e-3}) {

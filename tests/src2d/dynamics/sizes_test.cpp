@@ -1,4 +1,4 @@
-/// From grains of 0.1 mm to blocks of 100 m: what rests, rests at its place.
+/// From grains of 0.1 mm to blocks of 100 m: bodies at rest stay at their places.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

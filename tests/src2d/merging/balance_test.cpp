@@ -1,4 +1,4 @@
-/// Whatever accelerates does not sleep, however slow it is: the same motion in every mode.
+/// A body that accelerates does not sleep, however slow it is: the same motion in every mode.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(Balance, ASlowSpringSwingsOn) {
 }
 
 // A ball that rolls up a slope of 0.002 comes back with the speed that it had: a = 2/3 g s. The
-// tolerance is what the softness of contacts takes over 15 s.
+// tolerance is the loss by the softness of contacts over 15 s.
 TEST(Balance, ABallTurnsRoundOnASlope) {
   inEachModeAndStep([&](Mode mode, double h) {
     World world = worldOf(fmt::format("gravity = [{}, {}]\n[[body]]\nmotion = \"pinned\"\n"
@@ -104,7 +104,7 @@ TEST(Balance, ABlockThatIsPulledDoesNotFlickerBetweenSleepAndWaking) {
 }
 
 // The spring bears 0.6 m g before the block slips: it must be 0.58 m longer than at the start, less
-// what its slant lifts the block by.
+// the effect of its slant, which lifts the block.
 TEST(Balance, ABlockSlipsWhenItsSpringIsStretched) {
   inEachModeAndStep([&](Mode mode, double h) {
     World world = worldOf(pulledBlock(0.01), mode, h);

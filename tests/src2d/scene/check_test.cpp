@@ -67,7 +67,7 @@ count = 3
                     "s.toml");
 }
 
-/// What `check` says of the sound scene after a change.
+/// The complaint of `check` about the sound scene after a change.
 std::string complaintAfter(const std::function<void(Scene&)>& change) {
   Scene scene = soundScene();
   change(scene);
