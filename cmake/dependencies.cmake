@@ -3,6 +3,11 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(box2d 2.4 REQUIRED)
 find_package(fmt 9 REQUIRED)
 find_package(tomlplusplus 3 REQUIRED)
+# Its headers alone: src2d/scene/toml.h compiles it in its own way, beside which the shared library
+# would only bring a second one.
+add_library(merge2d_toml INTERFACE)
+target_include_directories(merge2d_toml SYSTEM INTERFACE
+  $<TARGET_PROPERTY:tomlplusplus::tomlplusplus,INTERFACE_INCLUDE_DIRECTORIES>)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(PkgConfig REQUIRED)

@@ -306,6 +306,11 @@ void World::setGravity(const Vec2& gravity) {
 
 void World::setMode(Mode mode) { merge2d::setMode(impl_->setup, impl_->scratch, mode); }
 
+Vec2 World::toBodyFrame(BodyId body, const Vec2& at) const {
+  const Pose pose = impl_->setup.state.pose(impl_->checked(body));
+  return pose.toLocal(at) + impl_->centerOf(body);
+}
+
 // Arrays
 
 namespace {

@@ -133,6 +133,11 @@ class World {
   void velocities(std::span<double> out) const;  ///< vx, vy [m/s], omega [rad/s]
   void collections(std::span<std::int32_t> out) const;  ///< ids; −1 when free
 
+  /// A world point [m] as descriptions of springs have it: in the frame that the body was described
+  /// in, whose origin need not be the centre of mass. Throws InputError for a body that is not
+  /// there.
+  Vec2 toBodyFrame(BodyId body, const Vec2& at) const;
+
  private:
   void checkSpring(std::uint32_t spring) const;
 

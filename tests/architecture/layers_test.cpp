@@ -27,8 +27,9 @@ struct Rule {
   std::vector<std::string> exceptions;
 };
 
-const std::vector<std::string> kEverywhere = {"src2d/", "render/", "lessons/",
-                                              "app/",   "bench/",  "tests/"};
+const std::vector<std::string> kEverywhere = {"src2d/",  "render/",  "lessons/", "api/",
+                                              "app/",    "bench/",   "tests/",   "include/",
+                                              "python/", "examples/"};
 
 const std::vector<Rule> kRules = {
     // Layers: src2d < render < lessons < app; nothing depends on bench or tests.
@@ -36,6 +37,11 @@ const std::vector<Rule> kRules = {
     {"render uses src2d", {"render/"}, {"lessons/", "app/", "bench/", "tests/"}, {}},
     {"lessons use render", {"lessons/"}, {"app/", "bench/", "tests/"}, {}},
     {"app uses no tests", {"app/"}, {"bench/", "tests/"}, {}},
+    {"api uses lessons", {"api/"}, {"app/", "bench/", "tests/", "python/"}, {}},
+    {"the public interface stands alone",
+     {"include/", "python/", "examples/", "tests/api/", "tests/install/"},
+     {"src2d/", "render/", "lessons/", "api/", "app/", "Eigen/", "fmt/"},
+     {}},
 
     // One place for each foreign library.
     {"Box2D is geometry",

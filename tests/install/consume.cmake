@@ -17,14 +17,26 @@ endif()
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${work}/build -G ${GENERATOR} ${location}
     -DCMAKE_BUILD_TYPE=${BUILD_TYPE})
 run(${CMAKE_COMMAND} --build ${work}/build)
-run(${work}/build/consumer)
+foreach(program consumer consumer_static consumer_c)
+  run(${work}/build/${program})
+endforeach()
 
-# The same without CMake: only an installed tree has its pkg-config file.
+# The same without CMake: only an installed tree has its pkg-config file. The examples stand alone.
 if(TREE STREQUAL "install")
   file(GLOB_RECURSE pc ${prefix}/merge2d.pc)
   get_filename_component(pc_folder ${pc} DIRECTORY)
+  get_filename_component(libraries ${pc_folder} DIRECTORY)
   set(ENV{PKG_CONFIG_PATH} ${pc_folder})
-  run(sh -c "c++ -std=c++20 -o by-pkg-config ${CONSUMER}/main.cpp \
-             $(pkg-config --cflags --libs merge2d)" WORKING_DIRECTORY ${work})
-  run(${work}/by-pkg-config)
+  set(ENV{LD_LIBRARY_PATH} ${libraries})
+  file(MAKE_DIRECTORY ${work}/examples)
+  file(GLOB examples ${EXAMPLES}/*.cpp ${EXAMPLES}/*.c)
+  foreach(example IN LISTS examples)
+    set(compiler "c++ -std=c++20")
+    if(example MATCHES "\\.c$")
+      set(compiler "cc -std=c99")
+    endif()
+    run(sh -c "${compiler} -Wall -Wextra -Wpedantic -Werror -o example ${example} \
+               $(pkg-config --cflags --libs merge2d) -lm" WORKING_DIRECTORY ${work}/examples)
+    run(./example WORKING_DIRECTORY ${work}/examples)
+  endforeach()
 endif()

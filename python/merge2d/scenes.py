@@ -1,0 +1,246 @@
+"""Scenes: the bodies, springs, joints and settings that a world begins with."""
+
+import math
+import os
+
+from . import _merge2d
+
+
+def circle(radius, center=(0.0, 0.0)):
+    """A disc in its body's frame [m]."""
+    return _merge2d.circle(radius, center)
+
+
+def box(width, height, center=(0.0, 0.0), angle=0.0):
+    """A rectangle about `center` [m], turned by `angle` [rad]."""
+    return _merge2d.box(width, height, center, angle)
+
+
+def polygon(outline):
+    """A polygon, convex or not, from its corners [m] or from a geometry of Shapely.
+
+    `outline` is a sequence of (x, y) or an array of shape (n, 2), in either direction; a last corner
+    that repeats the first is left out. A polygon with holes is an InputError: cut it first.
+
+    >>> import merge2d
+    >>> house = merge2d.polygon([(0, 0), (2, 0), (2, 1), (1, 2), (0, 1)])
+    """
+    if hasattr(outline, "exterior"):
+        if len(outline.interiors) > 0:
+            raise _merge2d.InputError("a polygon with holes cannot be a shape: cut it first")
+        outline = outline.exterior.coords
+    corners = [(float(p[0]), float(p[1])) for p in outline]
+    if len(corners) > 1 and corners[0] == corners[-1]:
+        corners.pop()
+    return _merge2d.polygon(corners)
+
+
+def _shapes(shapes):
+    """What `add_body` takes as shapes, as a list of them."""
+    if isinstance(shapes, _merge2d.Shape):
+        return [shapes]
+    if hasattr(shapes, "exterior"):
+        return [polygon(shapes)]
+    if hasattr(shapes, "geoms"):
+        return [polygon(part) for part in shapes.geoms]
+    shapes = list(shapes)
+    if shapes and not isinstance(shapes[0], _merge2d.Shape) and not hasattr(shapes[0], "exterior"):
+        return [polygon(shapes)]  # one outline
+    return [s if isinstance(s, _merge2d.Shape) else polygon(s) for s in shapes]
+
+
+def body_args(name, shapes, at, angle, motion, velocity, spin, mass, density, friction,
+              restitution, rolling, surface_velocity, pinned_until, script):
+    """The arguments of `add_body` as the module takes them."""
+    return {
+        "name": name, "shapes": _shapes(shapes), "at": tuple(at), "angle": angle,
+        "motion": motion if script is None else "scripted", "velocity": tuple(velocity),
+        "spin": spin, "mass": 0.0 if mass is None else _positive("mass", mass),
+        "density": density, "friction": friction, "restitution": restitution, "rolling": rolling,
+        "surface_velocity": surface_velocity, "pinned_until": pinned_until,
+        "script": None if script is None else _script(script),
+    }
+
+
+def _positive(what, value):
+    if not value > 0.0:
+        raise _merge2d.InputError(f"'{what}' must be positive, but is {value}")
+    return value
+
+
+def _script(script):
+    script = dict(script)
+    kinds = {"amplitude": "sinusoid", "keyframes": "keyframes", "velocity": "steady",
+             "spin": "steady"}
+    kind = next((kinds[key] for key in kinds if key in script), None)
+    known = {"sinusoid": {"axis", "amplitude", "period"}, "keyframes": {"keyframes"},
+             "steady": {"velocity", "spin"}, None: set()}[kind]
+    wrong = set(script) - known
+    if kind is None or wrong:
+        raise _merge2d.InputError(
+            "a script has axis, amplitude and period; or keyframes = [(t, x, y, angle), …]; or "
+            f"velocity and spin; but not {sorted(wrong or script)}")
+    if kind == "keyframes":
+        return {"kind": kind, "keys": [tuple(map(float, key)) for key in script["keyframes"]]}
+    if kind == "steady":
+        return {"kind": kind, "velocity": tuple(script.get("velocity", (0.0, 0.0))),
+                "spin": script.get("spin", 0.0)}
+    return {"kind": kind, "axis": tuple(script.get("axis", (1.0, 0.0))),
+            "amplitude": script["amplitude"], "period": script.get("period", 1.0)}
+
+
+def joint_args(kind, a, b, at, to, axis, length, stiffness, damping, limits, motor, compliance,
+               break_force, break_torque, collide):
+    """The arguments of `add_joint` as the module takes them."""
+    return {
+        "kind": kind, "a": a, "b": b, "at": tuple(at), "to": tuple(to), "axis": tuple(axis),
+        "length": 0.0 if length is None else _positive("length", length), "stiffness": stiffness,
+        "damping": damping, "limits": limits, "motor": motor, "compliance": compliance,
+        "break_force": break_force, "break_torque": break_torque, "collide": collide,
+    }
+
+
+def key_of(name):
+    """merging_velocity is merging.velocity: names of tables have no underscore."""
+    tables = ("solver", "merging", "unmerging", "sleeping", "material", "drawing")
+    table, _, key = name.partition("_")
+    return f"{table}.{key}" if table in tables and key else name
+
+
+def text_of(value):
+    """A value as a scene file has it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (tuple, list)):
+        return "[" + ", ".join(text_of(v) for v in value) + "]"
+    return repr(float(value)) if isinstance(value, float) else str(value)
+
+
+def number_of(text):
+    """The value of a text of a scene file."""
+    if text in ("true", "false"):
+        return text == "true"
+    if text.startswith("["):
+        return tuple(float(part) for part in text[1:-1].split(","))
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text
+
+
+class Scene(_merge2d.Scene):
+    """Bodies, springs, joints and settings.
+
+    `source` is nothing (an empty scene), the name of a built-in scene, a path of a `.toml` or a
+    drawn `.png` scene, or the text of a scene. Settings are those of scene files, with "_" for ".":
+    `Scene("books", merging_velocity=0.02, step=0.005)`. Raises InputError with file, line and column.
+
+    >>> import merge2d
+    >>> scene = merge2d.Scene(gravity=(0, -1.6))
+    >>> ground = scene.add_body("ground", merge2d.box(10, 1), at=(0, -0.5), motion="pinned")
+    >>> scene.add_body("ball", merge2d.circle(0.5), at=(0, 3))
+    1
+    >>> scene
+    <merge2d.Scene of 2 bodies>
+    """
+
+    def __init__(self, source=None, **settings):
+        changes = [f"{key_of(name)}={text_of(value)}" for name, value in settings.items()]
+        if source is None:
+            super().__init__()
+            for name, value in settings.items():
+                self.set(key_of(name), value)
+        elif isinstance(source, str) and "\n" in source:
+            super().__init__(_merge2d.Scene.parse(source, "scene", changes))
+        else:
+            super().__init__(_merge2d.Scene.load(os.fspath(source), changes))
+
+    def set(self, key, value):
+        """Sets a value by its name in scene files: `scene.set("merging.velocity", 0.02)`."""
+        super().set(key, text_of(value))
+
+    def get(self, key):
+        """The value of that name.
+
+        >>> import merge2d
+        >>> merge2d.Scene().get("gravity")
+        (0.0, -9.81)
+        """
+        text = super().get(key)
+        return text if key == "title" else number_of(text)
+
+    def add_body(self, name="", shapes=(), at=(0.0, 0.0), *, angle=0.0, motion="dynamic",
+                 velocity=(0.0, 0.0), spin=0.0, mass=None, density=1.0, friction=0.6,
+                 restitution=0.0, rolling=0.0, surface_velocity=0.0, pinned_until=0.0,
+                 script=None):
+        """Adds a body and returns its number.
+
+        `shapes`: one of `circle`, `box`, `polygon`, several of them, a list of corners, or a
+        geometry of Shapely, in the body's frame, which is at `at` [m], turned by `angle` [rad].
+        `motion`: "dynamic", "pinned", or "scripted" by a `script`:
+        {"axis", "amplitude", "period"}, {"keyframes": [(t, x, y, angle), …]} or {"velocity", "spin"}.
+        `velocity` [m/s] is that of the centre of mass. Without `mass` [kg] it is area × `density`.
+        """
+        return super().add_body(body_args(name, shapes, at, angle, motion, velocity, spin, mass,
+                                          density, friction, restitution, rolling,
+                                          surface_velocity, pinned_until, script))
+
+    def add_spring(self, body, anchor, to, *, to_body=None, stiffness, damping=0.0,
+                   rest_length=0.0):
+        """Adds a spring from `anchor` in a body's frame to `to` in the world, or in `to_body`'s
+        frame [m]; `stiffness` [N/m], `damping` [N s/m]. Returns its number."""
+        return super().add_spring(body, anchor, to, to_body, stiffness, damping, rest_length)
+
+    def add_joint(self, kind, a, b=None, at=(0.0, 0.0), *, to=(0.0, 0.0), axis=(1.0, 0.0),
+                  length=None, stiffness=0.0, damping=0.0, limits=None, motor=None,
+                  compliance=0.0, break_force=math.inf, break_torque=math.inf, collide=False):
+        """Joins two bodies, or `a` to the world, as they stand: "revolute", "weld", "distance" or
+        "prismatic". `limits` = (lower, upper) [rad or m], `motor` = (speed, strength). Returns its
+        number."""
+        return super().add_joint(joint_args(kind, a, b, at, to, axis, length, stiffness, damping,
+                                            limits, motor, compliance, break_force, break_torque,
+                                            collide))
+
+    def add_impulse(self, body, at, impulse, time):
+        """An impulse [N s] at a world point [m], in the step that covers `time` [s]."""
+        super().add_impulse(body, at, impulse, time)
+
+    def add_force(self, body, at, force, start=0.0, until=math.inf):
+        """A force [N] at a point of the body's frame [m], from `start` until `until` [s]."""
+        super().add_force(body, at, force, start, until)
+
+    def add_magnet(self, body, start=0.0, until=math.inf):
+        """Makes a body a magnet from `start` until `until` [s]."""
+        super().add_magnet(body, start, until)
+
+    def copy(self):
+        """A scene of its own."""
+        other = Scene.__new__(Scene)
+        _merge2d.Scene.__init__(other, self)
+        return other
+
+    @property
+    def warnings(self):
+        """What loading had to say, a list of sentences."""
+        return super().warnings().splitlines()
+
+    def __len__(self):
+        return super().body_count()
+
+    def __bool__(self):
+        return True
+
+    def __repr__(self):
+        return f"<merge2d.Scene of {len(self)} bodies>"
+
+
+def scenes():
+    """The built-in scenes: a dictionary from names to titles.
+
+    >>> import merge2d
+    >>> "books" in merge2d.scenes()
+    True
+    """
+    return dict(line.split("\t", 1) for line in _merge2d.scene_list().splitlines())

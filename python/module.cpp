@@ -1,0 +1,640 @@
+// merge2d._merge2d: scenes, worlds and shapes for Python, over the public C++ interface. What needs
+// no speed is in python/merge2d/*.py.
+
+#include <merge2d/merge2d.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <variant>
+
+namespace py = pybind11;
+
+namespace {
+
+using merge2d::Body;
+using merge2d::Vec2;
+using Pair = std::pair<double, double>;
+/// A body by its number or its name.
+using BodyArg = std::variant<std::int64_t, std::string>;
+
+Vec2 vec(const Pair& p) { return {p.first, p.second}; }
+
+/// A world, and who uses it: Python's lock is not held while it steps.
+class PyWorld {
+ public:
+  PyWorld(const merge2d::Scene& scene, merge2d::Mode mode) : world_(scene, mode) {}
+
+  /// Holds a world that nobody else uses. Throws RuntimeError where another thread does.
+  class Use {
+   public:
+    explicit Use(PyWorld& of) : of_(of) {
+      if (of_.busy_.test_and_set(std::memory_order_acquire)) {
+        throw std::runtime_error("this world is in use by another thread");
+      }
+    }
+    ~Use() { of_.busy_.clear(std::memory_order_release); }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+    merge2d::World* operator->() const { return &of_.world_; }
+    merge2d::World& operator*() const { return of_.world_; }
+
+   private:
+    PyWorld& of_;
+  };
+
+ private:
+  merge2d::World world_;
+  std::atomic_flag busy_;
+};
+
+using Use = PyWorld::Use;
+
+Body bodyOf(const merge2d::World& world, const BodyArg& body) {
+  if (const auto* name = std::get_if<std::string>(&body)) return world.find(*name);
+  const std::int64_t number = std::get<std::int64_t>(body);
+  if (number >= 0 && number < static_cast<std::int64_t>(world.bodyCount())) {
+    return static_cast<Body>(number);
+  }
+  throw py::index_error("there is no body " + std::to_string(number) + ": the world has " +
+                        std::to_string(world.bodyCount()));
+}
+
+/// Many steps at once, such that Ctrl-C is heard.
+void stepMany(merge2d::World& world, std::int64_t count) {
+  using Clock = std::chrono::steady_clock;
+  using namespace std::chrono_literals;
+  std::int64_t some = 1;
+  while (count > 0) {
+    some = std::min(some, count);
+    const Clock::time_point begin = Clock::now();
+    world.step(static_cast<std::uint64_t>(some));
+    count -= some;
+    const auto took = Clock::now() - begin;
+    if (took < 5ms) some *= 2;
+    if (took > 50ms) some = std::max<std::int64_t>(1, some / 2);
+    if (took < 5ms) continue;
+    const py::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+void step(PyWorld& self, std::int64_t count) {
+  if (count < 0) throw py::value_error("the number of steps must be 0 or more");
+  const Use world(self);
+  const py::gil_scoped_release unlocked;
+  if (count == 1) return world->step();
+  stepMany(*world, count);
+}
+
+/// A read-only array over memory of the world, which lives as long as the array.
+template <class T>
+py::array view(const py::object& owner, const T* first, std::vector<py::ssize_t> shape,
+               std::vector<py::ssize_t> strides) {
+  py::array_t<T> array(std::move(shape), std::move(strides), first, owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+enum class Part { Vectors, Angles };
+
+py::array rows(const py::object& self, bool velocities, Part part) {
+  const Use world(self.cast<PyWorld&>());
+  const double* first = velocities ? world->velocities().data() : world->poses().data();
+  const auto count = static_cast<py::ssize_t>(world->bodyCount());
+  constexpr py::ssize_t kNumber = sizeof(double);
+  if (part == Part::Vectors) return view(self, first, {count, 2}, {3 * kNumber, kNumber});
+  return view(self, first + 2, {count}, {3 * kNumber});
+}
+
+py::array collectionIds(const py::object& self) {
+  const Use world(self.cast<PyWorld&>());
+  const auto ids = world->collectionIds();
+  return view(self, ids.data(), {static_cast<py::ssize_t>(ids.size())}, {sizeof(std::int32_t)});
+}
+
+template <class T>
+py::array copy(std::span<const T> list) {
+  return py::array_t<T>(static_cast<py::ssize_t>(list.size()), list.data());
+}
+
+py::list collections(PyWorld& self) {
+  const Use world(self);
+  py::list out;
+  for (const merge2d::Collection& c : world->collections()) {
+    py::dict one;
+    one["id"] = c.id;
+    one["bodies"] = copy(c.bodies);
+    one["anchor"] =
+        c.anchor == M2_NO_BODY ? py::object(py::none()) : py::object(py::int_(c.anchor));
+    one["asleep"] = c.asleep != 0;
+    one["mass"] = c.mass;
+    one["inertia"] = c.inertia;
+    one["position"] = py::make_tuple(c.x, c.y);
+    one["velocity"] = py::make_tuple(c.vx, c.vy);
+    one["spin"] = c.omega;
+    out.append(one);
+  }
+  return out;
+}
+
+py::dict counts(PyWorld& self) {
+  const merge2d::Counts c = Use(self)->counts();
+  return py::dict(py::arg("bodies") = c.bodies, py::arg("active_bodies") = c.active_bodies,
+                  py::arg("collections") = c.collections, py::arg("asleep") = c.asleep,
+                  py::arg("contacts") = c.contacts,
+                  py::arg("internal_contacts") = c.internal_contacts);
+}
+
+py::dict sums(PyWorld& self) {
+  const merge2d::Sums s = Use(self)->sums();
+  return py::dict(py::arg("residual") = s.residual, py::arg("max_penetration") = s.max_penetration,
+                  py::arg("kinetic_energy") = s.kinetic_energy,
+                  py::arg("potential_energy") = s.potential_energy,
+                  py::arg("momentum") = py::make_tuple(s.momentum_x, s.momentum_y),
+                  py::arg("angular_momentum") = s.angular_momentum);
+}
+
+py::array found(const std::vector<Body>& bodies) { return copy(std::span<const Body>(bodies)); }
+
+py::object castRay(PyWorld& self, const Pair& from, const Pair& to) {
+  const auto hit = Use(self)->castRay(vec(from), vec(to));
+  if (!hit) return py::none();
+  return py::dict(py::arg("body") = hit->body, py::arg("collection") = hit->collection,
+                  py::arg("fraction") = hit->fraction,
+                  py::arg("point") = py::make_tuple(hit->point.x, hit->point.y),
+                  py::arg("normal") = py::make_tuple(hit->normal.x, hit->normal.y));
+}
+
+/// Convex pieces of a body about its centre of mass: arrays of vertices, or (x, y, radius).
+py::list pieces(PyWorld& self, const BodyArg& body) {
+  const Use world(self);
+  py::list out;
+  for (const merge2d::Piece& piece : world->pieces(bodyOf(*world, body))) {
+    if (piece.vertex_count == 0) {
+      out.append(py::make_tuple(piece.center.x, piece.center.y, piece.radius));
+      continue;
+    }
+    py::array_t<double> vertices({static_cast<py::ssize_t>(piece.vertex_count), py::ssize_t{2}});
+    for (std::size_t i = 0; i < piece.vertex_count; ++i) {
+      vertices.mutable_at(static_cast<py::ssize_t>(i), 0) = piece.vertices[i].x;
+      vertices.mutable_at(static_cast<py::ssize_t>(i), 1) = piece.vertices[i].y;
+    }
+    out.append(vertices);
+  }
+  return out;
+}
+
+struct PictureArgs {
+  int width, height;
+  std::string overlays, theme;
+  bool transparent;
+  std::optional<std::tuple<double, double, double>> camera;
+
+  merge2d::PictureDef def() const {
+    merge2d::PictureDef def = merge2d::pictureDef();
+    def.width = width;
+    def.height = height;
+    def.overlays = overlays.c_str();
+    def.theme = theme.c_str();
+    def.transparent = transparent;
+    def.has_camera = camera.has_value();
+    if (camera) std::tie(def.camera_center.x, def.camera_center.y, def.camera_height) = *camera;
+    return def;
+  }
+};
+
+py::array render(PyWorld& self, const PictureArgs& args) {
+  const Use world(self);
+  const std::vector<std::uint8_t> rgba = world->draw(args.def());
+  py::array_t<std::uint8_t> picture({args.height, args.width, 4});
+  std::copy(rgba.begin(), rgba.end(), picture.mutable_data());
+  return picture;
+}
+
+merge2d::Mode modeOf(const std::string& name) {
+  m2_mode mode{};
+  merge2d::detail::check(m2_mode_from_name(name.c_str(), &mode));
+  return static_cast<merge2d::Mode>(mode);
+}
+
+m2_script scriptOf(const py::dict& script) {
+  m2_script out = m2_body_def_default().script;
+  const std::string kind = py::cast<std::string>(script["kind"]);
+  out.kind = kind == "steady" ? M2_STEADY : M2_SINUSOID;
+  if (kind == "steady") {
+    out.velocity = vec(py::cast<Pair>(script["velocity"]));
+    out.spin = py::cast<double>(script["spin"]);
+  } else {
+    out.axis = vec(py::cast<Pair>(script["axis"]));
+    out.amplitude = py::cast<double>(script["amplitude"]);
+    out.period = py::cast<double>(script["period"]);
+  }
+  return out;
+}
+
+merge2d::Motion motionOf(const std::string& name) {
+  if (name == "dynamic") return merge2d::Motion::Dynamic;
+  if (name == "pinned") return merge2d::Motion::Pinned;
+  if (name == "scripted") return merge2d::Motion::Scripted;
+  throw merge2d::InputError("there is no motion '" + name +
+                            "': the motions are dynamic, pinned, scripted");
+}
+
+/// From the keyword arguments of add_body, whose defaults python/merge2d/__init__.py gives.
+template <class To>
+Body addBody(To& to, const py::dict& args) {
+  merge2d::BodyDef def;
+  std::vector<m2_key> keys;
+  def.name = py::cast<std::string>(args["name"]);
+  def.motion = motionOf(py::cast<std::string>(args["motion"]));
+  def.position = vec(py::cast<Pair>(args["at"]));
+  def.angle = py::cast<double>(args["angle"]);
+  def.velocity = vec(py::cast<Pair>(args["velocity"]));
+  def.spin = py::cast<double>(args["spin"]);
+  def.shapes = py::cast<std::vector<merge2d::Shape>>(args["shapes"]);
+  def.mass = py::cast<double>(args["mass"]);
+  def.density = py::cast<double>(args["density"]);
+  def.friction = py::cast<double>(args["friction"]);
+  def.restitution = py::cast<double>(args["restitution"]);
+  def.rolling = py::cast<double>(args["rolling"]);
+  def.surface_velocity = py::cast<double>(args["surface_velocity"]);
+  def.pinned_until = py::cast<double>(args["pinned_until"]);
+  if (const py::object script = args["script"]; !script.is_none()) {
+    if (py::cast<std::string>(script["kind"]) == "keyframes") {
+      for (const auto& [t, x, y, angle] :
+           py::cast<std::vector<std::tuple<double, double, double, double>>>(script["keys"])) {
+        keys.push_back({t, {x, y}, angle});
+      }
+      def.script.kind = M2_KEYFRAMES;
+      def.script.keys = keys.data();
+      def.script.key_count = keys.size();
+    } else {
+      def.script = scriptOf(script);
+    }
+  }
+  return to.add(def);
+}
+
+merge2d::SpringDef springDef(Body body, const Pair& anchor, const Pair& to,
+                             const std::optional<Body>& to_body, double stiffness, double damping,
+                             double rest_length) {
+  merge2d::SpringDef def = merge2d::springDef();
+  def.body = body;
+  def.anchor = vec(anchor);
+  def.to = vec(to);
+  def.to_body = to_body.value_or(M2_NO_BODY);
+  def.stiffness = stiffness;
+  def.damping = damping;
+  def.rest_length = rest_length;
+  return def;
+}
+
+/// From the keyword arguments of add_joint.
+merge2d::JointDef jointDef(const py::dict& args) {
+  static constexpr const char* kKinds[] = {"revolute", "weld", "distance", "prismatic"};
+  merge2d::JointDef def = merge2d::jointDef();
+  const std::string kind = py::cast<std::string>(args["kind"]);
+  const auto* found = std::find(std::begin(kKinds), std::end(kKinds), kind);
+  if (found == std::end(kKinds)) {
+    throw merge2d::InputError("there is no kind of joint '" + kind +
+                              "': the kinds are revolute, weld, distance, prismatic");
+  }
+  def.kind = static_cast<m2_joint_kind>(found - std::begin(kKinds));
+  def.a = py::cast<Body>(args["a"]);
+  if (!args["b"].is_none()) def.b = py::cast<Body>(args["b"]);
+  def.at = vec(py::cast<Pair>(args["at"]));
+  def.to = vec(py::cast<Pair>(args["to"]));
+  def.axis = vec(py::cast<Pair>(args["axis"]));
+  def.length = py::cast<double>(args["length"]);
+  def.stiffness = py::cast<double>(args["stiffness"]);
+  def.damping = py::cast<double>(args["damping"]);
+  if (!args["limits"].is_none()) {
+    def.limited = true;
+    std::tie(def.lower, def.upper) = py::cast<Pair>(args["limits"]);
+  }
+  if (!args["motor"].is_none()) {
+    def.motor = true;
+    std::tie(def.motor_speed, def.motor_strength) = py::cast<Pair>(args["motor"]);
+  }
+  def.compliance = py::cast<double>(args["compliance"]);
+  def.break_force = py::cast<double>(args["break_force"]);
+  def.break_torque = py::cast<double>(args["break_torque"]);
+  def.collide = py::cast<bool>(args["collide"]);
+  return def;
+}
+
+/// A change of one body of a world.
+template <class Do>
+void change(PyWorld& self, const BodyArg& body, Do&& work) {
+  const Use world(self);
+  work(*world, bodyOf(*world, body));
+}
+
+void bindShapes(py::module_& m) {
+  py::class_<merge2d::Shape>(m, "Shape");
+  m.def("circle", [](double radius, const Pair& center) {
+    return merge2d::Shape::circle(radius, vec(center));
+  });
+  m.def("box", [](double width, double height, const Pair& center, double angle) {
+    return merge2d::Shape::box(width, height, vec(center), angle);
+  });
+  m.def("polygon", [](const std::vector<Pair>& outline) {
+    std::vector<Vec2> vertices;
+    for (const Pair& p : outline) vertices.push_back(vec(p));
+    return merge2d::Shape::polygon(std::move(vertices));
+  });
+}
+
+void bindScene(py::module_& m) {
+  using merge2d::Scene;
+  py::class_<Scene>(m, "Scene")
+      .def(py::init<>())
+      .def(py::init<const Scene&>())
+      .def_static("load", &Scene::load)
+      .def_static("parse",
+                  [](const std::string& text, const std::string& source,
+                     const std::vector<std::string>& changes) {
+                    return Scene::parse(text, source, changes);
+                  })
+      .def("set",
+           [](Scene& s, const std::string& key, const std::string& value) { s.set(key, value); })
+      .def("get", [](const Scene& s, const std::string& key) { return s.get(key); })
+      .def("add_body", &addBody<Scene>)
+      .def("add_spring",
+           [](Scene& s, Body body, const Pair& anchor, const Pair& to, std::optional<Body> to_body,
+              double stiffness, double damping, double rest_length) {
+             return s.add(springDef(body, anchor, to, to_body, stiffness, damping, rest_length));
+           })
+      .def("add_joint", [](Scene& s, const py::dict& args) { return s.add(jointDef(args)); })
+      .def("add_impulse", [](Scene& s, Body body, const Pair& at, const Pair& impulse,
+                             double time) { s.addImpulse(body, vec(at), vec(impulse), time); })
+      .def("add_force", [](Scene& s, Body body, const Pair& at, const Pair& force, double from,
+                           double until) { s.addForce(body, vec(at), vec(force), from, until); })
+      .def("add_magnet", &Scene::addMagnet)
+      .def("body_count", &Scene::bodyCount)
+      .def("to_toml", &Scene::toToml)
+      .def("warnings", &Scene::warnings)
+      .def("page", [](const Scene& s, const std::string& mode, bool live) {
+        const merge2d::Mode m2 = modeOf(mode);
+        const py::gil_scoped_release unlocked;
+        return merge2d::scenePage(s, m2, live);
+      });
+}
+
+void bindTime(py::class_<PyWorld>& c) {
+  c.def(py::init([](const merge2d::Scene& scene, const std::string& mode) {
+     return std::make_unique<PyWorld>(scene, modeOf(mode));
+   }))
+      .def("step", &step, py::arg("count") = 1,
+           "Takes `count` time steps. Python's lock is not held, and Ctrl-C is "
+           "heard.\nSimulationError when a number stops being finite.")
+      .def("steps", [](PyWorld& w) { return Use(w)->steps(); })
+      .def("time", [](PyWorld& w) { return Use(w)->time(); })
+      .def("time_step", [](PyWorld& w) { return Use(w)->timeStep(); })
+      .def("mode", [](PyWorld& w) { return m2_mode_name(static_cast<m2_mode>(Use(w)->mode())); })
+      .def("set_mode", [](PyWorld& w, const std::string& mode) { Use(w)->setMode(modeOf(mode)); })
+      .def("gravity",
+           [](PyWorld& w) {
+             const Vec2 g = Use(w)->gravity();
+             return Pair(g.x, g.y);
+           })
+      .def("set_gravity", [](PyWorld& w, const Pair& g) { Use(w)->setGravity(vec(g)); })
+      .def("set", [](PyWorld& w, const std::string& k, const std::string& v) { Use(w)->set(k, v); })
+      .def("get", [](PyWorld& w, const std::string& key) { return Use(w)->get(key); })
+      .def("save", [](PyWorld& w) { return py::bytes(Use(w)->save()); })
+      .def("restore", [](PyWorld& w, const py::bytes& bytes, bool other_settings) {
+        Use(w)->restore(std::string_view(bytes), other_settings);
+      });
+}
+
+void bindChanges(py::class_<PyWorld>& c) {
+  using merge2d::World;
+  c.def("add_body",
+        [](PyWorld& w, const py::dict& args) {
+          const Use world(w);
+          return addBody(*world, args);
+        })
+      .def("add_spring",
+           [](PyWorld& w, const BodyArg& body, const Pair& anchor, const Pair& to,
+              const std::optional<BodyArg>& to_body, double stiffness, double damping,
+              double rest_length) {
+             const Use world(w);
+             std::optional<Body> other;
+             if (to_body) other = bodyOf(*world, *to_body);
+             return world->add(springDef(bodyOf(*world, body), anchor, to, other, stiffness,
+                                         damping, rest_length));
+           })
+      .def("add_joint",
+           [](PyWorld& w, const py::dict& args) { return Use(w)->add(jointDef(args)); })
+      .def(
+          "remove_body",
+          [](PyWorld& w, const BodyArg& b) {
+            change(w, b, [](World& world, Body body) { world.removeBody(body); });
+          },
+          py::arg("body"), "Removes a body with its joints and springs.")
+      .def(
+          "remove_spring", [](PyWorld& w, std::uint32_t s) { Use(w)->removeSpring(s); },
+          py::arg("spring"), "Removes a spring by its number.")
+      .def(
+          "remove_joint", [](PyWorld& w, std::uint32_t j) { Use(w)->removeJoint(j); },
+          py::arg("joint"), "Removes a joint by its number.")
+      .def(
+          "move_spring",
+          [](PyWorld& w, std::uint32_t s, const Pair& to) { Use(w)->moveSpring(s, vec(to)); },
+          py::arg("spring"), py::arg("to"),
+          "Moves the end of a spring that holds to the world [m].")
+      .def(
+          "drag",
+          [](PyWorld& w, const BodyArg& b, const Pair& grip) {
+            const Use world(w);
+            return world->drag(bodyOf(*world, b), vec(grip));
+          },
+          py::arg("body"), py::arg("grip"),
+          "A spring that drags a body by its point at `grip` [m], critically damped; its number. "
+          "Move it\nwith `move_spring`, let go with `remove_spring`.")
+      .def(
+          "apply_impulse",
+          [](PyWorld& w, const BodyArg& b, const Pair& at, const Pair& impulse) {
+            change(w, b, [&](World& world, Body body) {
+              world.applyImpulse(body, vec(at), vec(impulse));
+            });
+          },
+          py::arg("body"), py::arg("at"), py::arg("impulse"),
+          "An impulse [N s] at a world point [m], at the start of the next step.")
+      .def(
+          "apply_force",
+          [](PyWorld& w, const BodyArg& b, const Pair& at, const Pair& force) {
+            change(w, b,
+                   [&](World& world, Body body) { world.applyForce(body, vec(at), vec(force)); });
+          },
+          py::arg("body"), py::arg("at"), py::arg("force"),
+          "A force [N] at a world point [m], during the next step.")
+      .def(
+          "set_pose",
+          [](PyWorld& w, const BodyArg& b, const Pair& at, double angle) {
+            change(w, b, [&](World& world, Body body) { world.setPose(body, vec(at), angle); });
+          },
+          py::arg("body"), py::arg("center"), py::arg("angle"),
+          "Places the centre of mass [m], turned by `angle` [rad]. The body leaves its collection.")
+      .def(
+          "set_velocity",
+          [](PyWorld& w, const BodyArg& b, const Pair& v, double spin) {
+            change(w, b, [&](World& world, Body body) { world.setVelocity(body, vec(v), spin); });
+          },
+          py::arg("body"), py::arg("velocity"), py::arg("spin"),
+          "Of the centre of mass [m/s], and [rad/s]. The body leaves its collection.")
+      .def(
+          "set_friction",
+          [](PyWorld& w, const BodyArg& b, double friction) {
+            change(w, b, [&](World& world, Body body) { world.setFriction(body, friction); });
+          },
+          py::arg("body"), py::arg("friction"), "The coefficient of its surface.")
+      .def(
+          "pin",
+          [](PyWorld& w, const BodyArg& b) {
+            change(w, b, [](World& world, Body body) { world.pin(body); });
+          },
+          py::arg("body"), "Holds a body where it is.")
+      .def(
+          "unpin",
+          [](PyWorld& w, const BodyArg& b) {
+            change(w, b, [](World& world, Body body) { world.unpin(body); });
+          },
+          py::arg("body"), "Lets a pinned body go, at rest.")
+      .def(
+          "release",
+          [](PyWorld& w, const BodyArg& b) {
+            change(w, b, [](World& world, Body body) { world.release(body); });
+          },
+          py::arg("body"), "Takes a body out of its collection; it may merge again.")
+      .def(
+          "wake",
+          [](PyWorld& w, const BodyArg& b) {
+            change(w, b, [](World& world, Body body) { world.wake(body); });
+          },
+          py::arg("body"), "Neither it nor what touches it sleeps through the next step.");
+}
+
+void bindViews(py::class_<PyWorld>& c) {
+  c.def("positions", [](const py::object& self) { return rows(self, false, Part::Vectors); })
+      .def("angles", [](const py::object& self) { return rows(self, false, Part::Angles); })
+      .def("velocities", [](const py::object& self) { return rows(self, true, Part::Vectors); })
+      .def("spins", [](const py::object& self) { return rows(self, true, Part::Angles); })
+      .def("collection_ids", &collectionIds)
+      .def("body_count", [](PyWorld& w) { return Use(w)->bodyCount(); })
+      .def(
+          "name",
+          [](PyWorld& w, std::int64_t body) {
+            const Use world(w);
+            return std::string(world->info(bodyOf(*world, body)).name);
+          },
+          py::arg("body"), "The name of a body.")
+      .def(
+          "info",
+          [](PyWorld& w, const BodyArg& body) {
+            const Use world(w);
+            const merge2d::BodyInfo info = world->info(bodyOf(*world, body));
+            static constexpr const char* kMotions[] = {"dynamic", "pinned", "scripted"};
+            return py::dict(py::arg("name") = info.name, py::arg("motion") = kMotions[info.motion],
+                            py::arg("mass") = info.mass, py::arg("inertia") = info.inertia,
+                            py::arg("present") = info.present);
+          },
+          py::arg("body"), "name, motion, mass [kg], inertia [kg m²] and whether it is present.")
+      .def(
+          "body",
+          [](PyWorld& w, const BodyArg& body) {
+            const Use world(w);
+            return bodyOf(*world, body);
+          },
+          py::arg("body"), "The number of a body by its name; InputError suggests another.")
+      .def("pieces", &pieces, py::arg("body"),
+           "Convex pieces about the centre of mass: arrays of corners, or (x, y, radius) [m].");
+}
+
+void bindRecords(py::class_<PyWorld>& c) {
+  c.def("contacts", [](PyWorld& w) { return copy(Use(w)->contacts()); })
+      .def("events", [](PyWorld& w) { return copy(Use(w)->events()); })
+      .def("note_decisions", [](PyWorld& w, bool on) { Use(w)->noteDecisions(on); })
+      .def("decisions", [](PyWorld& w) { return copy(Use(w)->decisions()); })
+      .def("why",
+           [](PyWorld& w, const BodyArg& a, const BodyArg& b) {
+             const Use world(w);
+             return world->why(bodyOf(*world, a), bodyOf(*world, b));
+           })
+      .def("collections", &collections,
+           "id, bodies, anchor, asleep, mass, inertia, position, velocity and spin of each.")
+      .def("counts", &counts)
+      .def("sums", &sums)
+      .def(
+          "at", [](PyWorld& w, const Pair& p) { return found(Use(w)->at(vec(p))); },
+          py::arg("point"), "The bodies of which a point [m] is a part, ascending.")
+      .def(
+          "in_box",
+          [](PyWorld& w, const Pair& lower, const Pair& upper) {
+            return found(Use(w)->inBox(vec(lower), vec(upper)));
+          },
+          py::arg("lower"), py::arg("upper"),
+          "The bodies that touch or overlap an upright box [m], ascending.")
+      .def(
+          "touching",
+          [](PyWorld& w, const merge2d::Shape& shape, const Pair& at, double angle) {
+            return found(Use(w)->touching(shape, vec(at), angle));
+          },
+          py::arg("shape"), py::arg("at"), py::arg("angle") = 0.0,
+          "The bodies that touch or overlap a shape whose frame is at `at` [m], turned by `angle` "
+          "[rad].")
+      .def("cast_ray", &castRay, py::arg("start"), py::arg("end"),
+           "The first body on the way: body, collection, fraction, point, normal; or None.")
+      .def("render",
+           [](PyWorld& w, int width, int height, const std::string& overlays,
+              const std::string& theme, bool transparent,
+              const std::optional<std::tuple<double, double, double>>& camera) {
+             return render(w, {width, height, overlays, theme, transparent, camera});
+           })
+      .def("write_png", [](PyWorld& w, const std::string& path, int width, int height,
+                           const std::string& overlays, const std::string& theme, bool transparent,
+                           const std::optional<std::tuple<double, double, double>>& camera) {
+        const PictureArgs args{width, height, overlays, theme, transparent, camera};
+        Use(w)->writePng(path, args.def());
+      });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_merge2d, m) {
+  PYBIND11_NUMPY_DTYPE(m2_contact, a, b, feature, state, internal, fresh, x, y, nx, ny, gap,
+                       lambda_n, lambda_t, w_n, w_t);
+  PYBIND11_NUMPY_DTYPE(m2_event, type, reason, a, b, collection);
+  PYBIND11_NUMPY_DTYPE(m2_decision, a, b, value, threshold, count, needed, before, stage, criterion,
+                       equation, verdict);
+
+  const py::object error = py::register_exception<merge2d::Error>(m, "Error");
+  py::register_exception<merge2d::InputError>(m, "InputError",
+                                              py::make_tuple(error, py::handle(PyExc_ValueError)));
+  py::register_exception<merge2d::IoError>(m, "IoError",
+                                           py::make_tuple(error, py::handle(PyExc_OSError)));
+  py::register_exception<merge2d::SimulationError>(
+      m, "SimulationError", py::make_tuple(error, py::handle(PyExc_ArithmeticError)));
+
+  m.def("version", &merge2d::version);
+  m.def("scene_list", [] {
+    char* text = nullptr;
+    merge2d::detail::check(m2_scene_list(&text));
+    return merge2d::detail::taken(text);
+  });
+  m.def("lesson_page", [](const std::string& name, bool live) {
+    const py::gil_scoped_release unlocked;
+    return merge2d::lessonPage(name, live);
+  });
+  bindShapes(m);
+  bindScene(m);
+  py::class_<PyWorld> world(m, "World");
+  bindTime(world);
+  bindChanges(world);
+  bindViews(world);
+  bindRecords(world);
+}

@@ -1,0 +1,60 @@
+# The shared library and the archive export the functions of the public header and nothing else, the
+# library needs no other libraries than these, and its soname is that of the version.
+cmake_minimum_required(VERSION 3.25)
+
+function(run)
+  execute_process(COMMAND ${ARGV} OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(require_equal what have want)
+  if(NOT "${have}" STREQUAL "${want}")
+    set(more ${have})
+    set(less ${want})
+    list(REMOVE_ITEM more ${want})
+    list(REMOVE_ITEM less ${have})
+    message(FATAL_ERROR "${what}: unexpected: ${more}; missing: ${less}")
+  endif()
+endfunction()
+
+# What the header declares.
+file(READ ${HEADER} header)
+string(REGEX REPLACE "/\\*([^*]|\\*[^/])*\\*/" "" header "${header}")
+string(REGEX MATCHALL "m2_[a-z0-9_]+\\(" declared "${header}")
+list(TRANSFORM declared REPLACE "\\(" "")
+list(REMOVE_DUPLICATES declared)
+list(SORT declared)
+file(STRINGS ${EXPORTS} listed)
+require_equal("the symbol list against the header" "${listed}" "${declared}")
+
+# Without the version node of the linker's script.
+run(sh -c "${NM} -D --defined-only ${LIBRARY} | awk '$2 != \"A\" {print $3}' | sed 's/@.*//' | LC_ALL=C sort")
+string(REPLACE "\n" ";" exported "${output}")
+list(REMOVE_ITEM exported "")
+require_equal("the shared library" "${exported}" "${listed}")
+
+run(sh -c "${NM} -g --defined-only ${ARCHIVE} 2>/dev/null | awk 'NF == 3 {print $3}' | LC_ALL=C sort")
+string(REPLACE "\n" ";" exported "${output}")
+list(REMOVE_ITEM exported "")
+require_equal("the archive" "${exported}" "${listed}")
+
+run(sh -c "${READELF} -d ${LIBRARY} | sed -n 's/.*NEEDED.*[[]\\([a-z0-9_+-]*\\).*/\\1/p'")
+string(REPLACE "\n" ";" needed "${output}")
+list(REMOVE_ITEM needed "")
+if(NOT needed)
+  message(FATAL_ERROR "the libraries that it needs are not told")
+endif()
+set(known ld-linux-x86-64 libbox2d libc libcmark libdeflate libfmt libfreetype libgcc_s libm
+    libpng16 libstdc++)
+foreach(library IN LISTS needed)
+  if(NOT library IN_LIST known)
+    message(FATAL_ERROR "the library needs ${library}, which is not among: ${known}")
+  endif()
+endforeach()
+run(${READELF} -d ${LIBRARY})
+if(NOT output MATCHES "SONAME[^\n]*\\[libmerge2d\\.so\\.${MAJOR}\\]")
+  message(FATAL_ERROR "the soname is not libmerge2d.so.${MAJOR}:\n${output}")
+endif()
+if(output MATCHES "TEXTREL")
+  message(FATAL_ERROR "the library is not position independent")
+endif()

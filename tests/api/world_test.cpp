@@ -1,0 +1,342 @@
+/// The public interface, used as a program outside of this project does.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <merge2d/merge2d.h>
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace {
+
+using merge2d::Body;
+using merge2d::Scene;
+using merge2d::Shape;
+using merge2d::World;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A pinned ground, body 0, and `boxes` unit boxes on it, one on the other.
+Scene towerOf(int boxes) {
+  Scene scene;
+  scene.add({.name = "ground",
+             .motion = merge2d::Motion::Pinned,
+             .position = {0.0, -0.5},
+             .shapes = {Shape::box(20.0, 1.0)}});
+  for (int i = 0; i < boxes; ++i) {
+    scene.add({.name = "box " + std::to_string(i),
+               .position = {0.0, 0.5 + i},
+               .shapes = {Shape::box(1.0, 1.0)}});
+  }
+  return scene;
+}
+
+template <class Work>
+std::string refusal(Work&& work) {
+  try {
+    work();
+  } catch (const merge2d::InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(PublicWorld, ATowerBecomesOneCollection) {
+  World world(towerOf(4));
+  world.step(200);
+  const auto collections = world.collections();
+  ASSERT_EQ(collections.size(), 1U);
+  EXPECT_THAT(collections[0].bodies, ElementsAre(1, 2, 3, 4));
+  EXPECT_EQ(collections[0].anchor, 0U);
+  EXPECT_NEAR(collections[0].mass, 4.0, 1e-12);
+  EXPECT_EQ(world.collectionOf(3), collections[0].id);
+  EXPECT_EQ(world.counts().collections, 1);
+}
+
+TEST(PublicWorld, WatchedArraysFollowTheWorldWhereTheyAre) {
+  World world(towerOf(3));
+  const auto poses = world.poses();
+  const auto ids = world.collectionIds();
+  for (int i = 0; i < 50; ++i) {
+    world.step();
+    std::vector<double> copy(poses.size());
+    ASSERT_EQ(m2_world_poses(world.get(), copy.data(), copy.size()), M2_OK);
+    ASSERT_TRUE(std::equal(copy.begin(), copy.end(), poses.begin()));
+  }
+  world.setPose(2, {5.0, 0.5}, 0.0);
+  EXPECT_EQ(poses[6], 5.0);
+  for (int i = 0; i < 1000; ++i) {
+    world.add({.position = {10.0 + 2.0 * i, 0.5}, .shapes = {Shape::circle(0.5)}});
+  }
+  world.step();
+  EXPECT_EQ(world.poses().data(), poses.data()) << "they have moved";
+  EXPECT_EQ(world.collectionIds().data(), ids.data()) << "they have moved";
+  EXPECT_EQ(world.poses().size(), 3U * 1004);
+}
+
+TEST(PublicWorld, ABodyThatIsNotThereHasNoNumbers) {
+  World world(towerOf(2));
+  world.removeBody(1);
+  EXPECT_TRUE(std::isnan(world.poses()[3]));
+  EXPECT_EQ(world.collectionIds()[1], -1);
+  EXPECT_FALSE(world.info(1).present);
+  EXPECT_TRUE(world.info(2).present);
+  EXPECT_THAT(refusal([&] { world.setPose(1, {0.0, 0.0}, 0.0); }), HasSubstr("not in the world"));
+}
+
+TEST(PublicWorld, ContinuesFromASavedStateBitForBit) {
+  World world(towerOf(5));
+  world.step(20);
+  const std::string saved = world.save();
+  world.step(100);
+  World other(towerOf(5));
+  other.restore(saved);
+  other.step(100);
+  EXPECT_TRUE(std::equal(world.poses().begin(), world.poses().end(), other.poses().begin()));
+  EXPECT_EQ(world.save(), other.save());
+}
+
+TEST(PublicWorld, RestoresUnderOtherSettingsWhereThatIsSaid) {
+  World world(towerOf(3));
+  world.step(20);
+  Scene scene = towerOf(3);
+  scene.set("merging.velocity", 0.05);
+  World other(scene, merge2d::Mode::Reference);
+  EXPECT_THAT(refusal([&] { other.restore(world.save()); }), HasSubstr("saved"));
+  other.restore(world.save(), true);
+  EXPECT_EQ(other.steps(), 20);
+  EXPECT_EQ(other.mode(), merge2d::Mode::Reference);
+  EXPECT_EQ(other.get("merging.velocity"), "0.05");
+}
+
+TEST(PublicWorld, SaysWhyTwoBodiesAreOne) {
+  World world(towerOf(2));
+  world.step();
+  EXPECT_THAT(refusal([&] { world.why(1, 2); }), HasSubstr("did not note its decisions"));
+  EXPECT_THAT(refusal([&] { world.decisions(); }), HasSubstr("did not note its decisions"));
+  world.noteDecisions();
+  world.step();
+  EXPECT_THAT(world.why(2, 1), HasSubstr("box 0 and box 1"));
+  ASSERT_FALSE(world.decisions().empty());
+  for (const merge2d::Decision& d : world.decisions()) {
+    EXPECT_STRNE(d.stage, "");
+    EXPECT_STRNE(d.criterion, "");
+    EXPECT_STRNE(d.verdict, "");
+  }
+}
+
+TEST(PublicWorld, TellsContactsAndEvents) {
+  World world(towerOf(1));
+  bool merged = false;
+  for (int i = 0; i < 100 && !merged; ++i) {
+    world.step();
+    for (const merge2d::Event& event : world.events()) {
+      merged = merged || (event.type == M2_EVENT_MERGE && event.a == 0 && event.b == 1);
+    }
+  }
+  EXPECT_TRUE(merged);
+  ASSERT_EQ(world.contacts().size(), 2U);
+  double weight = 0.0;
+  for (const merge2d::Contact& c : world.contacts()) {
+    EXPECT_NEAR(c.ny, 1.0, 1e-9) << "from the ground to the box";
+    weight += c.lambda_n / world.timeStep();
+  }
+  EXPECT_NEAR(weight, 9.81, 0.2);
+}
+
+TEST(PublicWorld, IsDraggedByASpringAndLetGo) {
+  World world(towerOf(2));
+  world.step(50);
+  const merge2d::Spring hand = world.drag(2, {0.5, 1.5});
+  for (int i = 0; i < 100; ++i) {
+    world.moveSpring(hand, {0.5 + 0.02 * i, 3.0});
+    world.step();
+  }
+  EXPECT_GT(world.poses()[6], 1.0);
+  EXPECT_GT(world.poses()[7], 2.0);
+  world.removeSpring(hand);
+  world.step(200);
+  EXPECT_LT(world.poses()[7], 1.7);
+}
+
+TEST(PublicWorld, ADragHoldsTheVeryPointThatItGrips) {
+  Scene scene;
+  scene.set("gravity", "[0, 0]");
+  // The centre of mass is not the origin of the body's frame.
+  scene.add({.position = {3.0, 1.0},
+             .angle = 0.7,
+             .shapes = {Shape::box(1.0, 1.0), Shape::box(1.0, 1.0, {1.0, 0.0})}});
+  World world(scene);
+  const double x = world.poses()[0], y = world.poses()[1];
+  world.drag(0, {x + 0.2, y + 0.1});
+  world.step(100);
+  EXPECT_NEAR(world.poses()[0], x, 1e-9) << "it rests where it was gripped";
+  EXPECT_NEAR(world.poses()[1], y, 1e-9);
+}
+
+TEST(PublicWorld, QueriesSeeBodiesWhereTheyAreNow) {
+  World world(towerOf(3));
+  EXPECT_THAT(world.at({0.2, 0.5}), ElementsAre(1));
+  EXPECT_THAT(world.at({5.0, 5.0}), IsEmpty());
+  EXPECT_THAT(world.inBox({-0.1, 0.9}, {0.1, 1.1}), ElementsAre(1, 2));
+  EXPECT_THAT(world.touching(Shape::circle(0.3), {0.7, 2.5}), ElementsAre(3));
+  EXPECT_THAT(world.touching(Shape::circle(0.1), {0.7, 2.5}), IsEmpty());
+  world.setPose(2, {7.0, 1.5}, 0.0);
+  EXPECT_THAT(world.at({7.0, 1.5}), ElementsAre(2));
+  EXPECT_THAT(world.at({0.0, 1.5}), IsEmpty());
+}
+
+TEST(PublicWorld, ABoxQueryDoesNotTakeTheBoxAroundABodyForTheBody) {
+  Scene scene;
+  scene.add({.shapes = {Shape::circle(1.0)}});
+  World world(scene);
+  EXPECT_THAT(world.inBox({0.8, 0.8}, {1.0, 1.0}), IsEmpty());
+  EXPECT_THAT(world.inBox({0.6, 0.6}, {1.0, 1.0}), ElementsAre(0));
+}
+
+TEST(PublicWorld, ARayMeetsTheFirstBodyOnItsWay) {
+  World world(towerOf(3));
+  const auto hit = world.castRay({-10.0, 1.5}, {10.0, 1.5});
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->body, 2U);
+  EXPECT_NEAR(hit->point.x, -0.5, 1e-9);
+  EXPECT_NEAR(hit->fraction, 9.5 / 20.0, 1e-9);
+  EXPECT_NEAR(hit->normal.x, -1.0, 1e-9);
+  EXPECT_EQ(hit->collection, world.collectionOf(2));
+  EXPECT_FALSE(world.castRay({-10.0, 50.0}, {10.0, 50.0}));
+  EXPECT_FALSE(world.castRay({-10.0, 1.5}, {-0.6, 1.5})) << "it ends before";
+  const auto inside = world.castRay({0.0, 1.5}, {10.0, 1.5});
+  ASSERT_TRUE(inside);
+  EXPECT_EQ(inside->body, 2U);
+  EXPECT_EQ(inside->fraction, 0.0);
+}
+
+TEST(PublicWorld, ARayMeetsACircleOnItsOutline) {
+  Scene scene;
+  scene.add({.position = {3.0, 4.0}, .shapes = {Shape::circle(2.0)}});
+  World world(scene);
+  const auto hit = world.castRay({0.0, 0.0}, {6.0, 8.0});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->fraction, 0.3, 1e-9);
+  EXPECT_NEAR(hit->normal.x, -0.6, 1e-9);
+  EXPECT_NEAR(hit->normal.y, -0.8, 1e-9);
+}
+
+TEST(PublicWorld, RefusesWhatMakesNoSense) {
+  World world(towerOf(1));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refusal([&] { world.at({nan, 0.0}); }), HasSubstr("finite"));
+  EXPECT_THAT(refusal([&] { world.setPose(7, {0.0, 0.0}, 0.0); }), HasSubstr("no body 7"));
+  EXPECT_THAT(refusal([&] { world.find("bxo 0"); }), HasSubstr("did you mean 'box 0'"));
+  EXPECT_THAT(refusal([&] { world.set("merging.velocty", 0.1); }),
+              HasSubstr("did you mean 'merging.velocity'"));
+  EXPECT_THAT(refusal([&] { world.set("merging.velocity", -1.0); }), HasSubstr("0 or more"));
+  EXPECT_THAT(refusal([&] { world.set("gravity", "[0, 0]"); }), HasSubstr("no setting"));
+  EXPECT_THAT(refusal([&] { world.why(1, 1); }), HasSubstr("no pair"));
+  EXPECT_THAT(refusal([&] { world.restore("rubbish"); }), HasSubstr("saved state"));
+}
+
+TEST(PublicWorld, SettingsAreReadAsTheyWereSet) {
+  World world(towerOf(1));
+  world.set("merging.velocity", 0.0123);
+  EXPECT_EQ(world.get("merging.velocity"), "0.0123");
+  EXPECT_EQ(world.get("merging.rule"), "default");
+  world.set("merging.rule", "paper");
+  EXPECT_EQ(world.get("merging.rule"), "paper");
+  EXPECT_EQ(world.get("unmerging.ordering"), "true");
+  EXPECT_EQ(world.get("merging.velocity"), "0.0123") << "others keep their values";
+}
+
+TEST(PublicWorld, TwoThreadsStepTwoWorldsToTheSameBits) {
+  World one(towerOf(8)), other(towerOf(8));
+  std::thread thread([&] { other.step(200); });
+  one.step(200);
+  thread.join();
+  EXPECT_EQ(one.save(), other.save());
+}
+
+TEST(PublicWorld, KeepsTheMessageOfEachThread) {
+  Scene scene;
+  EXPECT_EQ(m2_scene_set(scene.get(), "stpe", "1"), M2_INPUT_ERROR);
+  std::thread([] { EXPECT_STREQ(m2_error(), ""); }).join();
+  EXPECT_THAT(m2_error(), HasSubstr("stpe"));
+}
+
+TEST(PublicWorld, NullPointersAreErrors) {
+  EXPECT_EQ(m2_world_step(nullptr, 1), M2_INPUT_ERROR);
+  EXPECT_EQ(m2_world_new(nullptr, M2_MERGE, nullptr), M2_INPUT_ERROR);
+  EXPECT_EQ(m2_scene_load(nullptr, nullptr, 0, nullptr), M2_INPUT_ERROR);
+  EXPECT_EQ(m2_world_watch_poses(nullptr), nullptr);
+  m2_scene_free(nullptr);
+  m2_world_free(nullptr);
+  m2_free(nullptr);
+}
+
+TEST(PublicScene, NamesTheFaultOfADescription) {
+  Scene scene;
+  EXPECT_THAT(refusal([&] { scene.add(merge2d::BodyDef{}); }), HasSubstr("shape"));
+  EXPECT_THAT(refusal([&] { scene.add({.shapes = {Shape::circle(-1.0)}}); }), HasSubstr("radius"));
+  EXPECT_THAT(refusal([&] { scene.add({.shapes = {Shape::circle(1.0)}, .mass = -1.0}); }),
+              HasSubstr("mass"));
+  EXPECT_THAT(refusal([&] {
+                scene.add({.shapes = {Shape::polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}})}});
+              }),
+              HasSubstr("cross"));
+  EXPECT_EQ(scene.bodyCount(), 0U);
+  auto spring = merge2d::springDef();
+  spring.body = 3;
+  EXPECT_THAT(refusal([&] { scene.add(spring); }), HasSubstr("no body 3"));
+}
+
+TEST(PublicScene, APolygonNeedNotBeConvexNorCounterClockwise) {
+  Scene scene;
+  // An L of three unit squares, clockwise.
+  scene.add({.shapes = {Shape::polygon({{0, 0}, {0, 2}, {1, 2}, {1, 1}, {2, 1}, {2, 0}})}});
+  World world(scene);
+  EXPECT_NEAR(world.info(0).mass, 3.0, 1e-9);
+  EXPECT_GE(world.pieces(0).size(), 2U);
+}
+
+TEST(PublicScene, LoadsWithChangesAndWritesItselfDown) {
+  const Scene scene = Scene::load("books", {"merging.velocity=0.03", "step=0.005"});
+  EXPECT_EQ(scene.get("merging.velocity"), "0.03");
+  const Scene again = Scene::parse(scene.toToml());
+  EXPECT_EQ(again.get("step"), "0.005");
+  EXPECT_EQ(again.bodyCount(), scene.bodyCount());
+  EXPECT_THAT(refusal([] { Scene::load("bokos"); }), HasSubstr("did you mean 'books'"));
+  EXPECT_THAT(refusal([] { Scene::parse("[[body]]\nbx = [1, 1]\n", "mine.toml"); }),
+              HasSubstr("mine.toml:2:1"));
+}
+
+TEST(PublicScene, LivesOnItsOwn) {
+  Scene scene = towerOf(1);
+  World world(scene);
+  scene = Scene();
+  world.step(10);
+  EXPECT_EQ(world.bodyCount(), 2U);
+  EXPECT_EQ(scene.bodyCount(), 0U);
+}
+
+TEST(PublicScene, VersionsOfHeaderAndLibraryAgree) {
+  EXPECT_EQ(merge2d::version(), std::to_string(M2_VERSION_MAJOR) + "." +
+                                    std::to_string(M2_VERSION_MINOR) + "." +
+                                    std::to_string(M2_VERSION_PATCH));
+}
+
+TEST(PublicPictures, DrawTheWorld) {
+  World world(towerOf(3));
+  auto def = merge2d::pictureDef();
+  def.width = 160;
+  def.height = 120;
+  def.overlays = "none";
+  const auto first = world.draw(def);
+  ASSERT_EQ(first.size(), 4U * 160 * 120);
+  world.setPose(3, {2.0, 2.5}, 0.3);
+  EXPECT_NE(world.draw(def), first);
+  def.theme = "drak";
+  EXPECT_THAT(refusal([&] { world.draw(def); }), HasSubstr("did you mean 'dark'"));
+}
+
+}  // namespace
