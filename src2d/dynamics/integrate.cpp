@@ -2,7 +2,6 @@
 
 #include "src2d/contact/approach.h"
 #include "src2d/dynamics/stabilise.h"
-#include "src2d/merging/collection.h"
 
 namespace merge2d {
 
@@ -29,6 +28,23 @@ void followHits(State& state, const Scratch& scratch) {
     r.moveBy(hit.way - state.h * r.v);
     r.angle += hit.turn - state.h * r.omega;
     r.rotation = Rotation::of(r.angle);
+  }
+}
+
+/// Brings anchored collections to their frame's pose and velocity.
+void followAnchors(State& state) {
+  for (const Collection& c : state.collections) {
+    if (c.id == kNoCollection) continue;
+    Rigid& r = state[c.rigid];
+    if (r.floating() || r.anchor == kWorldFrame) continue;
+    const Rigid& anchor = state[rigidOf(c.anchor)];
+    r.x = anchor.x;
+    r.rest = anchor.rest;
+    r.angle = anchor.angle;
+    r.rotation = anchor.rotation;
+    r.previous_rotation = anchor.previous_rotation;
+    r.v = anchor.v;
+    r.omega = anchor.omega;
   }
 }
 

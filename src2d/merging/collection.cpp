@@ -264,20 +264,4 @@ void dropBlock(const Collection& c, InternalContact& contact) {
   if (k.count == 1) contact.point(1).lambda_t = k.lambda_r();
 }
 
-void followAnchors(State& state) {
-  for (const Collection& c : state.collections) {
-    if (c.id == kNoCollection) continue;
-    Rigid& r = state[c.rigid];
-    if (r.floating() || r.anchor == kWorldFrame) continue;
-    const Rigid& anchor = state[rigidOf(c.anchor)];
-    r.x = anchor.x;
-    r.rest = anchor.rest;
-    r.angle = anchor.angle;
-    r.rotation = anchor.rotation;
-    r.previous_rotation = anchor.previous_rotation;
-    r.v = anchor.v;
-    r.omega = anchor.omega;
-  }
-}
-
 }  // namespace merge2d

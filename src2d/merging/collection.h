@@ -48,9 +48,6 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
 /// Takes a contact's impulses out of its block, which no longer fits.
 void dropBlock(const Collection& collection, InternalContact& contact);
 
-/// Brings anchored collections to their frame's pose and velocity.
-void followAnchors(State& state);
-
 /// A new, empty collection that has neither place nor members yet.
 RigidId newCollection(State& state);
 /// Gives the slot back; its rigid thing must have left the broadphase.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "src2d/merging/collection.h"
-
 namespace merge2d {
 namespace {
 

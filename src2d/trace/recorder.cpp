@@ -1,7 +1,6 @@
 #include "src2d/trace/recorder.h"
 
 #include "src2d/dynamics/state.h"
-#include "src2d/merging/collection.h"
 #include "src2d/trace/capture.h"
 
 namespace merge2d {
