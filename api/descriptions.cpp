@@ -163,7 +163,7 @@ m2_shape m2_polygon(const m2_vec* vertices, size_t count) {
   return shape;
 }
 
-m2_body_def m2_body_def_default(void) {
+m2_body_def m2_body_def_default() {
   m2_body_def def{};
   def.density = 1.0;
   def.friction = 0.6;
@@ -173,13 +173,13 @@ m2_body_def m2_body_def_default(void) {
   return def;
 }
 
-m2_spring_def m2_spring_def_default(void) {
+m2_spring_def m2_spring_def_default() {
   m2_spring_def def{};
   def.to_body = M2_NO_BODY;
   return def;
 }
 
-m2_joint_def m2_joint_def_default(void) {
+m2_joint_def m2_joint_def_default() {
   m2_joint_def def{};
   def.b = M2_NO_BODY;
   def.axis = {1.0, 0.0};

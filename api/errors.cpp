@@ -50,6 +50,6 @@ char* copyOf(std::string_view text) {
 
 }  // namespace merge2d
 
-const char* m2_version(void) { return MERGE2D_VERSION; }
-const char* m2_error(void) { return last_error; }
+const char* m2_version() { return MERGE2D_VERSION; }
+const char* m2_error() { return last_error; }
 void m2_free(char* text) { std::free(text); }

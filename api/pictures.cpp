@@ -124,7 +124,7 @@ void refuseUnknownName(const std::string& name) {
 }  // namespace
 }  // namespace merge2d
 
-m2_picture_def m2_picture_def_default(void) {
+m2_picture_def m2_picture_def_default() {
   m2_picture_def def{};
   def.width = 960;
   def.height = 540;

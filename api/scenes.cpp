@@ -35,7 +35,7 @@ void requireBody(const Scene& scene, std::size_t body) {
 }  // namespace
 }  // namespace merge2d
 
-m2_scene* m2_scene_new(void) { return new (std::nothrow) m2_scene; }
+m2_scene* m2_scene_new() { return new (std::nothrow) m2_scene; }
 
 m2_status m2_scene_load(const char* name_or_path, const char* const* changes, size_t change_count,
                         m2_scene** scene) {
@@ -150,7 +150,8 @@ m2_status m2_scene_to_toml(const m2_scene* scene, char** toml) {
 m2_status m2_scene_warnings(const m2_scene* scene, char** text) {
   return guarded([&] {
     std::string lines;
-    for (const std::string& warning : given(scene, "scene").scene.warnings) lines += warning + "\n";
+    for (const std::string& warning : given(scene, "scene").scene.warnings)
+      lines.append(warning).append("\n");
     given(text, "text") = merge2d::copyOf(lines);
   });
 }
@@ -158,7 +159,8 @@ m2_status m2_scene_warnings(const m2_scene* scene, char** text) {
 m2_status m2_scene_list(char** text) {
   return guarded([&] {
     std::string lines;
-    for (const auto& [name, title] : merge2d::builtinScenes()) lines += name + "\t" + title + "\n";
+    for (const auto& [name, title] : merge2d::builtinScenes())
+      lines += fmt::format("{}\t{}\n", name, title);
     given(text, "text") = merge2d::copyOf(lines);
   });
 }

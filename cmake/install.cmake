@@ -14,7 +14,8 @@ if(MERGE2D_APP)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/lessons/
           DESTINATION ${CMAKE_INSTALL_DATADIR}/merge2d/lessons COMPONENT program
           FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN web EXCLUDE)
-
+endif()
+if(TARGET merge2d_shared)
   # merge2d::merge2d is the shared library.
   target_include_directories(merge2d_shared INTERFACE
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -45,6 +46,6 @@ if(MERGE2D_APP)
           COMPONENT development)
 endif()
 
-if(PROJECT_IS_TOP_LEVEL)
+if(PROJECT_IS_TOP_LEVEL AND TARGET merge2d_shared)
   include(cmake/packages.cmake)
 endif()

@@ -1,0 +1,41 @@
+# The Debian packages as another machine finds them: lintian has no complaint, and from the unpacked
+# tree the program runs, the examples compile, and Python imports the module.
+cmake_minimum_required(VERSION 3.25)
+set(work ${MERGE2D_BINARY_DIR}/tests/packages)
+file(REMOVE_RECURSE ${work})
+file(MAKE_DIRECTORY ${work}/home)
+
+function(run)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env HOME=${work}/home XDG_DATA_DIRS=/nowhere ${ARGV}
+                  WORKING_DIRECTORY ${work}/home COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+find_program(DPKG_DEB dpkg-deb)
+if(NOT DPKG_DEB)
+  message(STATUS "skipped: dpkg-deb is missing")
+  return()
+endif()
+run(${CMAKE_CPACK_COMMAND} -G DEB -B ${work} --config ${MERGE2D_BINARY_DIR}/CPackConfig.cmake)
+file(GLOB packages ${work}/*.deb)
+foreach(package IN LISTS packages)
+  run(${DPKG_DEB} -x ${package} ${work}/root)
+endforeach()
+
+find_program(LINTIAN lintian)
+if(LINTIAN)
+  run(${LINTIAN} --allow-root --fail-on error,warning ${packages})
+else()
+  message(STATUS "lintian is missing: scripts/install-packages package")
+endif()
+
+run(${work}/root/usr/bin/merge2d run books --seconds 0.1 --quiet)
+set(libraries ${work}/root/usr/${LIBDIR})
+set(ENV{PKG_CONFIG_PATH} ${libraries}/pkgconfig)
+set(ENV{LD_LIBRARY_PATH} ${libraries})
+run(sh -c "c++ -std=c++20 -o hello ${EXAMPLES}/hello_tower.cpp $(pkg-config --cflags --libs merge2d)")
+run(${work}/home/hello)
+run(sh -c "cc -o hello ${EXAMPLES}/hello_tower.c $(pkg-config --cflags --libs merge2d)")
+run(${work}/home/hello)
+if(PYTHON)
+  run(PYTHONPATH=${work}/root/usr/lib/python3/dist-packages ${PYTHON} ${EXAMPLES}/hello_tower.py)
+endif()
