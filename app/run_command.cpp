@@ -6,6 +6,8 @@
 #include "app/interrupt.h"
 #include "app/output_file.h"
 #include "app/progress.h"
+#include "app/provenance.h"
+#include "app/reference_end.h"
 #include "app/simulation.h"
 #include "app/summary.h"
 #include "app/usage_error.h"
@@ -32,14 +34,19 @@ Trace, CSV and snapshot files replace only files of their own kind, unless --for
 struct RunOptions : SceneOptions {
   std::string trace, csv;        ///< files, or empty
   std::string snapshot, resume;  ///< the same
+  std::string reference_folder;  ///< the same
   bool no_timings = false;
   bool decisions = false;
+  bool reference_error = false;
 };
 
 void check(const RunOptions& options) {
   check(static_cast<const SceneOptions&>(options));
   if (options.decisions && options.trace.empty()) {
     throw UsageError("--decisions go into the trace; name it with --trace FILE.jsonl");
+  }
+  if (options.reference_error && !options.resume.empty()) {
+    throw UsageError("--reference-error simulates from the start, and --resume does not");
   }
   requireDistinct(
       {{"--trace", options.trace}, {"--csv", options.csv}, {"--snapshot", options.snapshot}});
@@ -67,9 +74,9 @@ struct Table {
   OutputFile file;
   CsvWriter writer;
 
-  explicit Table(const RunOptions& options)
+  Table(const RunOptions& options, const Scene& scene)
       : file(options.csv, {.everything = options.force, .ours = kCsvStart}),
-        writer(file.stream(), !options.no_timings) {
+        writer(file.stream(), !options.no_timings, provenanceColumns(scene, options.mode)) {
     file.check();
   }
 };
@@ -79,7 +86,7 @@ class Record {
  public:
   Record(const RunOptions& options, const World& world) {
     if (!options.trace.empty()) trace_.emplace(options, world);
-    if (!options.csv.empty()) table_.emplace(options);
+    if (!options.csv.empty()) table_.emplace(options, world.scene());
     if (options.snapshot.empty()) return;
     state_.emplace(options.snapshot, Replaces{.everything = options.force, .ours = kStateStart});
     state_->check();
@@ -105,7 +112,7 @@ class Record {
     state_->finish();
   }
 
-  const Summary& summary() const { return summary_; }
+  Summary& summary() { return summary_; }
 
  private:
   Summary summary_;
@@ -141,6 +148,19 @@ void simulate(Simulation& simulation, Record& record, const Console& console) {
                              1e-6 * static_cast<double>(simulation.world().memoryBytes())));
 }
 
+/// How far the run ended from the reference, where that was asked for.
+void judge(const RunOptions& options, const Simulation& simulation, Summary& summary) {
+  if (!options.reference_error) return;
+  const ReferenceFolder references(options.reference_folder);
+  const BodyCenters end = centersOf(simulation.world());
+  if (options.mode == Mode::Reference) {
+    references.keep(simulation.world().scene(), simulation.steps(), end);
+    summary.setError({});
+    return;
+  }
+  summary.setError(errorBetween(references.endOf(simulation.shared(), simulation.steps()), end));
+}
+
 void report(const RunOptions& options, const Simulation& simulation, const Summary& summary) {
   const bool timings = !options.no_timings;
   if (options.json) {
@@ -169,6 +189,7 @@ void run(const RunOptions& options) {
     throw;
   }
   record.finish(simulation.world());
+  judge(options, simulation, record.summary());
   report(options, simulation, record.summary());
 }
 
@@ -207,6 +228,17 @@ void addRunCommand(CLI::App& program, Action& action) {
   command
       ->add_flag("--no-timings", options->no_timings,
                  "Leave out measured seconds, so that two runs give the same bytes")
+      ->group(kGroup);
+  command
+      ->add_flag("--reference-error", options->reference_error,
+                 "Simulate in reference mode too, and tell how far the bodies end from there")
+      ->group(kGroup);
+  addOption(
+      *command, "--reference-folder", "DIR",
+      [options](const std::string& s) {
+        options->reference_folder = readPath("--reference-folder", s);
+      },
+      "Keep the ends of reference runs in this folder, and take them from there")
       ->group(kGroup);
   addGeneralOptions(*command, *options);
   command->callback([&action, options] { action = [options] { run(*options); }; });

@@ -5,10 +5,9 @@
 #include <fstream>
 
 #include "app/output_file.h"
+#include "app/provenance.h"
+#include "app/version.h"
 #include "render/sequence.h"
-#include "src2d/core/digest.h"
-#include "src2d/scene/load.h"
-#include "src2d/trace/parameters.h"
 #include "src2d/trace/trace_writer.h"
 
 namespace merge2d {
@@ -17,14 +16,6 @@ namespace {
 constexpr const char* kFormat = "merge2d-run";
 constexpr int kVersion = 1;
 
-std::string digest(const Scene& scene) { return fmt::format("{:016x}", digestOf(toToml(scene))); }
-
-Json parameters(const Scene& scene) {
-  JsonText text;
-  writeParameters(text, scene);
-  return Json::parse(text.text());
-}
-
 Json picture(const RenderOptions& options, const FrameStyle& style) {
   Json out;
   out["width"] = style.width;
@@ -32,6 +23,7 @@ Json picture(const RenderOptions& options, const FrameStyle& style) {
   out["fps"] = options.framesPerSecond();
   out["theme"] = style.theme.name;
   out["transparent"] = style.transparent;
+  if (style.format == FrameFormat::Svg) out["format"] = "svg";
   out["overlays"] = Json::array();
   for (const OverlayEntry& entry : kOverlayTable) {
     if (style.overlays.has(entry.overlay)) out["overlays"].push_back(entry.name);
@@ -55,13 +47,14 @@ Json filmJson(const Scene& scene, const RenderOptions& options, const FrameStyle
   film["format"] = kFormat;
   film["version"] = kVersion;
   film["program"] = "merge2d " MERGE2D_VERSION;
+  film["git"] = *kGitDescribe == '\0' ? Json() : Json(kGitDescribe);
   film["scene"] = scene.name;
   film["title"] = scene.title;
-  film["digest"] = digest(scene);
+  film["digest"] = digestOfScene(scene);
   film["mode"] = name(options.mode);
   film["seed"] = scene.seed;
   film["h"] = scene.step;
-  film["parameters"] = parameters(scene);
+  film["parameters"] = parametersJson(scene);
   film["picture"] = picture(options, style);
   return film;
 }
@@ -103,11 +96,16 @@ void RunFile::add(const Snapshot& snapshot) {
 void RunFile::write(bool complete, const FrameDigests& digests, const std::string& description,
                     const std::string& failure) {
   Json out = film_;
+  const bool vector = film_["picture"].contains("format");
   out["steps"] = frames_.steps;
-  out["frames"] = {{"first", frames_.from}, {"last", frames_.to}, {"pattern", "frame_%06d.png"}};
+  out["frames"] = {{"first", frames_.from},
+                   {"last", frames_.to},
+                   {"pattern", vector ? "frame_%06d.svg" : "frame_%06d.png"}};
   out["complete"] = complete;
   out["digests"] = Json::object();
-  for (const auto& [frame, digest] : digests.all()) out["digests"][frameName(frame)] = digest;
+  for (const auto& [frame, digest] : digests.all()) {
+    out["digests"][frameName(frame, vector ? FrameFormat::Svg : FrameFormat::Png)] = digest;
+  }
   if (!description.empty()) out["description"] = description;
   if (!failure.empty()) out["failure"] = failure;
   std::string text = out.dump(2, ' ', false, Json::error_handler_t::replace);

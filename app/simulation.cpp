@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "app/interrupt.h"
 #include "app/lesson_source.h"
@@ -37,6 +38,13 @@ Scene sceneOrLesson(const SceneOptions& options) {
   return loadScene(options.scene, options.overrides);
 }
 
+/// What this process has taken of processors so far, in all threads.
+double processorSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 }  // namespace
 
 Scene loadScene(const SceneOptions& options, const Console& console) {
@@ -63,8 +71,10 @@ std::int64_t stepCount(const Scene& scene) {
 void Simulation::step() {
   using Clock = std::chrono::steady_clock;
   stopIfInterrupted();
+  const double cpu_start = processorSeconds();
   const Clock::time_point start = Clock::now();
   world_.step();
+  cpu_seconds_ += processorSeconds() - cpu_start;
   milliseconds_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
 }
 

@@ -46,12 +46,15 @@ class Simulation {
 
   /// Of each step so far [ms].
   const std::vector<double>& milliseconds() const { return milliseconds_; }
+  /// What the steps so far took of processors, in all threads [s].
+  double cpuSeconds() const { return cpu_seconds_; }
 
  private:
   std::shared_ptr<const Scene> scene_;
   World world_;
   std::int64_t steps_;
   std::vector<double> milliseconds_;
+  double cpu_seconds_ = 0.0;
 };
 
 }  // namespace merge2d

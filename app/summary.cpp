@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "app/provenance.h"
 #include "app/statistics.h"
 
 namespace merge2d {
@@ -21,9 +22,12 @@ void Summary::add(const Snapshot& snapshot) {
   for (const Event& event : snapshot.events) {
     merges_ += event.type == EventType::Merge ? 1 : 0;
     unmerges_ += event.type == EventType::Unmerge ? 1 : 0;
+    if (event.type == EventType::Unmerge) ++reasons_[static_cast<std::size_t>(event.reason)];
     broken_joints_ += event.type == EventType::Break ? 1 : 0;
   }
   max_penetration_ = std::max(max_penetration_, snapshot.stats.max_penetration);
+  kinetic_energy_ = snapshot.stats.kinetic_energy;
+  potential_energy_ = snapshot.stats.potential_energy;
 }
 
 std::string Summary::table(const Simulation& simulation, bool timings) const {
@@ -46,6 +50,9 @@ std::string Summary::table(const Simulation& simulation, bool timings) const {
   row("unmerges", fmt::format("{}", unmerges_));
   if (!world.scene().joints.empty()) row("broken joints", fmt::format("{}", broken_joints_));
   row("deepest overlap", fmt::format("{:.3g} mm", 1e3 * max_penetration_));
+  if (error_) {
+    row("from reference", fmt::format("{:.3g} m, at most {:.3g} m", error_->mean, error_->max));
+  }
   if (timings && !simulation.milliseconds().empty()) {
     row("time per step", fmt::format("{:.3g} ms, median {:.3g} ms", mean(simulation.milliseconds()),
                                      median(simulation.milliseconds())));
@@ -78,6 +85,22 @@ std::string Summary::json(const Simulation& simulation, bool timings) const {
     out["ms_per_step"] = {{"mean", mean(simulation.milliseconds())},
                           {"median", median(simulation.milliseconds())}};
     out["real_time_factor"] = realTimeFactor(simulation);
+  }
+  out["unmerges_by_reason"] = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < reasons_.size(); ++i) {
+    const auto reason = static_cast<EventReason>(i);
+    if (reason != EventReason::None) out["unmerges_by_reason"][name(reason)] = reasons_[i];
+  }
+  out["kinetic_energy"] = kinetic_energy_;
+  out["potential_energy"] = potential_energy_;
+  if (error_) out["reference_error"] = {{"mean", error_->mean}, {"max", error_->max}};
+  out["provenance"] = provenanceJson(world.scene());
+  out["provenance"]["cpu_seconds"] = nullptr;
+  out["provenance"]["wall_seconds"] = nullptr;
+  if (timings) {
+    const auto& ms = simulation.milliseconds();
+    out["provenance"]["cpu_seconds"] = simulation.cpuSeconds();
+    out["provenance"]["wall_seconds"] = 1e-3 * std::accumulate(ms.begin(), ms.end(), 0.0);
   }
   return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -1,8 +1,11 @@
 #pragma once
 /// What there is to say about a run when it is over.
 
+#include <array>
+#include <optional>
 #include <string>
 
+#include "app/reference_end.h"
 #include "app/simulation.h"
 
 namespace merge2d {
@@ -13,14 +16,23 @@ class Summary {
   /// Takes note of the step that just ended.
   void add(const Snapshot& snapshot);
 
+  /// Takes note of how far the run ended from the reference.
+  void setError(const ReferenceError& error) { error_ = error; }
+
   /// The numbers with their units, for people.
   std::string table(const Simulation& simulation, bool timings) const;
   /// One object; without timings what was measured in seconds is null.
   std::string json(const Simulation& simulation, bool timings) const;
 
  private:
+  /// Of unmerges: one per EventReason.
+  using Reasons = std::array<std::int64_t, 6>;
+
   std::int64_t merges_ = 0, unmerges_ = 0, broken_joints_ = 0;
-  double max_penetration_ = 0.0;  ///< of all steps [m]
+  Reasons reasons_{};
+  double max_penetration_ = 0.0;                          ///< of all steps [m]
+  double kinetic_energy_ = 0.0, potential_energy_ = 0.0;  ///< after the last step [J]
+  std::optional<ReferenceError> error_;
 };
 
 }  // namespace merge2d

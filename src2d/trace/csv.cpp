@@ -7,11 +7,27 @@
 
 namespace merge2d {
 
-CsvWriter::CsvWriter(std::ostream& out, bool timings) : out_(out), timings_(timings) {
+std::string csvField(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+CsvWriter::CsvWriter(std::ostream& out, bool timings, const Constants& constants)
+    : out_(out), timings_(timings) {
   out_ << kCsvStart
        << "collections,asleep,contacts,internal_contacts,merges,unmerges,max_penetration,residual,"
           "kinetic_energy,potential_energy,momentum_x,momentum_y,angular_momentum"
-       << (timings_ ? ",seconds\n" : "\n");
+       << (timings_ ? ",seconds" : "");
+  for (const auto& [column, text] : constants) {
+    out_ << ',' << csvField(column);
+    end_ += ',' + csvField(text);
+  }
+  out_ << '\n';
 }
 
 void CsvWriter::add(const Snapshot& snapshot) {
@@ -26,7 +42,7 @@ void CsvWriter::add(const Snapshot& snapshot) {
                       s.momentum.x(), s.momentum.y(), s.angular_momentum);
   if (timings_)
     out_ << fmt::format(",{}", std::accumulate(s.seconds.begin(), s.seconds.end(), 0.0));
-  out_ << '\n';
+  out_ << end_ << '\n';
 }
 
 }  // namespace merge2d

@@ -38,10 +38,12 @@ TEST_F(Run, PrintsASummary) {
 
 TEST_F(Run, GivesTheKeysOfTheContractAsJson) {
   const Json summary = run({"run", "stack.toml", "--json"}).json();
-  EXPECT_THAT(keysOf(summary),
-              ElementsAre("scene", "mode", "steps", "time", "bodies", "active_bodies",
-                          "collections", "asleep", "contacts", "internal_contacts", "merges",
-                          "unmerges", "max_penetration", "ms_per_step", "real_time_factor"));
+  EXPECT_THAT(
+      keysOf(summary),
+      ElementsAre("scene", "mode", "steps", "time", "bodies", "active_bodies", "collections",
+                  "asleep", "contacts", "internal_contacts", "merges", "unmerges",
+                  "max_penetration", "ms_per_step", "real_time_factor", "unmerges_by_reason",
+                  "kinetic_energy", "potential_energy", "provenance"));
   EXPECT_THAT(keysOf(summary["ms_per_step"]), ElementsAre("mean", "median"));
   EXPECT_EQ(summary["scene"], "stack");
   EXPECT_EQ(summary["mode"], "merge+sleep");
@@ -51,6 +53,59 @@ TEST_F(Run, GivesTheKeysOfTheContractAsJson) {
   EXPECT_GE(summary["merges"], 3) << "each box with what it stands on";
   EXPECT_GT(summary["ms_per_step"]["mean"], 0.0);
   EXPECT_GT(summary["real_time_factor"], 0.0);
+}
+
+TEST_F(Run, SaysWhereItsNumbersComeFrom) {
+  const Words arguments = {"run",    "stack.toml", "--steps", "5",
+                           "--mode", "merge",      "--set",   "merging.velocity=0.02",
+                           "--json"};
+  const Json provenance = run(arguments).json()["provenance"];
+  EXPECT_THAT(keysOf(provenance), ElementsAre("program", "git", "digest", "seed", "parameters",
+                                              "cpu_seconds", "wall_seconds"));
+  EXPECT_THAT(provenance["program"].get<std::string>(), StartsWith("merge2d "));
+  EXPECT_EQ(provenance["parameters"]["merging"]["velocity"], 0.02);
+  EXPECT_EQ(provenance["parameters"]["solver"]["iterations"], 10) << "defaults included";
+  EXPECT_GT(provenance["cpu_seconds"], 0.0);
+  EXPECT_EQ(run(arguments).json()["provenance"]["digest"], provenance["digest"]);
+  Words other = arguments;
+  other[7] = "merging.velocity=0.03";
+  EXPECT_NE(run(other).json()["provenance"]["digest"], provenance["digest"]);
+}
+
+TEST_F(Run, TheTableSaysWhereItComesFromInEachRow) {
+  run({"run", "stack.toml", "--csv", "no/such/dir/stack.csv", "--set", "merging.velocity=0.02",
+       "--set", "solver.iterations=12"});
+  const Words rows = linesOf(read("no/such/dir/stack.csv"));
+  EXPECT_THAT(rows[0], testing::EndsWith(",scene,mode,seed,digest,parameters,program,git"));
+  const Json provenance = run({"run", "stack.toml", "--set", "merging.velocity=0.02", "--set",
+                               "solver.iterations=12", "--json"})
+                              .json()["provenance"];
+  const std::string digest = provenance["digest"];
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_THAT(rows[i], HasSubstr(",stack,merge+sleep,1," + digest +
+                                   ",duration=0.5;solver.iterations=12;merging.velocity=0.02,"));
+  }
+}
+
+TEST_F(Run, TellsHowFarItEndsFromTheReference) {
+  const auto error = [&](const std::string& mode, const Words& more = {}) {
+    Words arguments = {"run", "tower-platform", "--seconds",        "1.5", "--mode",
+                       mode,  "--json",         "--reference-error"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments).json()["reference_error"];
+  };
+  EXPECT_EQ(error("reference"), Json({{"mean", 0.0}, {"max", 0.0}}));
+  const Json alone = error("merge");
+  EXPECT_GT(alone["mean"], 0.0);
+  EXPECT_GE(alone["max"], alone["mean"]);
+  const Words kept = {"--reference-folder", "ends"};
+  EXPECT_EQ(error("merge", kept), alone);
+  EXPECT_THAT(files("ends"), SizeIs(1));
+  EXPECT_EQ(error("merge", kept), alone) << "from the folder";
+  error("merge", {"--reference-folder", "ends", "--set", "merging.velocity=0.02"});
+  EXPECT_THAT(files("ends"), SizeIs(1)) << "the thresholds do not change the reference";
+  error("merge", {"--reference-folder", "ends", "--set", "material.friction=0.3"});
+  EXPECT_THAT(files("ends"), SizeIs(2));
 }
 
 TEST_F(Run, CountsBrokenJointsOfASceneThatHasJoints) {
