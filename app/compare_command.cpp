@@ -30,6 +30,7 @@ constexpr const char* kCompareExamples = R"(Examples:
   merge2d compare dominoes --seconds 5 --json --no-charts
   merge2d compare tower-platform --window 1,5.9
   merge2d compare pile --csv pile.csv -o charts --theme print
+  merge2d compare pile -o figures --format svg
 
 The four modes take turns of 200 steps. Distances are those of the bodies' centres from where they
 are in the reference; after a collapse they grow with chaos as well as with errors, so compare
@@ -75,6 +76,11 @@ Theme readTheme(const std::string& text) {
   }
 }
 
+bool readVector(const std::string& text) {
+  if (text == "png" || text == "svg") return text == "svg";
+  throw UsageError(fmt::format("--format must be one of png, svg, but is '{}'", text));
+}
+
 [[noreturn]] void refuseMode(const std::string& mode) {
   throw UsageError(fmt::format(
       "compare simulates all four modes and has no --mode; 'merge2d run SCENE --mode {}' simulates "
@@ -100,7 +106,7 @@ class Products {
         folder_(options.folder.empty() ? fs::path("frames") / scene.name / "compare"
                                        : fs::path(options.folder)) {
     std::vector<NamedOutput> outputs{{"--csv", options.csv}};
-    const auto charts = chartFiles(folder_, !options.no_timings);
+    const auto charts = chartFiles(folder_, !options.no_timings, options.charts.vector);
     if (!options.no_charts) {
       for (const fs::path& chart : charts) outputs.push_back({"--output", chart.string()});
     }
@@ -189,6 +195,11 @@ void addCompareCommand(CLI::App& program, Action& action) {
       *command, "--theme", "NAME",
       [options](const std::string& s) { options->charts.theme = readTheme(s); },
       "Colours of the charts: light (default), dark or print")
+      ->group(kGroup);
+  addOption(
+      *command, "--format", "png|svg",
+      [options](const std::string& s) { options->charts.vector = readVector(s); },
+      "Charts as pictures (default), or as vector graphics for papers")
       ->group(kGroup);
   addContextOption(*command);
   command->add_flag("--no-charts", options->no_charts, "Draw no charts")->group(kGroup);

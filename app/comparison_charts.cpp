@@ -9,13 +9,16 @@
 
 #include "app/comparison_marks.h"
 #include "app/comparison_report.h"
+#include "app/output_file.h"
+#include "render/canvas.h"
 #include "render/chart.h"
 #include "render/png.h"
+#include "render/svg.h"
 
 namespace merge2d {
 namespace {
 
-constexpr const char *kTime = "time.png", *kCounts = "counts.png", *kDistance = "distance.png";
+constexpr const char *kTime = "time", *kCounts = "counts", *kDistance = "distance";
 constexpr std::size_t kBins = 400;       // along the time axis
 constexpr double kLeastDistance = 1e-7;  // [m]; what is less cannot be told apart
 
@@ -206,10 +209,13 @@ std::vector<Chart> chartsOf(const Comparison& comparison, std::string_view file)
 
 }  // namespace
 
-std::vector<std::filesystem::path> chartFiles(const std::filesystem::path& folder, bool timings) {
+std::vector<std::filesystem::path> chartFiles(const std::filesystem::path& folder, bool timings,
+                                              bool vector) {
   std::vector<std::filesystem::path> files;
-  if (timings) files.push_back(folder / kTime);
-  for (const char* file : {kCounts, kDistance}) files.push_back(folder / file);
+  for (const char* file : {kTime, kCounts, kDistance}) {
+    if (file == kTime && !timings) continue;
+    files.push_back(folder / (std::string(file) + (vector ? ".svg" : ".png")));
+  }
   return files;
 }
 
@@ -217,14 +223,22 @@ std::vector<std::string> drawComparison(const Comparison& comparison,
                                         const std::filesystem::path& folder,
                                         const ChartStyle& style) {
   std::vector<std::string> files;
-  for (const std::filesystem::path& file : chartFiles(folder, comparison.timings())) {
-    const std::string name = file.filename().string();
-    const std::vector<Chart> charts = chartsOf(comparison, name);
-    Canvas canvas(style.width, style.height * static_cast<int>(charts.size()));
-    PngOptions options;
-    options.description = fmt::format("{}: {}", comparison.scene().title, name);
-    options.dots_per_inch = kDotsPerInch;
-    savePng(file, drawCharts(canvas, charts, 1, style.theme), options);
+  for (const std::filesystem::path& file : chartFiles(folder, comparison.timings(), style.vector)) {
+    const std::vector<Chart> charts = chartsOf(comparison, file.stem().string());
+    const int height = style.height * static_cast<int>(charts.size());
+    const std::string description =
+        fmt::format("{}: {}", comparison.scene().title, file.filename().string());
+    if (style.vector) {
+      Text text;
+      const Drawing drawing = composeCharts(text, charts, 1, style.width, height, style.theme);
+      writeFile(file.string(),
+                toSvg(drawing, {.width = style.width, .height = height, .title = description}),
+                {.everything = true});
+    } else {
+      Canvas canvas(style.width, height);
+      savePng(file, drawCharts(canvas, charts, 1, style.theme),
+              {.description = description, .dots_per_inch = kDotsPerInch});
+    }
     files.push_back(file.string());
   }
   return files;

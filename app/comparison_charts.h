@@ -15,13 +15,15 @@ struct ChartStyle {
   /// its text has some six points.
   int width = 1920, height = 640;
   Theme theme = lightTheme();
+  bool vector = false;  ///< SVG instead of PNG
 };
 
 inline constexpr double kDotsPerInch = 300.0;
 
 /// time.png (stacked time per stage, a chart per mode; not without timings), counts.png (bodies,
-/// contacts and events over time) and distance.png (from the reference).
-std::vector<std::filesystem::path> chartFiles(const std::filesystem::path& folder, bool timings);
+/// contacts and events over time) and distance.png (from the reference); or the same as .svg.
+std::vector<std::filesystem::path> chartFiles(const std::filesystem::path& folder, bool timings,
+                                              bool vector);
 
 /// Writes those files into the folder and returns their paths. Throws IoError.
 std::vector<std::string> drawComparison(const Comparison& comparison,

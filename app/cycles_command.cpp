@@ -10,11 +10,13 @@
 #include "app/console.h"
 #include "app/help.h"
 #include "app/json.h"
+#include "app/output_file.h"
 #include "app/picture_file.h"
 #include "app/render_options.h"
 #include "app/usage_error.h"
 #include "render/graph.h"
 #include "render/png.h"
+#include "render/svg.h"
 #include "src2d/core/error.h"
 #include "src2d/cycles/contact_graph.h"
 #include "src2d/scene/file.h"
@@ -27,6 +29,7 @@ constexpr const char* kCyclesExamples = R"(Examples:
   printf 'A B 1\nB C 1\nC A 1\n' | merge2d cycles -
   merge2d cycles graph.txt --json
   merge2d cycles graph.txt --render graph.png
+  merge2d cycles graph.txt --render figure.svg
 
 A graph is text: a line 'pinned A B' names bodies that are fixed, and each other line a pair in
 contact, 'A B 2', with the number of its contacts and, if they are known, their points:
@@ -171,11 +174,19 @@ class Report {
 
 void drawPicture(const CyclesOptions& options, const Theme& theme, const ContactGraph& graph,
                  const CycleVerdicts& verdicts) {
-  Canvas canvas(options.size.first, options.size.second);
-  const Picture picture = drawGraph(canvas, graph, verdicts, theme);
-  savePng(options.picture, picture,
-          {.description = fmt::format("merge2d: contact graph of {} bodies and {} pairs",
-                                      graph.bodies.size(), graph.pairs.size())});
+  const auto [width, height] = options.size;
+  const std::string description = fmt::format("merge2d: contact graph of {} bodies and {} pairs",
+                                              graph.bodies.size(), graph.pairs.size());
+  if (options.picture.ends_with(".svg")) {
+    Text text;
+    const Drawing drawing = composeGraph(text, graph, verdicts, width, height, theme);
+    writeFile(options.picture,
+              toSvg(drawing, {.width = width, .height = height, .title = description}),
+              {.everything = true});
+    return;
+  }
+  Canvas canvas(width, height);
+  savePng(options.picture, drawGraph(canvas, graph, verdicts, theme), {.description = description});
 }
 
 const Theme& themeOf(const CyclesOptions& options) {
@@ -189,9 +200,11 @@ const Theme& themeOf(const CyclesOptions& options) {
 void judgeFile(const CyclesOptions& options) {
   check(options);
   const Theme& theme = themeOf(options);
-  if (!options.picture.empty() && !options.picture.ends_with(".png")) {
+  const std::string& picture = options.picture;
+  if (!picture.empty() && !picture.ends_with(".png") && !picture.ends_with(".svg")) {
     throw UsageError(fmt::format(
-        "--render draws PNG pictures, whose names end in .png, but got '{}'", options.picture));
+        "--render draws PNG and SVG pictures, whose names end in .png and .svg, but got '{}'",
+        picture));
   }
   if (!options.picture.empty()) requirePictureMayAppear(options.picture, options.force);
   const std::string file = options.file.empty() && inputIsSent() ? "-" : options.file;

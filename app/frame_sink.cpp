@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "render/frame.h"
-#include "render/png.h"
+#include "render/frame_encoder.h"
 #include "render/sequence.h"
 
 namespace merge2d {
@@ -44,7 +43,7 @@ class PartialSink : public FrameSink {
       : bodies_(bodies),
         style_(style),
         looks_(bodies),
-        canvas_(style.width, style.height),
+        encoder_(bodies_, looks_, style_),
         folder_(std::move(folder)),
         from_(from),
         digests_(digests),
@@ -54,17 +53,16 @@ class PartialSink : public FrameSink {
   void add(std::int64_t frame, const Snapshot& snapshot) override {
     const CollectionSlots slots = colors_.update(snapshot);
     if (frame < from_) return;
-    const fs::path file = folder_ / frameName(frame);
+    const fs::path file = folder_ / frameName(frame, style_.format);
     if (resume_ && digests_.holds(frame, file)) {
       ++counts_.kept;
       return;
     }
-    canvas_.draw(composeFrame(canvas_.text(), snapshot, bodies_, looks_, style_, slots), picture_);
-    const auto png = encoder_.encode(
-        picture_, {.alpha = style_.transparent, .description = describe(snapshot, style_)});
+    encoder_.draw(snapshot, slots);
+    const auto bytes = encoder_.encode();
     constexpr bool kDurable = false;  // a damaged one is drawn again
-    writeAtomically(file, png, kDurable);
-    digests_.note(frame, png);
+    writeAtomically(file, bytes, kDurable);
+    digests_.note(frame, bytes);
     ++counts_.written;
   }
 
@@ -76,9 +74,7 @@ class PartialSink : public FrameSink {
   FrameStyle style_;
   BodyLooks looks_;
   CollectionColors colors_;
-  Canvas canvas_;
-  Picture picture_;
-  PngEncoder encoder_;
+  FrameEncoder encoder_;
   fs::path folder_;
   std::int64_t from_;
   FrameDigests& digests_;

@@ -72,12 +72,14 @@ FrameDigests::Map framesToKeep(const fs::path& folder, const Json& film, const F
   return {};
 }
 
-void removeOtherFrames(const fs::path& folder, const FrameDigests::Map& kept,
+void removeOtherFrames(const fs::path& folder, const FrameDigests::Map& kept, FrameFormat format,
                        const Console& console) {
   removeRemains(folder);
   std::size_t removed = 0;
   for (const std::string& name : framesIn(folder)) {
-    if (!kept.contains(*frameNumber(name))) removed += fs::remove(folder / name) ? 1 : 0;
+    const std::int64_t number = *frameNumber(name);
+    const bool same = kept.contains(number) && name == frameName(number, format);
+    if (!same) removed += fs::remove(folder / name) ? 1 : 0;
   }
   if (removed == 0) return;
   console.note(fmt::format("{} earlier frames in {} are replaced", removed, folder.string()));

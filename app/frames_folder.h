@@ -18,6 +18,6 @@ FrameDigests::Map framesToKeep(const std::filesystem::path& folder, const Json& 
 /// be called when run.json tells of the new rendering: otherwise the folder would be nobody's for a
 /// moment.
 void removeOtherFrames(const std::filesystem::path& folder, const FrameDigests::Map& kept,
-                       const Console& console);
+                       FrameFormat format, const Console& console);
 
 }  // namespace merge2d

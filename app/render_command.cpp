@@ -37,6 +37,7 @@ constexpr const char* kRenderExamples = R"(Examples:
   merge2d render spinner -r 1920x1080 --fps 60 -n 0,120
   merge2d render tower-platform --resume
   merge2d render pile --contact-sheet 4x3
+  merge2d render books --seconds 3 -s --format svg -o figure
   merge2d render tower-platform --stages --at 599
 
 The pictures are called frame_000000.png, frame_000001.png, …; frame k shows the time k / fps, and
@@ -108,6 +109,7 @@ FrameStyle Rendering::makeStyle() const {
   style.width = evenSize(options_.width());
   style.height = evenSize(options_.height());
   style.theme = options_.theme;
+  style.format = options_.format == Format::Svg ? FrameFormat::Svg : FrameFormat::Png;
   style.transparent = options_.transparent;
   style.overlays = options_.overlays;
   style.mode = options_.mode;
@@ -184,7 +186,7 @@ FfmpegJob Rendering::ffmpegJob() const {
 
 /// The path of the animation that was asked for; empty when there is none.
 fs::path Rendering::makeAnimation() {
-  if (options_.format == Format::Png) return {};
+  if (!isAnimation(options_.format)) return {};
   if (options_.format == Format::Apng) {
     const fs::path file = folder_ / (scene().name + ".apng");
     ApngWriter writer(file, film_.fps);
@@ -234,6 +236,7 @@ void Rendering::noteSpeed() const {
 
 /// The folder, the picture or the animation, and how ffmpeg makes a film.
 void Rendering::printProducts(const fs::path& animation) const {
+  const bool pixels = style_.format == FrameFormat::Png;
   const std::string ffmpeg = ffmpegJob().commandLine();
   if (options_.json) {
     const Json out{{"scene", scene().name},
@@ -245,13 +248,14 @@ void Rendering::printProducts(const fs::path& animation) const {
                    {"height", style_.height},
                    {"fps", film_.fps},
                    {"animation", animation.empty() ? Json() : Json(animation.string())},
-                   {"ffmpeg", ffmpeg},
+                   {"ffmpeg", pixels ? Json(ffmpeg) : Json()},
                    {"frames_per_second", speed()}};
     print(out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
   } else if (options_.last_only) {
-    print((folder_ / frameName(film_.last)).string() + "\n");
+    print((folder_ / frameName(film_.last, style_.format)).string() + "\n");
   } else {
-    print((animation.empty() ? folder_ : animation).string() + "\n" + ffmpeg + "\n");
+    print((animation.empty() ? folder_ : animation).string() + "\n");
+    if (pixels) print(ffmpeg + "\n");
   }
 }
 
@@ -267,7 +271,7 @@ void Rendering::prepareFolder() {
       framesToKeep(folder_, filmJson(scene(), options_, style_), film_, options_);
   digests_.emplace(kept);
   run_file_.write(false, *digests_);
-  removeOtherFrames(folder_, kept, console_);
+  removeOtherFrames(folder_, kept, style_.format, console_);
 }
 
 void Rendering::run() {
@@ -297,7 +301,8 @@ void render(const RenderOptions& options) {
 }  // namespace
 
 void addRenderCommand(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("render", "Draw a scene as a sequence of PNG files");
+  CLI::App* command =
+      program.add_subcommand("render", "Draw a scene as a sequence of PNG or SVG files");
   command->footer(kRenderExamples);
   const auto options = std::make_shared<RenderOptions>();
   addRenderOptions(*command, *options);

@@ -25,7 +25,7 @@ constexpr std::array<Quality, 5> kQualities{{{'l', 854, 480, 15},
                                              {'p', 2560, 1440, 60},
                                              {'k', 3840, 2160, 60}}};
 
-constexpr std::array<std::string_view, 4> kFormats{"png", "apng", "gif", "mp4"};
+constexpr std::array<std::string_view, 5> kFormats{"png", "apng", "gif", "mp4", "svg"};
 constexpr std::array<std::string_view, 2> kContexts{"osmesa", "egl"};  // as in ContextKind
 
 Quality readQuality(const std::string& text) {
@@ -139,7 +139,9 @@ void addFileOptions(CLI::App& command, RenderOptions& options) {
       ->group(kGroup);
   addOption(
       command, "--format", "FORMAT", [&](const std::string& s) { options.format = readFormat(s); },
-      "png (default), or the frames and from them also an apng, gif or mp4")
+      "png (default) or svg, vector graphics for papers; or png frames and from them also an apng, "
+      "gif or "
+      "mp4")
       ->group(kGroup);
   addOption(
       command, "--contact-sheet", "CxR",
@@ -202,20 +204,26 @@ void check(const RenderOptions& options) {
   if (options.last_only && options.range) {
     throw UsageError("--last-frame and --frames ask for different frames");
   }
-  if (options.last_only && options.format != Format::Png) {
+  if (options.last_only && isAnimation(options.format)) {
     throw UsageError(fmt::format("--last-frame makes one picture, which cannot be an {}",
                                  nameOf(options.format)));
   }
   if (options.stages != options.at.has_value()) {
     throw UsageError("--stages draws those of one time step: --stages --at STEP");
   }
-  if (options.stages && (options.last_only || options.range || options.format != Format::Png)) {
+  if (options.stages && (options.last_only || options.range || isAnimation(options.format))) {
     throw UsageError(
         "--stages draws pictures of one step; --last-frame, --frames and --format are "
         "about frames");
   }
   if (options.last_only && options.contact_sheet) {
     throw UsageError("--last-frame makes one picture, which needs no --contact-sheet");
+  }
+  if (options.contact_sheet && options.format == Format::Svg) {
+    throw UsageError("--contact-sheet is made of pixels; --format svg has none");
+  }
+  if (options.stages && options.format == Format::Svg) {
+    throw UsageError("--stages draws PNG pictures; --format svg is about frames");
   }
   if (options.transparent && options.format == Format::Mp4) {
     throw UsageError("an mp4 cannot be transparent; --format apng can");

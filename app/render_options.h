@@ -10,7 +10,12 @@
 
 namespace merge2d {
 
-enum class Format { Png, Apng, Gif, Mp4 };
+enum class Format { Png, Apng, Gif, Mp4, Svg };
+
+/// Whether frames become one file that moves.
+constexpr bool isAnimation(Format format) {
+  return format == Format::Apng || format == Format::Gif || format == Format::Mp4;
+}
 
 /// How large and how fast: manim's letters.
 struct Quality {

@@ -188,6 +188,13 @@ class ChartPainter {
     return decades;
   }
 
+  std::vector<std::pair<double, std::string>> xTicks() const {
+    if (!chart_.x_ticks.empty()) return chart_.x_ticks;
+    std::vector<std::pair<double, std::string>> round;
+    for (const double x : ticks(x_.low, x_.high, 6)) round.emplace_back(x, fmt::format("{:g}", x));
+    return round;
+  }
+
   Pixel at(double x, double y) const {
     const double u = (x - x_.low) / (x_.high - x_.low);
     const double v = chart_.log_y ? std::log(y / y_.low) / std::log(y_.high / y_.low)
@@ -215,11 +222,14 @@ class ChartPainter {
     const float line = hairline();
     const Paint axis{.fill = theme_.ink};
     painter_.box({area_.x, std::round(area_.bottom()), area_.width, line}, 0.0F, axis);
-    for (const double x : ticks(x_.low, x_.high, 6)) {
+    float free = panel_.x;  // where the last number ends
+    for (const auto& [x, text] : xTicks()) {
       const float column = std::round(at(x, y_.low).x);
       painter_.box({column, std::round(area_.bottom()), line, px(5.0F)}, 0.0F, axis);
-      painter_.write(fmt::format("{:g}", x), font_,
-                     {column, std::round(area_.bottom() + px(22.0F))}, theme_.ink_soft,
+      const float half = 0.5F * painter_.text().width(text, font_);
+      if (column - half < free) continue;
+      free = column + half + px(6.0F);
+      painter_.write(text, font_, {column, std::round(area_.bottom() + px(22.0F))}, theme_.ink_soft,
                      Align::Center);
     }
   }
@@ -317,6 +327,11 @@ class ChartPainter {
       if (points[k].x == points[k - 1].x && points[k].y == points[k - 1].y) continue;
       painter_.line(points[k - 1], points[k], px(style.width), style.color);
     }
+    if (chart_.points) {
+      for (const Pixel point : points) {
+        painter_.disc(point, px(1.5F + 0.5F * style.width), {.fill = style.color});
+      }
+    }
     if (!points.empty()) ends_.emplace_back(points.back().y, i);
   }
 
@@ -371,14 +386,20 @@ Picture drawChart(Canvas& canvas, const Chart& chart, const Theme& theme) {
 }
 
 Picture drawCharts(Canvas& canvas, std::span<const Chart> charts, int columns, const Theme& theme) {
+  return canvas.draw(
+      composeCharts(canvas.text(), charts, columns, canvas.width(), canvas.height(), theme));
+}
+
+Drawing composeCharts(Text& text, std::span<const Chart> charts, int columns, int picture_width,
+                      int picture_height, const Theme& theme) {
   MERGE2D_ASSERT(columns > 0, "{} columns", columns);
   Drawing drawing;
   drawing.background = theme.background;
-  Painter painter(drawing, canvas.text());
+  Painter painter(drawing, text);
   painter.beginLayer();
   const int rows = (static_cast<int>(charts.size()) + columns - 1) / columns;
-  const float width = static_cast<float>(canvas.width()) / static_cast<float>(columns);
-  const float height = static_cast<float>(canvas.height()) / static_cast<float>(std::max(1, rows));
+  const float width = static_cast<float>(picture_width) / static_cast<float>(columns);
+  const float height = static_cast<float>(picture_height) / static_cast<float>(std::max(1, rows));
   const float unit = std::clamp(std::min(width / 960.0F, height / 240.0F), 0.6F, 6.0F);
   std::vector<ChartPainter> painters;
   std::vector<Margins> margins(static_cast<std::size_t>(columns));  // one per column: axes in line
@@ -390,7 +411,7 @@ Picture drawCharts(Canvas& canvas, std::span<const Chart> charts, int columns, c
     margins[static_cast<std::size_t>(column)].include(painters.back().margins());
   }
   for (std::size_t i = 0; i < charts.size(); ++i) painters[i].draw(margins[i % margins.size()]);
-  return canvas.draw(drawing);
+  return drawing;
 }
 
 }  // namespace merge2d

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/canvas.h"
@@ -35,6 +36,9 @@ struct Chart {
   /// Of a logarithmic axis: what is less is drawn here, and the axis says so.
   std::optional<double> y_floor{};
   std::function<std::string(double)> y_text{};  ///< of a number at the axis; default: its digits
+  /// Where the axis has numbers, and which; default: at round ones.
+  std::vector<std::pair<double, std::string>> x_ticks{};
+  bool points = false;  ///< every value has a dot
   std::vector<Series> series{};
   std::vector<ChartMark> marks{};
 };
@@ -46,6 +50,10 @@ struct LineStyle {
   float width = 1.0F;  ///< in units of the text's size
 };
 LineStyle lineStyle(const Theme& theme, std::size_t i, std::size_t count);
+
+/// What is to be drawn into a picture of this size; `text` must belong to the canvas that draws it.
+Drawing composeCharts(Text& text, std::span<const Chart> charts, int columns, int width, int height,
+                      const Theme& theme = lightTheme());
 
 /// Fills the canvas. Each line has its name at its end; there are four colours (Theme::lines).
 /// Areas have the colours of collections, and their names stand beside the chart. The text is as

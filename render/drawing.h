@@ -1,10 +1,11 @@
 #pragma once
-/// What a canvas draws: plain lists of shapes, arrows and glyphs in pixels, x to the right and y
-/// down from the top left corner of the picture.
+/// What is drawn, by a canvas (render/canvas.h) or as SVG (render/svg.h): plain lists of shapes,
+/// arrows and text in pixels, x to the right and y down from the top left corner of the picture.
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "render/color.h"
@@ -59,6 +60,16 @@ struct GlyphInstance {
   Color color;
 };
 
+/// A line of text as text: what its glyphs say, for pictures that are not made of pixels.
+struct TextLine {
+  std::string text;  ///< UTF-8
+  Pixel start;       ///< of its baseline, at whole pixels
+  float width = 0.0F;
+  int size = 13;  ///< per em [px]
+  bool bold = false;
+  Color color;
+};
+
 struct PixelBox {
   float x = 0.0F, y = 0.0F, width = 0.0F, height = 0.0F;
 
@@ -78,6 +89,7 @@ struct Layer {
   std::vector<ShapeInstance> shapes;
   std::vector<ArrowInstance> arrows;
   std::vector<GlyphInstance> glyphs;
+  std::vector<TextLine> lines;  ///< the same text
 };
 
 /// Layers from back to front.

@@ -270,17 +270,23 @@ class GraphPainter {
 
 Picture drawGraph(Canvas& canvas, const ContactGraph& graph, const CycleVerdicts& verdicts,
                   const Theme& theme) {
+  return canvas.draw(
+      composeGraph(canvas.text(), graph, verdicts, canvas.width(), canvas.height(), theme));
+}
+
+Drawing composeGraph(Text& text, const ContactGraph& graph, const CycleVerdicts& verdicts,
+                     int picture_width, int picture_height, const Theme& theme) {
   const GraphLayout layout = layOutGraph(graph);
   Drawing drawing;
   drawing.background = theme.background;
-  Painter painter(drawing, canvas.text());
+  Painter painter(drawing, text);
   std::vector<std::vector<std::uint32_t>> cycles;
   for (const CycleOfThree& cycle : verdicts.cycles) cycles.emplace_back(cycle.begin(), cycle.end());
   const Panel panels[] = {
       {"triangle", verdicts.triangle, verdicts.pair_triangle, std::move(cycles)},
       {"rigid", verdicts.rigid, verdicts.pair_rigid, ringsOf(graph, verdicts.pair_rigid)}};
-  const float half = 0.5F * static_cast<float>(canvas.width());
-  const auto height = static_cast<float>(canvas.height());
+  const float half = 0.5F * static_cast<float>(picture_width);
+  const auto height = static_cast<float>(picture_height);
   float left = 0.0F;
   for (const Panel& panel : panels) {
     painter.beginLayer();
@@ -289,7 +295,7 @@ Picture drawGraph(Canvas& canvas, const ContactGraph& graph, const CycleVerdicts
   }
   painter.box({std::round(half), 0.0F, 1.0F, height}, 0.0F,
               {.fill = mix(theme.background, theme.ink, 0.15)});
-  return canvas.draw(drawing);
+  return drawing;
 }
 
 }  // namespace merge2d

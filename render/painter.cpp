@@ -19,7 +19,7 @@ float signedArea(std::span<const Pixel> v) {
 }  // namespace
 
 void Painter::beginLayer(std::optional<PixelBox> clip) {
-  drawing_.layers.push_back({clip, {}, {}, {}});
+  drawing_.layers.push_back({clip, {}, {}, {}, {}});
 }
 
 ShapeInstance& Painter::add(Pixel center, const Paint& paint) {
@@ -92,6 +92,12 @@ float Painter::write(std::string_view text, Font font, Pixel at, Color color, Al
   if (align == Align::Center) at.x -= 0.5F * width;
   if (align == Align::Right) at.x -= width;
   text_.set(layer().glyphs, text, font, at.x, at.y, color);
+  layer().lines.push_back({std::string(text),
+                           {std::round(at.x), std::round(at.y)},
+                           width,
+                           font.size,
+                           font.weight == Weight::Bold,
+                           color});
   return at.x + width;
 }
 

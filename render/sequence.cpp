@@ -14,8 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "render/frame.h"
-#include "render/png.h"
+#include "render/frame_encoder.h"
 #include "src2d/core/error.h"
 
 namespace merge2d {
@@ -75,24 +74,18 @@ class Queue {
   bool closed_ = false;
 };
 
-/// What a worker draws with: memory that all its frames share.
-struct Studio {
-  explicit Studio(const FrameStyle& style) : canvas(style.width, style.height) {}
-
-  Canvas canvas;
-  Picture picture;
-  PngEncoder encoder;
-};
-
 }  // namespace
 
-std::string frameName(std::int64_t number) { return fmt::format("frame_{:06}.png", number); }
+std::string frameName(std::int64_t number, FrameFormat format) {
+  return fmt::format("frame_{:06}.{}", number, format == FrameFormat::Svg ? "svg" : "png");
+}
 
 std::optional<std::int64_t> frameNumber(std::string_view name) {
   constexpr std::size_t kDigits = 6;
-  constexpr std::string_view kStart = "frame_", kEnd = ".png";
+  constexpr std::string_view kStart = "frame_", kEnd = ".png", kVectorEnd = ".svg";
   if (name.size() != kStart.size() + kDigits + kEnd.size()) return std::nullopt;
-  if (!name.starts_with(kStart) || !name.ends_with(kEnd)) return std::nullopt;
+  if (!name.starts_with(kStart)) return std::nullopt;
+  if (!name.ends_with(kEnd) && !name.ends_with(kVectorEnd)) return std::nullopt;
   std::int64_t number = 0;
   const std::string_view digits = name.substr(kStart.size(), kDigits);
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + kDigits, number);
@@ -133,10 +126,10 @@ struct SequenceWriter::Impl {
   /// A worker: draws and writes one job after the other until there are none.
   void work() {
     try {
-      std::unique_ptr<Studio> studio;
+      std::unique_ptr<FrameEncoder> encoder;  // with memory that all frames share
       for (Job job; queue.pop(job);) {
-        if (!studio) studio = std::make_unique<Studio>(style);
-        drawAndWrite(*studio, job);
+        if (!encoder) encoder = std::make_unique<FrameEncoder>(bodies, looks, style);
+        drawAndWrite(*encoder, job);
       }
     } catch (...) {
       const std::lock_guard lock(mutex);
@@ -145,21 +138,18 @@ struct SequenceWriter::Impl {
     }
   }
 
-  void drawAndWrite(Studio& studio, const Job& job) {
+  void drawAndWrite(FrameEncoder& encoder, const Job& job) {
     const Clock::time_point start = Clock::now();
-    Canvas& canvas = studio.canvas;
-    canvas.draw(composeFrame(canvas.text(), job.snapshot, bodies, looks, style, job.slots),
-                studio.picture);
+    encoder.draw(job.snapshot, job.slots);
     const double draw_seconds = secondsSince(start);
-    const std::span<const std::uint8_t> png = studio.encoder.encode(
-        studio.picture, {.alpha = style.transparent, .description = describe(job.snapshot, style)});
+    const std::span<const std::uint8_t> file = encoder.encode();
     constexpr bool kDurable = false;  // thousands of files; a damaged one is drawn again
-    writeAtomically(options.folder / frameName(job.frame), png, kDurable);
-    if (options.digests != nullptr) options.digests->note(job.frame, png);
+    writeAtomically(options.folder / frameName(job.frame, style.format), file, kDurable);
+    if (options.digests != nullptr) options.digests->note(job.frame, file);
 
     const std::lock_guard lock(mutex);
     ++stats.written;
-    stats.bytes += png.size();
+    stats.bytes += file.size();
     stats.draw_seconds += draw_seconds;
     stats.encode_seconds += secondsSince(start) - draw_seconds;
   }
@@ -167,7 +157,7 @@ struct SequenceWriter::Impl {
   /// Whether this frame is there from an earlier rendering.
   bool isThere(std::int64_t frame) const {
     return options.resume && options.digests != nullptr &&
-           options.digests->holds(frame, options.folder / frameName(frame));
+           options.digests->holds(frame, options.folder / frameName(frame, style.format));
   }
 
   void rethrow() {

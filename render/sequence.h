@@ -15,8 +15,8 @@
 namespace merge2d {
 
 /// "frame_000012.png": of constant width, so that names sort like numbers.
-std::string frameName(std::int64_t number);
-/// 12; nothing when it is no frame's name.
+std::string frameName(std::int64_t number, FrameFormat format = FrameFormat::Png);
+/// 12, of either format; nothing when it is no frame's name.
 std::optional<std::int64_t> frameNumber(std::string_view name);
 
 struct SequenceOptions {

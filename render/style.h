@@ -14,9 +14,16 @@ namespace merge2d {
 
 class Coverage;
 
+/// The files that frames become.
+enum class FrameFormat {
+  Png,  ///< pixels, drawn by OpenGL
+  Svg,  ///< the same shapes as vector graphics
+};
+
 struct FrameStyle {
   int width = 1280, height = 720;  ///< [px]
   Theme theme = lightTheme();
+  FrameFormat format = FrameFormat::Png;
   bool transparent = false;  ///< no background
   Overlays overlays = Overlays::standard();
   std::string title;
