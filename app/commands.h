@@ -19,5 +19,7 @@ void addCyclesCommand(CLI::App& program, Action& action);
 void addStepCommand(CLI::App& program, Action& action);
 void addExplainCommand(CLI::App& program, Action& action);
 void addDoctorCommand(CLI::App& program, Action& action);
+void addCompletionCommand(CLI::App& program, Action& action);
+void addStudyCommand(CLI::App& program, Action& action);
 
 }  // namespace merge2d

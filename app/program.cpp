@@ -23,6 +23,7 @@ constexpr const char* kProgramExamples = R"(Examples:
   merge2d run tower-platform            simulate one, and sum it up
   merge2d render tower-platform         draw it to frames/tower-platform/
   merge2d compare dominoes              how fast each mode is, and how near the reference
+  merge2d study grid.toml -o thresholds run it many times, with parameters that vary
   merge2d lesson tower-platform         write a page to step through it in a browser
   merge2d step books                    walk through it, stage by stage, and back
   merge2d explain tower-platform --at 118
@@ -37,7 +38,8 @@ void addCommands(CLI::App& program, Action& action) {
   program.name("merge2d");
   program.formatter(std::make_shared<HelpFormatter>());
   program.set_help_flag("-h,--help", "Print this help and exit");
-  program.set_version_flag("--version", "merge2d " MERGE2D_VERSION, "Print the version and exit");
+  program.set_version_flag("-V,--version", "merge2d " MERGE2D_VERSION,
+                           "Print the version and exit");
   program.require_subcommand(0, 1);
   program.footer(kProgramExamples);
   addListCommand(program, action);
@@ -45,11 +47,13 @@ void addCommands(CLI::App& program, Action& action) {
   addRunCommand(program, action);
   addRenderCommand(program, action);
   addCompareCommand(program, action);
+  addStudyCommand(program, action);
   addLessonCommand(program, action);
   addCyclesCommand(program, action);
   addStepCommand(program, action);
   addExplainCommand(program, action);
   addDoctorCommand(program, action);
+  addCompletionCommand(program, action);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
 }
 
