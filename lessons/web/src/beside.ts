@@ -1,11 +1,11 @@
 // Another run beside the picture, at the same step and stage: the reference, or the paper's rule.
-import { h } from './dom';
+import { h, plural } from './dom';
 import { Picture } from './picture';
 import { State } from './state';
 import type { Trace } from './trace';
 
 function nameOf(state: State): string {
-  return state.live && state.besideKind === 'paper' ? 'The paper’s rule' : 'Reference: nothing merged';
+  return state.live && state.besideKind === 'paper' ? 'The paper’s rule' : 'Reference, nothing merged';
 }
 
 /** The largest distance of a body between the two runs [m]. */
@@ -19,7 +19,7 @@ function offset(one: Trace, other: Trace, step: number): number {
   return most;
 }
 
-export function beside(state: State, frame: HTMLElement): HTMLElement {
+export function beside(state: State, own: Picture, frame: HTMLElement): HTMLElement {
   const root = h('div', { class: 'frames' }, frame);
   const shown = new State(state.traces);
   let other: { of: Trace; picture: Picture; frame: HTMLElement; label: HTMLElement } | null = null; // only while it is seen
@@ -34,17 +34,19 @@ export function beside(state: State, frame: HTMLElement): HTMLElement {
     if (!wanted) return;
     if (!other) {
       const picture = new Picture(reference, false);
-      const label = h('div', { class: 'badge' });
-      other = { of: reference, picture, label, frame: h('div', { class: 'frame' }, picture.root, label) };
+      const label = h('div', { class: 'frame-head' });
+      other = { of: reference, picture, label, frame: h('div', { class: 'frame second' }, picture.root, label) };
       root.append(other.frame);
     }
     Object.assign(shown, { stage: state.stage, playing: state.playing, selection: state.selection, trace: reference });
     shown.step = Math.min(state.step, shown.steps);
     shown.layers.clear();
     for (const layer of state.layers) shown.layers.add(layer);
+    other.picture.lens.follow(own.lens);
     other.picture.draw(shown);
     const s = reference.stats(shown.step);
-    other.label.textContent = `${nameOf(state)} · ${s.active} bodies, ${s.contacts} contacts · largest offset ${(1000 * offset(state.trace, reference, shown.step)).toFixed(0)} mm`;
+    other.label.replaceChildren(h('strong', {}, nameOf(state)), h('span', {}, `${plural(s.active, 'body', 'bodies')}, ${plural(s.contacts, 'contact')} to solve`),
+      h('span', {}, `largest offset ${(1000 * offset(state.trace, reference, shown.step)).toFixed(0)} mm`));
   });
   return root;
 }

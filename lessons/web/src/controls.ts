@@ -1,5 +1,6 @@
 // The transport, the slider over time and the legend that switches layers.
 import { h, svg } from './dom';
+import { apart } from './picture';
 import { type Flag, kSliderInset, lanes } from './lanes';
 import { kLayers, kOfReference, type LayerId, type State } from './state';
 
@@ -112,7 +113,7 @@ export function transport(state: State, flags: () => Flag[], takeOver: HTMLEleme
         iconButton('Next event', 'M4 5l8 7-8 7zM12 5l8 7-8 7z', halt(() => state.nextEvent(undefined, 1)), ']'),
         iconButton('To the end', 'M16 4h3v16h-3zM4 4v16l11-8z', halt(() => state.goTo(state.steps)), 'End')),
       clock, notice),
-    takeOver,
+    h('div', { class: 'take-over-place' }, takeOver),
     h('div', { class: 'timeline' }, lanes(state, flags), slider));
   const faster = (by: number) => {
     const at = Math.max(0, Math.min(kSpeeds.length - 1, kSpeeds.indexOf(state.speed) + by));
@@ -134,34 +135,53 @@ const kMarks: Record<LayerId, [d: string, look: string]> = {
   labels: ['M3 12l5 -9l5 9M5 9h6M15 12v-6M15 9a3 3 0 1 1 0 .1', 'text-mark'],
   beside: ['M2 3h8v10h-8zM14 3h8v10h-8z', 'text-mark'],
 };
+/** The marks of contacts, named beside their switch. */
+const kOfContacts: [string, string, string][] = [
+  ['merged', 'M8 4h8v8h-8z', 'merged'], ['active', 'M12 8m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0', 'solved'], ['cut', 'M8 4l8 8m0 -8l-8 8', 'came apart']];
 const kFirst: LayerId[] = ['contacts', 'velocities', 'forces', 'graph', 'ghost', 'labels'];
 
 export function layerSwitches(state: State): HTMLElement {
-  const chip = (id: LayerId) => {
+  const chip = (id: LayerId, rich = false) => {
     const layer = kLayers.find((one) => one.id === id);
     const digit = kLayers.findIndex((one) => one.id === id) + 1;
     const [d, look] = kMarks[id];
+    const word = h('span', { class: 'plain-word' }, layer?.label ?? id);
     const button = h('button', {
       type: 'button', class: 'chip', 'data-layer': id, title: `${layer?.label ?? id} (${digit})`, onclick: () => toggleLayer(state, digit),
-    }, h('span', { class: 'check', 'aria-hidden': true }), svg('svg', { viewBox: '0 0 24 16', 'aria-hidden': true }, svg('path', { d, class: look })), layer?.label ?? id);
+      'aria-label': layer?.label ?? id,
+    }, h('span', { class: 'check', 'aria-hidden': true }), rich && id === 'contacts' ? h('span', { class: 'rich' }, ...kOfContacts.flatMap(([kind, mark, word]) => [
+      svg('svg', { viewBox: '0 0 24 16', class: kind, 'aria-hidden': true }, svg('path', { d: mark, class: kind })), h('span', {}, word)])) : null,
+    svg('svg', { viewBox: '0 0 24 16', class: 'plain-mark', 'aria-hidden': true }, svg('path', { d, class: look })), word);
     state.onChange(() => {
       button.setAttribute('aria-pressed', String(state.layers.has(id)));
       button.hidden = kOfReference.includes(id) && !state.hasReference;
+      if (id === 'ghost') word.textContent = ghostWord(state);
     });
     return button;
   };
   const rest = kLayers.map((layer) => layer.id).filter((id) => !kFirst.includes(id));
   const more = h('details', { class: 'more-layers' }, h('summary', { 'aria-label': 'More layers', title: 'More layers' }, '…'),
-    h('div', { class: 'popover' }, ...[...kFirst, ...rest].map(chip), h('dl', { class: 'key' }, ...kKey.flatMap(([look, mark, text]) => [
+    h('div', { class: 'popover' }, ...[...kFirst, ...rest].map((id) => chip(id)), h('dl', { class: 'key' }, ...kKey.flatMap(([look, mark, text]) => [
       h('dt', {}, svg('svg', { viewBox: '0 0 24 16', 'aria-hidden': true }, svg('path', { d: mark, class: look }))), h('dd', {}, text)]))));
   closesOutside(more);
-  const row = h('div', { class: 'chips' }, ...kFirst.map(chip));
+  const row = h('div', { class: 'chips' }, ...kFirst.map((id) => chip(id, true)));
   // Chips that find no place are in the menu alone.
   new ResizeObserver(() => {
     const chips = [...row.children] as HTMLElement[];
     for (const one of chips) one.style.visibility = one.offsetTop > chips[0].offsetTop + 4 ? 'hidden' : '';
   }).observe(row);
   return h('div', { class: 'layers', role: 'group', 'aria-label': 'Layers of the picture' }, row, more);
+}
+
+/** How near the reference is, where no outline of it is to be seen. */
+function ghostWord(state: State): string {
+  const { reference, trace, step } = state;
+  if (!state.layers.has('ghost') || !reference || reference === trace || state.veiled) return 'Reference';
+  let most = 0;
+  for (const [i, body] of trace.head.bodies.entries()) {
+    if (body.motion === 'dynamic' && trace.present(i, step) && i < reference.bodies.length && reference.present(i, step)) most = Math.max(most, apart(reference, trace, i, step));
+  }
+  return most < 0.01 ? `Reference (within ${Math.max(1, Math.ceil(1000 * most))} mm)` : 'Reference';
 }
 
 /** The legend of the marks. */

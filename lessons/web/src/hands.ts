@@ -1,4 +1,6 @@
 // Hands on a live run: loads on a body are drawn, and a pointer in the picture pulls, pushes, throws, pins, adds.
+import { number } from './dom';
+import type { Vec } from './head';
 import type { Picture } from './picture';
 import type { Paths, Sight } from './sight';
 import type { State } from './state';
@@ -20,25 +22,41 @@ export function hands(sight: Sight): Paths {
   return { hand };
 }
 
-/** The loads of the scene itself on bodies. */
-export function loads(sight: Sight): Paths {
+/** A load of the scene itself: where it acts, its arrow, and its size in words. */
+export interface Load {
+  from: Vec;
+  to: Vec;
+  told: string;
+}
+
+export function loadsShown(sight: Sight): Load[] {
   const { state, trace, view, scales, posed } = sight;
-  let d = '';
+  const out: Load[] = [];
+  // The arrow ends at the body; its number stands beside it, so a small one need not be hard to see.
+  const add = (x: number, y: number, fx: number, fy: number, length: number, told: string) => {
+    const size = Math.hypot(fx, fy) || 1;
+    out.push({ from: [x - (length * fx) / size, y + (length * fy) / size], to: [x, y], told });
+  };
   for (const [body, ax, ay, fx, fy, from, until] of trace.head.forces ?? []) {
     if (state.time < from || state.time > (until ?? Infinity) || !trace.present(body, posed)) continue;
     const pose = trace.pose(body, posed);
     const [c, s] = [Math.cos(pose.angle), Math.sin(pose.angle)];
     const [x, y] = view.at([pose.x + c * ax - s * ay, pose.y + s * ax + c * ay]);
-    d += arrow(x - fx * scales.force, y + fy * scales.force, fx * scales.force, -fy * scales.force);
+    const size = Math.hypot(fx, fy);
+    add(x, y, fx, fy, Math.min(160, Math.max(50, size * scales.force)), `${number(size)} N`);
   }
   for (const [, ax, ay, ix, iy, time] of trace.head.impulses ?? []) {
     // From the step before to a quarter of a second after it.
     if (state.time < time - 1.5 * trace.head.h || state.time > time + 0.25) continue;
-    const size = Math.hypot(ix, iy) || 1;
     const [x, y] = view.at([ax, ay]);
-    d += arrow(x - (90 * ix) / size, y + (90 * iy) / size, (90 * ix) / size, (-90 * iy) / size);
+    add(x, y, ix, iy, 90, `${number(Math.hypot(ix, iy))} N s`);
   }
-  return { loads: d };
+  return out;
+}
+
+/** The arrows of the loads. */
+export function loads(sight: Sight): Paths {
+  return { loads: loadsShown(sight).map(({ from, to }) => arrow(...from, to[0] - from[0], to[1] - from[1])).join('') };
 }
 
 /** In the frame of a body. */

@@ -65,7 +65,7 @@ function figure(state: State, series: Series): HTMLElement {
 function bodyView(state: State, id: number): HTMLElement[] {
   const trace = state.trace;
   const info = trace.head.bodies[id];
-  const out: HTMLElement[] = [h('h3', {}, info.name)];
+  const out: HTMLElement[] = [h('h3', {}, trace.name(id))];
   if (!trace.present(id, state.step)) return [...out, h('p', {}, 'It is not there yet.')];
   const pose = trace.pose(id, state.step);
   const v = trace.velocity(id, state.step);
@@ -77,6 +77,7 @@ function bodyView(state: State, id: number): HTMLElement[] {
     .filter((c) => (c.a === id || c.b === id) && c.spans.at(state.step) >= 0)
     .map((c) => (c.a === id ? c.b : c.a)))];
   out.push(h('dl', {},
+    ...(trace.name(id) === info.name ? [] : [row('Name in the scene', info.name)]),
     row('State', belongs),
     row('Mass', `${number(info.mass)} kg`),
     row('Place', `(${number(pose.x)}, ${number(pose.y)}) m`),

@@ -15,9 +15,9 @@ const kLanes: Lane[] = [
   { label: 'Merges', kinds: ['merge'], mark: (x, y) => `M${x - 2.5} ${y - 3.5}h5v7h-5z` },
   { label: 'Sleep', kinds: ['sleep', 'wake'], mark: (x, y) => `M${x - 3} ${y}a3 3 0 1 0 6 0a3 3 0 1 0 -6 0` },
 ];
-const kPitch = 15;
-const kLeft = 68;
-export const kSliderInset = { left: kLeft, right: 14 };
+export const kSliderInset = { left: 68, right: 14 };
+/** Without names and parts where there is little room. */
+const kNarrow = matchMedia('(max-width: 699px), (max-height: 499px)');
 
 export interface Flag {
   step: number;
@@ -28,23 +28,26 @@ export function lanes(state: State, flags: () => Flag[]): SVGSVGElement {
   const root = svg('svg', { class: 'marks', role: 'img', 'aria-label': 'Events over time' });
   let width = 0;
   let drawn = '';
-  const x = (step: number) => kLeft + ((width - kLeft - kSliderInset.right) * step) / Math.max(1, state.steps);
+  let kLeft = kSliderInset.left, kRight = kSliderInset.right, kPitch = 15;
+  const x = (step: number) => kLeft + ((width - kLeft - kRight) * step) / Math.max(1, state.steps);
 
   const draw = () => {
     const last = state.live ? state.live.trace.known : state.steps;
     const until = state.veiled ? state.step : last;
-    const key = [width, state.trace.label, state.trace.head.mode, until, state.steps, state.live?.deeds.length, flags().length].join('|');
+    const narrow = kNarrow.matches;
+    [kLeft, kRight, kPitch] = narrow ? [11, 11, 9] : [kSliderInset.left, kSliderInset.right, 15];
+    const key = [narrow, width, state.trace.label, state.trace.head.mode, until, state.steps, state.live?.deeds.length, flags().length].join('|');
     if (width === 0 || key === drawn) return;
     drawn = key;
     const shown = kLanes.filter((lane, i) => i < 3 || state.trace.eventSteps(lane.kinds).length > 0);
-    const height = shown.length * kPitch + 18;
+    const height = shown.length * kPitch + (narrow ? 2 : 18);
     root.setAttribute('viewBox', `0 0 ${width} ${height}`);
     root.style.height = `${height}px`;
     root.replaceChildren();
     for (const [row, lane] of shown.entries()) {
       const y = row * kPitch + kPitch / 2 + 1;
-      root.append(svg('text', { class: 'lane-name', x: 0, y: y + 4 }, lane.label),
-        svg('rect', { class: 'lane', x: kLeft, y: y - 6, width: Math.max(0, width - kLeft - kSliderInset.right), height: 12, rx: 2 }));
+      if (!narrow) root.append(svg('text', { class: 'lane-name', x: 0, y: y + 4 }, lane.label));
+      root.append(svg('rect', { class: 'lane', x: kLeft, y: y - (narrow ? 3 : 6), width: Math.max(0, width - kLeft - kRight), height: narrow ? 6 : 12, rx: 2 }));
       let d = '';
       let before = -Infinity;
       for (const step of state.trace.eventSteps(lane.kinds)) {
@@ -57,14 +60,14 @@ export function lanes(state: State, flags: () => Flag[]): SVGSVGElement {
       root.append(svg('path', { d, class: `mark ${lane.kinds[0]}` }));
     }
     drawFork(height);
-    drawFlags(height);
+    if (!narrow) drawFlags(height);
   };
 
   const drawFork = (height: number) => {
     if (!state.live) return;
     const from = x(state.live.fork);
     root.append(svg('path', { class: 'fork', d: `M${from} 0V${height - 14}` }),
-      svg('text', { class: 'lane-name own', x: width - kSliderInset.right - 4, y: kPitch + kPitch / 2 + 5 }, 'your run'));
+      svg('text', { class: 'lane-name own', x: width - kRight - 4, y: kPitch + kPitch / 2 + 5 }, 'your run'));
     for (const deed of state.live.deeds.filter((one, i, all) => all[i - 1]?.step !== one.step)) {
       root.append(svg('path', { class: 'deed', d: `M${x(deed.step)} 0v3` }));
     }

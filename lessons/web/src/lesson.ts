@@ -3,6 +3,7 @@ import { h } from './dom';
 import { roving } from './rail';
 import { kLast, stageAt } from './stages';
 import type { LayerId, Selection, State } from './state';
+import type { Trace } from './trace';
 
 export interface Option {
   text: string;
@@ -96,6 +97,13 @@ export function shownOrder(question: Question): number[] {
   return order;
 }
 
+/** Whether all options are members of one array of bodies: then their numbers are enough. */
+function ofOneKind(question: Question, trace: Trace): boolean {
+  if (question.options.length < 4 || question.options.some((option) => option.bodies.length !== 1)) return false;
+  const [first, ...others] = question.options.map((option) => trace.short(option.bodies[0]));
+  return first.number > 0 && others.every((other) => other.base === first.base && other.number > 0);
+}
+
 export class LessonPanel {
   readonly root: HTMLElement;
   readonly dots: HTMLElement;
@@ -154,6 +162,11 @@ export class LessonPanel {
   }
   get part(): number {
     return this.current;
+  }
+  /** From where to where the part goes. */
+  get moment(): { step: number; reveal: number; trace: number } {
+    const { step, trace, question } = this.lesson.parts[this.current];
+    return { step, trace, reveal: Math.max(step, question?.reveal ?? step) };
   }
 
   /** A click in the picture that means an option. True when it was one. */
@@ -316,20 +329,22 @@ export class LessonPanel {
       this.ask.replaceChildren();
       return;
     }
+    const alike = ofOneKind(question, this.state.trace);
     const options = shownOrder(question).map((i) => {
       const option = question.options[i];
       const input = h('input', {
+        'aria-label': alike ? this.state.trace.name(option.bodies[0]) : undefined,
         type: question.several ? 'checkbox' : 'radio', name: 'answer', value: i, checked: given.chosen.has(i), disabled: given.done,
         onchange: () => this.choose(i, input.checked),
       });
       const mark = given.done ? (option.right ? ' ✓' : given.chosen.has(i) ? ' ✗' : '') : '';
       const look = given.done ? (option.right ? 'option right' : given.chosen.has(i) ? 'option wrong' : 'option') : 'option';
-      return h('label', { class: look }, input, h('span', {}, option.text, mark && h('strong', {}, mark)));
+      return h('label', { class: look }, input, h('span', {}, alike ? String(this.state.trace.short(option.bodies[0]).number) : this.state.trace.told(option.text), mark && h('strong', {}, mark)));
     });
     const inPicture = question.options.some((option) => option.bodies.length > 0);
     const field = h('fieldset', {},
       h('legend', {}, question.ask), inPicture && !given.done ? h('p', { class: 'hint' }, 'Choose in the picture or here. Nothing is counted.') : null,
-      h('div', { class: question.options.length > 6 ? 'options many' : 'options' }, ...options));
+      h('div', { class: alike ? 'options by-number' : question.options.length > 6 ? 'options many' : 'options' }, ...options));
     this.ask.replaceChildren(field, ...(given.done ? [this.verdict(question, given)] : []));
   }
 
@@ -341,7 +356,7 @@ export class LessonPanel {
     const words = given.skipped ? 'The answer: ' : !wrong ? 'Right. '
       : question.several ? `${found} of ${rights}, ${falses === 0 ? 'no false ones' : `${falses} false`}. ` : 'Not quite. ';
     return h('p', { class: given.skipped ? 'verdict' : wrong ? 'verdict wrong' : 'verdict right', tabindex: -1 },
-      h('strong', {}, words), question.because);
+      h('strong', {}, words), this.state.trace.told(question.because));
   }
 
   /** The answers, for oneself or a teacher. */

@@ -12,7 +12,7 @@ export function linkTo(state: State, part: number | undefined): string {
   words.set('step', String(state.step));
   if (state.stage !== kLast) words.set('stage', String(state.stage + 1));
   const s = state.selection;
-  if (s) words.set('bodies', (s.kind === 'pair' ? [s.a, s.b] : [s.body]).map((body) => state.trace.name(body)).join('&'));
+  if (s) words.set('bodies', (s.kind === 'pair' ? [s.a, s.b] : [s.body]).map((body) => state.trace.head.bodies[body].name).join('&'));
   if (state.live) {
     words.set('fork', String(state.live.fork));
     for (const deed of state.live.deeds) words.append('do', `${deed.step} ${deed.line}`);

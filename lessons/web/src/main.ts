@@ -13,6 +13,8 @@ import { inspector } from './inspector';
 import { helpDialog, listenToKeys } from './keys';
 import { ledger } from './ledger';
 import { type CoursePlace, type Lesson, LessonPanel } from './lesson';
+import { homeOf, isEnough } from './camera';
+import type { Box } from './labels';
 import { speak } from './language';
 import { copied, follow, linkTo, listenToAddress } from './link';
 import { nowCard } from './now';
@@ -109,7 +111,7 @@ function counts(state: State): HTMLElement {
     root.hidden = state.veiled;
     const s = state.trace.stats(state.step);
     const part = (n: number, one: string, many: string) => [h('strong', {}, String(n)), ` ${n === 1 ? one : many}`];
-    root.replaceChildren(...part(s.collections, 'collection', 'collections'), ' · ', ...part(s.active, 'body', 'bodies'), ' · ', ...part(s.contacts, 'contact to solve', 'contacts to solve'));
+    root.replaceChildren(h('strong', { class: 'only-two' }, state.live ? 'Your run' : 'This run'), ...part(s.collections, 'collection', 'collections'), ' · ', ...part(s.active, 'body', 'bodies'), ' · ', ...part(s.contacts, 'contact to solve', 'contacts to solve'));
   });
   return root;
 }
@@ -133,18 +135,26 @@ function start(): void {
   const help = helpDialog();
   const now = nowCard(state);
   const words = panel?.root ?? sceneWords(state, data.title, now);
-  const frame = h('div', { class: 'frame', id: 'picture', tabindex: -1 }, picture.root, counts(state), badge(state), lensButtons(picture));
+  // Names keep their size and their places when one zooms.
+  let due = 0;
+  const redraw = () => {
+    cancelAnimationFrame(due);
+    due = requestAnimationFrame(() => picture.draw(state));
+  };
+  const frame = h('div', { class: 'frame', id: 'picture', tabindex: -1 }, picture.root, counts(state), badge(state), lensButtons(picture, redraw));
 
-  picture.onPick = ({ body, contact, at }) => {
+  picture.onPick = ({ body, contact, at, turn, of }) => {
     if (state.live) {
       const line = clickLine(state, body, at);
       if (line) return void state.act(line);
     }
     const bodies = contact ? [contact.a, contact.b] : body !== undefined ? [body] : [];
     if (panel?.pick(bodies) || (body !== undefined && panel?.pick([body]))) return;
+    state.notice = contact && of > 1 ? `${turn + 1} of ${of} pairs here: click again for the next.` : '';
     choose(state, contact ? { a: contact.a, b: contact.b } : { body });
   };
   listenToHands(picture, state, controls.play, live.say);
+  if (panel) aim(picture, state, panel);
   state.onChange(() => {
     picture.draw(state);
     picture.show(panel?.marked());
@@ -160,7 +170,7 @@ function start(): void {
   const more = () => {
     drawer.hidden = !drawer.hidden;
     moreButton.setAttribute('aria-expanded', String(!drawer.hidden));
-    (drawer.hidden ? moreButton : drawer).focus();
+    (drawer.hidden ? (moreButton.offsetParent ? moreButton : frame) : drawer).focus();
   };
   const others = whatIf(state);
   const status = h('span', { class: 'copied', role: 'status' });
@@ -176,15 +186,16 @@ function start(): void {
     h('a', { class: 'skip', href: '#picture', onclick: (event) => { event.preventDefault(); frame.focus(); } }, 'To the picture'),
     h('header', {},
       h('h1', {}, h('span', { class: 'kicker' }, data.course.number > 0 ? `Lesson ${data.course.number} of ${data.course.of}` : data.lesson ? 'Lesson' : 'Scene'), data.title),
-      liveHeader(state), panel?.dots ?? null, h('div', { class: 'compare' }), status, moreButton, link,
-      menu(kept, themeButton(), soundSwitch(state), h('button', { type: 'button', class: 'item', onclick: () => help.showModal() }, 'Keys'),
+      liveHeader(state), panel?.dots ?? null, h('div', { class: 'compare wide' }), status, moreButton, link,
+      menu(kept, h('button', { type: 'button', class: 'item', onclick: () => more() }, 'More numbers'), themeButton(), soundSwitch(state), h('button', { type: 'button', class: 'item', onclick: () => help.showModal() }, 'Keys'),
         h('label', { class: 'item' }, 'Speed ', controls.speed), h('div', { class: 'item compare' }), thresholdSlider(state),
         ...answers, h('button', { type: 'button', class: 'item', onclick: () => window.print() }, 'Print'))),
     h('main', {}, words, live.root,
-      h('section', { class: 'world panel', 'aria-label': 'World' }, beside(state, frame), layerSwitches(state)),
+      h('section', { class: 'world panel', 'aria-label': 'World' }, beside(state, picture, frame), layerSwitches(state)),
       whyCard(state, equationCard(state)), ribbon(state), controls.root),
     drawer, help);
-  if (others) placeByWidth(others);
+  if (others) placeByWidth(others, '(min-width: 1360px)', '.compare.wide', '.compare.item');
+  placeByWidth(takeOver, '(max-width: 699px)', '.layers', '.take-over-place');
   switchPanels(state, words, live.root);
   listenToKeys(state, controls, {
     help: () => help.showModal(), part: (by) => panel?.move(by), takeOver: toggleLive, more, question: () => panel?.focusQuestion(),
@@ -199,18 +210,36 @@ function start(): void {
   void loadEngine(state);
 }
 
-/** In the header where there is room, else in the menu. */
-function placeByWidth(node: HTMLElement): void {
-  const wide = matchMedia('(min-width: 1360px)');
-  const [header, inMenu] = document.querySelectorAll('.compare');
-  const place = () => (wide.matches ? header : inMenu).append(node);
+/** The camera of a part: on the bodies that it is about, and on the whole when others come in. A hand moves it itself. */
+function aim(picture: Picture, state: State, panel: LessonPanel): void {
+  let part = -1;
+  let home: Box | null = null;
+  state.onChange(() => {
+    if (state.live) return;
+    if (panel.part !== part) {
+      part = panel.part;
+      const { step, reveal, trace } = panel.moment;
+      home = homeOf(state.traces[trace], picture.view, step, reveal);
+      picture.lens.fit();
+    }
+    picture.lens.setHome(home && isEnough(state.trace, picture.view, state.step, home) ? home : null);
+  });
+}
+
+/** In one place where there is room, else in another. */
+function placeByWidth(node: HTMLElement, query: string, there: string, else_: string): void {
+  const wide = matchMedia(query);
+  const place = () => document.querySelector(wide.matches ? there : else_)?.append(node);
   wide.addEventListener('change', place);
   place();
 }
 
-function lensButtons(picture: Picture): HTMLElement {
+function lensButtons(picture: Picture, redraw: () => void): HTMLElement {
   const fit = iconButton('Fit', 'M4 4h6v2H6v4H4zM14 4h6v6h-2V6h-4zM4 14h2v4h4v2H4zM18 14h2v6h-6v-2h4z', () => picture.lens.fit(), 'F');
-  picture.lens.onChange = () => { fit.hidden = picture.lens.isWhole; };
+  picture.lens.onChange = () => {
+    fit.hidden = picture.lens.isWhole;
+    redraw();
+  };
   fit.hidden = true;
   return h('div', { class: 'lens', role: 'group', 'aria-label': 'Zoom' }, fit,
     iconButton('Closer', 'M11 5h2v6h6v2h-6v6h-2v-6H5v-2h6z', () => picture.lens.zoomBy(1.4)),

@@ -15,8 +15,8 @@ export function velocities(sight: Sight): Paths {
     if (body.motion === 'pinned' || !trace.present(i, posed) || !trace.present(i, at)) continue;
     const pose = trace.pose(i, posed);
     const v = trace.velocity(i, at);
-    // Long arrows are drawn shorter: the eye still compares them.
-    const scale = sight.scales.velocity * Math.min(1, 3 / Math.max(Math.hypot(v.vx, v.vy), 1e-9));
+    const scale = view.scale / sight.perMetre;
+    if (scale * Math.hypot(v.vx, v.vy) < 4) continue; // a dot, not an arrow
     velocity += arrow(view.x(pose.x), view.y(pose.y), scale * v.vx, -scale * v.vy);
   }
   return { velocity };

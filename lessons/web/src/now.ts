@@ -30,7 +30,8 @@ const kStageOfEvent: Record<string, string> = {
   merge: 'Merge', unmerge: 'Unmerge', impact: 'ContactOrdering', sleep: 'SleepAndWake', wake: 'SleepAndWake',
 };
 
-function eventsShown(state: State): EventRow[] {
+/** The events of the moment that is shown. */
+export function eventsShown(state: State): EventRow[] {
   const rows = state.trace.eventsAt.get(state.step) ?? [];
   return rows.filter((row) => {
     const at = stageAt(kStageOfEvent[row[1]]);

@@ -2,16 +2,17 @@
 import { contactMarks, focus, forces, graph, heat } from './contacts';
 import { svg } from './dom';
 import { lookOf } from './groups';
-import type { BodyInfo, Vec } from './head';
-import { Labels } from './labels';
-import { hands, loads } from './hands';
+import { boxOnPicture } from './camera';
+import type { Vec } from './head';
+import { type Box, Labels } from './labels';
+import { hands, loads, loadsShown } from './hands';
 import { boxes, corners, newCollections, springs, velocities, ways } from './motions';
 import { Lens } from './lens';
 import { type Sight, sightOf } from './sight';
 import type { State } from './state';
 import { fixed, outline } from './strokes';
 import type { Contact, Trace } from './trace';
-import { kHeight, kWidth, type Scales, scalesOf, View, widthOf } from './view';
+import { extents, kHeight, kWidth, type Scales, scalesOf, View } from './view';
 
 /** From back to front. */
 const kPaths = ['springs', 'boxes', 'centre', 'graph', 'welds', 'cone', 'heat-calm', 'heat-warm', 'heat-near', 'heat-over',
@@ -25,7 +26,7 @@ let pictures = 0;
 
 export class Picture {
   readonly root: SVGSVGElement;
-  onPick: (hit: { body?: number; contact?: Contact; at: Vec }) => void = () => {};
+  onPick: (hit: { body?: number; contact?: Contact; at: Vec; turn: number; of: number }) => void = () => {};
   readonly view: View;
   readonly lens: Lens;
   private readonly scales: Scales;
@@ -38,6 +39,9 @@ export class Picture {
   private readonly labels = new Labels();
   private readonly numbers = svg('g', { class: 'numbers' });
   private contacts: Contact[] = [];
+  private below = ''; // the pairs under the last click, and which of them was chosen
+  private order: string[] = [];
+  private turn = 0;
 
   constructor(trace: Trace, interactive = true) {
     const [cx, cy, height] = trace.head.camera;
@@ -108,6 +112,7 @@ export class Picture {
       for (const [id, d] of Object.entries(layer(sight))) this.set(id, d);
     }
     this.drawOrder(sight);
+    this.lens.setSecond(sight.perMetre);
     this.drawLabels(sight);
   }
 
@@ -145,8 +150,10 @@ export class Picture {
     for (const [i, ghost] of this.ghosts.entries()) {
       if (!ghost) continue;
       const there = reference.present(i, posed);
-      ghost.style.display = there ? '' : 'none';
-      if (there) this.place(ghost, reference, i, posed);
+      // Where both runs are alike there is one outline, that of the body.
+      const differs = there && apart(reference, state.trace, i, posed) * this.view.scale > 2 * this.lens.unit;
+      ghost.style.display = differs ? '' : 'none';
+      if (differs) this.place(ghost, reference, i, posed);
     }
   }
 
@@ -166,36 +173,44 @@ export class Picture {
     }
   }
 
-  private drawLabels({ state, trace, posed, grouped, view }: Sight): void {
-    this.labels.clear();
-    this.labels.unit = this.lens.unit;
-    // Scripted bodies are told apart from pinned ones.
+  private drawLabels(sight: Sight): void {
+    const { state, trace, posed, grouped, view } = sight;
+    const frame = this.lens.visible;
+    const unit = this.lens.unit;
+    this.labels.unit = unit;
+    // The scale bar and the counts, and the buttons of the zoom.
+    this.labels.clear(frame, [{ ...frame, bottom: frame.top + 36 * unit }, { ...frame, left: frame.right - 90 * unit, top: frame.bottom - 40 * unit }]);
+    const boxes = trace.head.bodies.map((_, i) => (trace.present(i, posed) ? boxOnPicture(trace, view, i, posed) : null));
+    for (const { from, to, told } of loadsShown(sight)) this.labels.put(from[0], Math.min(from[1], to[1]) - 13 * unit, told, 'name');
+    const named = state.layers.has('labels') && boxes.length <= 60;
     for (const [i, body] of trace.head.bodies.entries()) {
-      if (body.motion !== 'scripted' || !trace.present(i, posed)) continue;
-      const pose = trace.pose(i, posed);
-      this.labels.put(view.x(pose.x), view.y(pose.y), `${body.name} ↔`, 'name');
+      const box = boxes[i];
+      if (!box) continue;
+      const { base, number } = trace.short(i);
+      if (body.motion === 'scripted') this.labels.put((Math.max(box.left, frame.left) + Math.min(box.right, frame.right)) / 2, (box.top + box.bottom) / 2, `${base} ↔`, 'name');
+      if (!named || body.motion !== 'dynamic') continue;
+      const inside = this.labels.inside(box, number > 0 ? String(number) : base);
+      // A body of its own is named beside it; members of an array would be mistaken for others.
+      if (!inside && number === 0) this.labels.put((box.left + box.right) / 2, box.top - 9 * unit, base, 'name');
     }
-    if (!state.layers.has('labels')) return;
-    const sums = new Map<number, { x: number; y: number; n: number }>();
-    const few = this.bodies.length <= 40;
-    for (const [i, body] of trace.head.bodies.entries()) {
-      if (!trace.present(i, posed)) continue;
-      const pose = trace.pose(i, posed);
-      if (few && body.motion === 'dynamic') this.labels.put(view.x(pose.x), view.y(pose.y), this.nameThatFits(body), 'name');
-      if (grouped[i] < 0) continue;
-      const sum = sums.get(grouped[i]) ?? { x: 0, y: 0, n: 0 };
-      sums.set(grouped[i], { x: sum.x + pose.x, y: sum.y + pose.y, n: sum.n + 1 });
-    }
-    for (const [id, sum] of sums) {
-      this.labels.put(view.x(sum.x / sum.n), view.y(sum.y / sum.n), `C${id} · ${sum.n}`, 'collection-name');
-    }
+    if (!state.veiled || named) this.drawPills(state, trace, boxes, grouped);
   }
 
-  /** "0,5" of brick[0,5] where the whole name would lie on the neighbours. */
-  private nameThatFits(body: BodyInfo): string {
-    const room = widthOf(body) * this.view.scale;
-    const short = /\[([^\]]*)\]$/.exec(body.name);
-    return short && 8 * this.lens.unit * body.name.length > room ? short[1] : body.name;
+  /** The largest collections, each beside one of its bodies. */
+  private drawPills(state: State, trace: Trace, boxes: (Box | null)[], grouped: Int32Array): void {
+    const members = new Map<number, number[]>();
+    for (const [i, id] of grouped.entries()) if (id >= 0 && boxes[i]) members.set(id, [...(members.get(id) ?? []), i]);
+    const moving = boxes.filter((box, i) => box !== null && trace.head.bodies[i].motion === 'dynamic') as Box[];
+    const narrow = this.root.getBoundingClientRect().width < 480;
+    const largest = [...members].sort(([, a], [, b]) => b.length - a.length).slice(0, 6);
+    for (const [id, all] of largest) {
+      const own = all.filter((i) => trace.head.bodies[i].motion === 'dynamic');
+      if (own.length === 0) continue;
+      const places = own.map((i) => boxes[i] as Box).sort((a, b) => b.right - a.right);
+      const some = places.length <= 14 ? places : places.filter((_, k) => k % Math.ceil(places.length / 14) === 0);
+      const asleep = own.some((i) => trace.asleep(i, state.step));
+      this.labels.pill(some, narrow ? `C${id} · ${own.length}` : `C${id} · ${membersText(trace, all, own)}`, asleep ? 'asleep' : `c${trace.slot(id)}`, moving);
+    }
   }
 
   /** Marks bodies as chosen or right. */
@@ -227,15 +242,42 @@ export class Picture {
     const matrix = this.root.getScreenCTM();
     if (!at || !matrix) return;
     const coarse = (event as PointerEvent).pointerType === 'touch';
-    let best: Contact | undefined;
-    let least = (coarse ? 22 : 12) / matrix.a;
-    for (const c of this.contacts) {
-      const distance = Math.hypot(this.view.x(c.x) - at.x, this.view.y(c.y) - at.y);
-      if (distance < least) {
-        least = distance;
-        best = c;
-      }
-    }
-    this.onPick({ contact: best, body: this.bodyAt(event), at: this.view.world(at.x, at.y) });
+    const reach = (coarse ? 22 : 12) / matrix.a;
+    const far = (c: Contact) => Math.hypot(this.view.x(c.x) - at.x, this.view.y(c.y) - at.y);
+    const near = this.contacts.filter((c) => far(c) < reach).sort((p, q) => far(p) - far(q))
+      .filter((c, i, all) => all.findIndex((one) => one.a === c.a && one.b === c.b) === i);
+    // Several pairs under one finger are chosen in turn.
+    const key = near.map((c) => `${c.a}-${c.b}`).sort().join();
+    this.turn = key !== '' && key === this.below ? (this.turn + 1) % near.length : 0;
+    if (key !== this.below) this.order = near.map((c) => `${c.a}-${c.b}`);
+    this.below = key;
+    const best = near.find((c) => `${c.a}-${c.b}` === this.order[this.turn]);
+    this.onPick({ contact: best, body: this.bodyAt(event), at: this.view.world(at.x, at.y), turn: this.turn, of: near.length });
   }
+}
+
+/** How far a body is from where it is in another run, also by turning [m]. */
+export function apart(one: Trace, other: Trace, body: number, step: number): number {
+  if (body >= other.bodies.length || !one.present(body, step) || !other.present(body, step)) return Infinity;
+  const [p, q] = [one.pose(body, step), other.pose(body, step)];
+  const half = 0.5 * Math.max(...span(one, body));
+  return Math.hypot(p.x - q.x, p.y - q.y) + half * Math.abs(p.angle - q.angle);
+}
+
+function span(trace: Trace, body: number): [number, number] {
+  const [left, right, bottom, top] = extents(trace.head.bodies[body]);
+  return [right - left, top - bottom];
+}
+
+/** "9 bricks", "1 brick + platform", "4 bodies". */
+function membersText(trace: Trace, all: number[], own: number[]): string {
+  const { base } = trace.short(own[0]);
+  const alike = own.every((i) => trace.short(i).base === base);
+  const held = all.find((i) => !own.includes(i));
+  const what = alike ? (own.length === 1 && trace.short(own[0]).number === 0 ? base : `${own.length} ${own.length === 1 ? base : plural(base)}`) : `${own.length} bodies`;
+  return held === undefined ? what : `${what} + ${trace.name(held)}`;
+}
+
+function plural(noun: string): string {
+  return /(s|x|ch|sh)$/.test(noun) ? `${noun}es` : `${noun}s`;
 }

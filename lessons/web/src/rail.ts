@@ -44,7 +44,7 @@ export function ribbon(state: State): HTMLElement {
   };
 
   state.onChange(() => {
-    title.textContent = state.step === 0 ? 'Before the first step' : `Step ${state.step}, stage by stage`;
+    title.textContent = state.step === 0 ? 'Before the first step' : `Stages of step ${state.step}`;
     note.textContent = state.live ? 'your run' : '↑ ↓ to walk through';
     for (const [i, button] of buttons.entries()) {
       const current = state.step > 0 && i === state.stage;

@@ -161,7 +161,7 @@ function deeds(state: State): HTMLElement[] {
       state.playing = false;
       state.goTo(deed.step);
     },
-  }, `${(deed.step * state.trace.head.h).toFixed(2)} s`), ` ${deed.told}`));
+  }, `${(deed.step * state.trace.head.h).toFixed(2)} s`), ` ${state.trace.told(deed.told)}`));
 }
 
 export interface LivePanel {

@@ -1,5 +1,6 @@
 // A recorded run, to be asked what is where at a time step.
 import type { Criterion, EventRow, Head, Packed } from './head';
+import { type ShortName, shortNames, withShortNames, written } from './names';
 import { type BodyTrack, ByPair, type Column, type ContactTrack, type DecisionTrack, type Inside, readBody, readContact, readDecision, readInside } from './tracks';
 import { Unpacker } from './unpack';
 
@@ -120,6 +121,8 @@ export class Trace {
   protected readonly slots = new Map<number, number>();
   protected readonly contactsOf: ByPair<ContactTrack>;
   protected readonly decisionsOf: ByPair<DecisionTrack>;
+  private shorts: ShortName[] = [];
+  private shortOf = new Map<string, string>();
   private readonly statColumns: Column[];
   private readonly amount: Scale;
   private readonly fine: Scale;
@@ -151,8 +154,25 @@ export class Trace {
     return step <= this.head.steps;
   }
 
+  /** Its short name. */
   name(body: number): string {
-    return this.head.bodies[body].name;
+    return written(this.short(body));
+  }
+  short(body: number): ShortName {
+    this.shorten();
+    return this.shorts[body];
+  }
+  /** A sentence of the engine, with short names. */
+  told(text: string): string {
+    this.shorten();
+    return withShortNames(text, this.shortOf);
+  }
+  /** A live run adds bodies, and forgets them again. */
+  private shorten(): void {
+    const { bodies } = this.head;
+    if (this.shorts.length === bodies.length && this.shortOf.has(bodies[bodies.length - 1]?.name)) return;
+    this.shorts = shortNames(this.head.bodies);
+    this.shortOf = new Map(this.head.bodies.map((body, i) => [body.name, written(this.shorts[i])]));
   }
 
   present(body: number, step: number): boolean {

@@ -68,15 +68,18 @@ function strongForce(trace: Trace): number {
 
 /** Extent of a body along its own x axis [m]. */
 export function widthOf(info: BodyInfo): number {
-  return extents(info)[0];
+  const [left, right] = extents(info);
+  return right - left;
 }
 
 /** The smaller extent of a body [m]. */
 function thinnest(info: BodyInfo): number {
-  return Math.min(...extents(info));
+  const [left, right, bottom, top] = extents(info);
+  return Math.min(right - left, top - bottom);
 }
 
-function extents(info: BodyInfo): [number, number] {
+/** Left, right, bottom, top in its own frame [m]. */
+export function extents(info: BodyInfo): [number, number, number, number] {
   const xs: number[] = [];
   const ys: number[] = [];
   for (const piece of info.pieces) {
@@ -91,5 +94,5 @@ function extents(info: BodyInfo): [number, number] {
       }
     }
   }
-  return [Math.max(...xs) - Math.min(...xs), Math.max(...ys) - Math.min(...ys)];
+  return [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
 }

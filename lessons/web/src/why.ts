@@ -1,8 +1,8 @@
 // Why two bodies are one, or not: one sentence, a gauge, and the change that would alter it. The engine says it.
-import { h, number, svg } from './dom';
+import { h, number, plural, svg } from './dom';
 import type { Reason } from './engine';
 import { criterionName } from './inspector';
-import { describe } from './now';
+import { eventsShown, eventText } from './now';
 import { kStages } from './stages';
 import type { State } from './state';
 
@@ -58,6 +58,19 @@ function tests(reason: Reason): HTMLElement {
       h('td', {}, test.equation), h('td', {}, relation(test)), h('td', {}, test.verdict)))));
 }
 
+const kWords: Record<string, RegExp> = { 'relative-motion': /relative motion|moved|against/, sliding: /slip/, breathing: /overlap/, cone: /cone/, opening: /open/ };
+
+/** Of several reasons the one that the gauge shows, with the number of the others; the table has them all. */
+function shortened(text: string, test: Test | null): string {
+  const clauses = text.replace(/\.$/, '').split('; ');
+  const found = /^(.*?: )(.*)$/.exec(clauses[0]);
+  if (clauses.length < 2 || !found) return text;
+  clauses[0] = found[2];
+  const word = test && kWords[test.criterion];
+  const chosen = (word && clauses.find((clause) => word.test(clause) && clause.includes(number(test.threshold)))) || clauses[0];
+  return `${found[1]}${chosen}. And ${plural(clauses.length - 1, 'more reason')}.`;
+}
+
 /** "0.072 m/s" stands out. */
 function sentence(text: string): Node[] {
   return text.split(/(\d[\d.,]* (?:m\/s|mm\/s|mm|m|N s|steps?)\b)/).map((part, i) => (i % 2 ? h('strong', {}, part) : document.createTextNode(part)));
@@ -79,13 +92,28 @@ export function whyCard(state: State, equation: HTMLElement): HTMLElement {
     all.hidden = true;
   };
   const show = (reason: Reason, names: string) => {
-    title.replaceChildren(reason.heading, h('span', { class: 'names' }, `${names}, step ${state.step}`));
-    const told = reason.text.replace(`The weld of ${names}`, 'Their weld').replace(names, 'They').replace(` at step ${state.step}`, '');
-    text.replaceChildren(h('p', {}, ...sentence(told)), ...(reason.outlook ? [h('p', { class: 'outlook' }, ...sentence(reason.outlook))] : []));
+    title.replaceChildren(state.trace.told(reason.heading), h('span', { class: 'names' }, `${names}, step ${state.step}`));
     const test = decisive(reason);
+    const told = shortened(state.trace.told(reason.text), test).replace(`The weld of ${names}`, 'Their weld').replace(names, 'They').replace(` at step ${state.step}`, '');
+    text.replaceChildren(h('p', {}, ...sentence(told)), ...(reason.outlook ? [h('p', { class: 'outlook' }, ...sentence(state.trace.told(reason.outlook)))] : []));
     holder.replaceChildren(...(test ? [gauge(test)] : []));
+    text.append(...nextBroken());
     all.hidden = reason.tests.length === 0;
     all.replaceChildren(h('summary', {}, `All ${reason.tests.length} tests of this pair`), tests(reason));
+  };
+  /** To the next of the pairs that came apart in this step. */
+  const nextBroken = (): HTMLElement[] => {
+    const s = state.selection;
+    const broken = (state.trace.eventsAt.get(state.step) ?? []).filter(([, type]) => type === 'unmerge').map(([, , a, b]) => [Math.min(a, b), Math.max(a, b)]);
+    const at = broken.findIndex(([a, b]) => s?.kind === 'pair' && s.a === a && s.b === b);
+    if (at < 0 || broken.length < 2) return [];
+    const [a, b] = broken[(at + 1) % broken.length];
+    return [h('button', {
+      type: 'button', class: 'link', onclick: () => {
+        state.selection = { kind: 'pair', a, b };
+        state.changed();
+      },
+    }, `Next pair (${broken.length} came apart)`)];
   };
   const ask = (a: number, b: number) => {
     const { probe, step, trace } = state;
@@ -114,7 +142,14 @@ export function whyCard(state: State, equation: HTMLElement): HTMLElement {
     }
     if (s?.kind === 'body') return empty(state.trace.name(s.body), 'Choose a second body to read why the two are merged, or not.');
     if (state.step > 0 && state.stage !== kStages.length - 1) return empty(`${state.stage + 1} · ${stage.label}`, stage.what);
-    empty('Why?', state.step === 0 ? 'Choose two bodies that touch, or the contact between them: here stands why they are merged, or not.' : describe(state));
+    empty('Why?', 'Choose two bodies that touch, or the contact between them: here stands why they are merged, or not.');
+    const rows = eventsShown(state).filter((row) => row[2] !== row[3]).slice(0, 3);
+    text.append(...rows.map((row) => h('button', {
+      type: 'button', class: 'link', onclick: () => {
+        state.selection = { kind: 'pair', a: Math.min(row[2], row[3]), b: Math.max(row[2], row[3]) };
+        state.changed();
+      },
+    }, eventText(state.trace, row))));
   };
   state.onChange(look);
   state.onEngine(look);
