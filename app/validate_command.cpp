@@ -153,12 +153,15 @@ std::vector<std::string> doubtsAbout(const Lesson& lesson, const std::vector<Rec
       out.push_back(fmt::format("'{}': a page shows no pictures of files", part.title));
     }
     const Recording& run = runs[part.trace];
-    const Moment* reveal = part.question ? part.question->reveal() : nullptr;
-    if (reveal == nullptr || reveal->in(run).step > part.at.in(run).step) continue;
-    out.push_back(
-        fmt::format("'{}': the answer is in the picture when the question is asked: "
-                    "step {} is revealed at step {}",
-                    part.title, part.at.in(run).step, reveal->in(run).step));
+    const std::int64_t asked = part.at.in(run).step;
+    for (const Question& question : part.questions) {
+      const std::int64_t revealed = question.reveal().in(run).step;
+      if (revealed > asked) continue;
+      out.push_back(
+          fmt::format("'{}': the answer is in the picture when the question is asked: "
+                      "step {} is revealed at step {}",
+                      part.title, asked, revealed));
+    }
   }
   return out;
 }
@@ -173,14 +176,13 @@ void validateLesson(const DataFolder& folder, const ValidateOptions& options) {
   const Console console(options);
   for (const std::string& doubt : doubtsAbout(lesson, runs)) console.warn(doubt);
   const std::vector<std::string> failed = failures(lesson, runs);
-  const auto questions = std::ranges::count_if(
-      lesson.parts, [](const LessonPart& part) { return part.question.has_value(); });
-  print(fmt::format("{}: {}\n  {}, {}, {}\n  {} of {} hold\n", escaped(lesson.name),
-                    escaped(lesson.title), counted(lesson.parts.size(), "part", "parts"),
-                    counted(static_cast<std::size_t>(questions), "question", "questions"),
-                    counted(lesson.traces.size(), "run", "runs"),
-                    lesson.expectations.size() - failed.size(),
-                    counted(lesson.expectations.size(), "expectation", "expectations")));
+  std::size_t questions = 0;
+  for (const LessonPart& part : lesson.parts) questions += part.questions.size();
+  print(fmt::format(
+      "{}: {}\n  {}, {}, {}\n  {} of {} hold\n", escaped(lesson.name), escaped(lesson.title),
+      counted(lesson.parts.size(), "part", "parts"), counted(questions, "question", "questions"),
+      counted(lesson.traces.size(), "run", "runs"), lesson.expectations.size() - failed.size(),
+      counted(lesson.expectations.size(), "expectation", "expectations")));
   if (!failed.empty()) throw InputError(failed.front());
 }
 

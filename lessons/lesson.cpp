@@ -217,7 +217,7 @@ class Loader {
                     .layers = {},
                     .select = {},
                     .trace = 0,
-                    .question = std::nullopt};
+                    .questions = {}};
     const auto found = std::find(titles.begin(), titles.end(), part.title);
     if (found == titles.end()) {
       section->fail(fmt::format("text.md has no section '## {}'{}", part.title,
@@ -243,9 +243,17 @@ class Loader {
       }
       part.trace = static_cast<std::size_t>(label - labels_.begin());
     }
-    if (auto question = table.table("question")) part.question.emplace(*question, scene());
+    readQuestions(table, part);
     table.done();
     lesson_.parts.push_back(std::move(part));
+  }
+
+  /// [part.question], or several of them in [[part.questions]].
+  void readQuestions(TableReader& table, LessonPart& part) const {
+    if (auto question = table.table("question")) part.questions.emplace_back(*question, scene());
+    for (TableReader& question : table.tables("questions")) {
+      part.questions.emplace_back(question, scene());
+    }
   }
 
   void readSelection(const Value& value, LessonPart& part) const {
@@ -275,9 +283,9 @@ std::vector<std::int64_t> stepsShown(const Lesson& lesson, std::size_t trace,
   for (const LessonPart& part : lesson.parts) {
     if (part.trace != trace) continue;
     if (const auto found = part.at.find(recording)) out.push_back(found->step);
-    const Moment* reveal = part.question ? part.question->reveal() : nullptr;
-    if (reveal == nullptr) continue;
-    if (const auto found = reveal->find(recording)) out.push_back(found->step);
+    for (const Question& question : part.questions) {
+      if (const auto found = question.reveal().find(recording)) out.push_back(found->step);
+    }
   }
   return out;
 }
@@ -318,12 +326,8 @@ std::string lessonJson(const Lesson& lesson, const std::vector<Recording>& recor
     out.field("stage", part.stage).field("trace", part.trace);
     out.array("layers", part.layers, [&](const std::string& layer) { out.value(layer); });
     out.array("select", part.select, [&](BodyId b) { out.value(b); });
-    out.key("question");
-    if (part.question) {
-      part.question->write(out, recording, step);
-    } else {
-      out.value(nullptr);
-    }
+    out.array("questions", part.questions,
+              [&](const Question& question) { question.write(out, recording, step); });
     out.close('}');
   });
   out.close('}');

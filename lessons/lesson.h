@@ -30,7 +30,7 @@ struct LessonPart {
   std::vector<std::string> layers;
   std::vector<BodyId> select;  ///< none, a body, or a pair
   std::size_t trace = 0;
-  std::optional<Question> question;
+  std::vector<Question> questions;  ///< asked one after the other
 };
 
 struct Lesson {

@@ -7,7 +7,8 @@
 
 namespace merge2d {
 
-/// CommonMark to HTML; HTML inside of the text is left out.
+/// CommonMark to HTML, with tables and with formulas between dollars; HTML inside of the text is
+/// left out.
 std::string markdownToHtml(std::string_view text);
 
 struct Section {

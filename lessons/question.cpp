@@ -62,6 +62,7 @@ struct Question::Answer {
   std::vector<Option> options;
   bool several = false;
   std::string because;
+  std::optional<double> number = std::nullopt;  ///< the answer, where it is one
 };
 
 Question::Question(TableReader table, const Scene& scene) {
@@ -98,6 +99,10 @@ Question::Question(TableReader table, const Scene& scene) {
       std::sort(pair_.begin(), pair_.end());
     }
   }
+  if (const auto value = table.get("measure")) {
+    ++kinds;
+    readNumber(table, *value, scene);
+  }
   const auto flag = [&](const char* key, Kind kind) {
     bool on = false;
     table.read(key, on);
@@ -110,8 +115,27 @@ Question::Question(TableReader table, const Scene& scene) {
   flag("collections", Kind::Collections);
   table.done();
   if (kinds != 1) {
-    table.fail("a question has exactly one of choices, threshold, freed, contact, collections");
+    table.fail(
+        "a question has exactly one of choices, threshold, freed, contact, collections, measure");
   }
+}
+
+/// A right answer lies within `tolerance` of what is measured.
+void Question::readNumber(TableReader& table, const Value& measure, const Scene& scene) {
+  kind_ = Kind::Number;
+  quantity_.emplace(measure, scene);
+  if (const auto value = table.require("tolerance")) {
+    tolerance_ = value->number({1e-12, 1e12, "a positive number"});
+  }
+  table.read("unit", unit_);
+}
+
+Question::Answer Question::measured(const Recording& r, std::int64_t step) const {
+  const double value = quantity_->at(r, step);
+  return {.options = {},
+          .several = false,
+          .because = fmt::format("It is {:.3g}{}{}.", value, unit_.empty() ? "" : " ", unit_),
+          .number = value};
 }
 
 Question::Answer Question::aboveOrBelow(const Recording& r, std::int64_t step) const {
@@ -213,6 +237,8 @@ Question::Answer Question::answered(const Recording& r, std::int64_t asked_at,
       return contactOfEvent(r, asked_at, found);
     case Kind::Collections:
       return numberOfCollections(r, found.step);
+    case Kind::Number:
+      return measured(r, found.step);
   }
   return {};
 }
@@ -228,6 +254,10 @@ void Question::write(JsonText& out, const Recording& r, std::int64_t asked_at) c
     out.array("bodies", o.bodies, [&](BodyId b) { out.value(b); });
     out.close('}');
   });
+  if (answer.number) {
+    out.key("number").open('{').field("value", *answer.number).field("tolerance", tolerance_);
+    out.field("unit", unit_).close('}');
+  }
   out.field("because", because).close('}');
 }
 

@@ -160,10 +160,32 @@ TEST_F(LessonFolder, AQuestionIsAnsweredByTheSimulation) {
   const Lesson lesson =
       load("[part.question]\nask = \"How many?\"\ncollections = true\nreveal = \"end\"\n");
   const auto json = nlohmann::json::parse(lessonJson(lesson, recordLesson(lesson)));
-  const auto& options = json["parts"][0]["question"]["options"];
+  const auto& options = json["parts"][0]["questions"][0]["options"];
   EXPECT_FALSE(options[0]["right"]);
   EXPECT_EQ(options[1]["text"], "1");
   EXPECT_TRUE(options[1]["right"]);
+}
+
+TEST_F(LessonFolder, ANumberIsMeasuredInTheSimulation) {
+  const Lesson lesson = load(
+      "[part.question]\nask = \"How high?\"\nmeasure = \"collections\"\ntolerance = 0.5\n"
+      "unit = \"of them\"\nreveal = \"end\"\n");
+  const auto json = nlohmann::json::parse(lessonJson(lesson, recordLesson(lesson)));
+  const auto& question = json["parts"][0]["questions"][0];
+  EXPECT_EQ(question["number"]["value"], 1.0);
+  EXPECT_EQ(question["number"]["tolerance"], 0.5);
+  EXPECT_EQ(question["because"], "It is 1 of them.");
+}
+
+TEST_F(LessonFolder, APartAsksSeveralQuestionsInTurn) {
+  const Lesson lesson = load(
+      "[[part.questions]]\nask = \"First?\"\ncollections = true\nreveal = \"step 2\"\n"
+      "[[part.questions]]\nask = \"Second?\"\ncollections = true\nreveal = \"end\"\n");
+  const auto json = nlohmann::json::parse(lessonJson(lesson, recordLesson(lesson)));
+  const auto& questions = json["parts"][0]["questions"];
+  ASSERT_EQ(questions.size(), 2u);
+  EXPECT_EQ(questions[0]["ask"], "First?");
+  EXPECT_EQ(questions[1]["ask"], "Second?");
 }
 
 TEST_F(LessonFolder, AMomentThatDoesNotHappenIsAnErrorWithItsPlace) {

@@ -14,15 +14,14 @@ function keySteps(trace: Trace): number[] {
 }
 
 /** With its choices, to be ticked; of many there is a line to write on. */
-function questionOnPaper(question: Question | null): HTMLElement | null {
-  if (!question) return null;
-  const choices = question.options.length <= 6 ? shownOrder(question).map((i) => h('li', {}, `☐ ${question.options[i].text}`)) : [];
+function questionOnPaper(question: Question, trace: Trace): HTMLElement {
+  const choices = question.options.length > 0 && question.options.length <= 12 ? shownOrder(question).map((i) => h('li', {}, `☐ ${trace.told(question.options[i].text)}`)) : [];
   return h('div', { class: 'blank' }, h('p', {}, choices.length > 0 ? question.ask : `${question.ask} ______________________________`), h('ul', {}, ...choices));
 }
 
 export function handout(title: string, lesson: Lesson | null, traces: Trace[]): HTMLElement {
   const strip = h('div', { class: 'strip' });
-  const panel = (heading: string, step: number, stage: number, trace: number, set: (state: State) => void, text: HTMLElement | null, question: HTMLElement | null) => {
+  const panel = (heading: string, step: number, stage: number, trace: number, set: (state: State) => void, text: HTMLElement | null, questions: HTMLElement[]) => {
     const state = new State(traces);
     state.trace = traces[trace];
     state.step = step;
@@ -31,7 +30,7 @@ export function handout(title: string, lesson: Lesson | null, traces: Trace[]): 
     const picture = new Picture(state.trace, false);
     picture.draw(state);
     strip.append(h('article', {}, h('h3', {}, heading), picture.root, h('p', { class: 'caption' }, describe(state)), text,
-      question));
+      ...questions));
   };
   if (lesson) {
     for (const [i, part] of lesson.parts.entries()) {
@@ -39,11 +38,11 @@ export function handout(title: string, lesson: Lesson | null, traces: Trace[]): 
         if (part.layers.length > 0) state.layers.clear();
         for (const layer of part.layers) state.layers.add(layer);
         state.selection = selectionOf(part.select);
-      }, prose(part.html), questionOnPaper(part.question));
+      }, prose(part.html), part.questions.map((question) => questionOnPaper(question, traces[part.trace])));
     }
   } else {
     for (const step of keySteps(traces[0])) {
-      panel(`${(step * traces[0].head.h).toFixed(2)} s`, step, kLast, 0, () => {}, null, null);
+      panel(`${(step * traces[0].head.h).toFixed(2)} s`, step, kLast, 0, () => {}, null, []);
     }
   }
   return h('div', { class: 'handout', 'aria-hidden': true }, h('h1', {}, title), lesson?.intro ? prose(lesson.intro) : null, strip);

@@ -27,14 +27,14 @@ export class Labels {
     return 0.31 * kSizes[kind] * this.unit * [...text].length + 2;
   }
 
-  /** A number at the left inside of a body, where it fits: whether it did. */
-  inside(body: Box, text: string): boolean {
+  /** A number at the left inside of a body, where it fits: whether it did. A name stands high, above arrows at the centre. */
+  inside(body: Box, text: string, high = false): boolean {
     const size = kSizes.number * this.unit;
     const width = 2 * this.half(text, 'number');
     if (width + 4 * this.unit > body.right - body.left || 1.05 * size > body.bottom - body.top) return false;
     const roomy = body.right - body.left > 2.5 * width;
     const x = roomy ? body.left + 8 * this.unit : (body.left + body.right) / 2;
-    this.root.append(svg('text', { x: fixed(x), y: fixed((body.top + body.bottom) / 2 + 0.35 * size), class: roomy ? 'number start' : 'number' }, text));
+    this.root.append(svg('text', { x: fixed(x), y: fixed((high && body.bottom - body.top > 3 * size ? body.top + 1.1 * size : (body.top + body.bottom) / 2) + 0.35 * size), class: roomy ? 'number start' : 'number' }, text));
     return true;
   }
 

@@ -15,6 +15,7 @@ export interface Question {
   several: boolean;
   reveal: number;
   options: Option[];
+  number?: { value: number; tolerance: number; unit: string };
   because: string;
 }
 export interface Part {
@@ -25,7 +26,7 @@ export interface Part {
   trace: number;
   layers: LayerId[];
   select: number[];
-  question: Question | null;
+  questions: Question[];
 }
 /** Where the lesson stands in a course. */
 export interface CoursePlace {
@@ -62,14 +63,21 @@ export function selectionOf(bodies: number[]): Selection {
 
 interface Given {
   chosen: Set<number>;
+  typed: string; // a number
   done: boolean;
   skipped: boolean;
+}
+
+/** A question of a part, with what was answered to it. */
+interface Asked {
+  question: Question;
+  given: Given;
 }
 
 /** Answers and place, between two visits; a page whose storage is shut goes without. */
 class Memory {
   constructor(private readonly key: string) {}
-  read(): { part: number; given: { chosen: number[]; done: boolean; skipped: boolean }[] } | null {
+  read(): { part: number; given: { chosen: number[]; typed: string; done: boolean; skipped: boolean }[] } | null {
     try {
       return JSON.parse(localStorage.getItem(this.key) ?? 'null');
     } catch {
@@ -104,11 +112,21 @@ function ofOneKind(question: Question, trace: Trace): boolean {
   return first.number > 0 && others.every((other) => other.base === first.base && other.number > 0);
 }
 
+/** A number as people write it: a comma is a point. */
+function numberIn(text: string): number {
+  const bare = text.trim().replace(',', '.').replace('−', '-');
+  return bare === '' ? NaN : Number(bare);
+}
+
+function isRight({ number }: Question, { typed }: Given): boolean {
+  return number !== undefined && Math.abs(numberIn(typed) - number.value) <= number.tolerance * (1 + 1e-9);
+}
+
 export class LessonPanel {
   readonly root: HTMLElement;
   readonly dots: HTMLElement;
   private current = 0;
-  private readonly given: Given[];
+  private readonly given: Given[][]; // per part, per question
   private readonly memory: Memory;
   private readonly place = h('p', { class: 'place' });
   private readonly title = h('h2', { tabindex: -1 });
@@ -121,7 +139,7 @@ export class LessonPanel {
 
   constructor(private readonly lesson: Lesson, private readonly state: State, private readonly pageTitle: string,
     private readonly course: CoursePlace | null = null) {
-    this.given = lesson.parts.map(() => ({ chosen: new Set(), done: false, skipped: false }));
+    this.given = lesson.parts.map((part) => part.questions.map(() => ({ chosen: new Set(), typed: '', done: false, skipped: false })));
     this.memory = new Memory(`merge2d ${pageTitle}`);
     this.back = h('button', { type: 'button', class: 'plain', onclick: () => this.move(-1) }, 'Back');
     this.skip = h('button', { type: 'button', class: 'link', onclick: () => this.answer(true) }, 'Show me instead');
@@ -132,8 +150,9 @@ export class LessonPanel {
       h('div', { class: 'actions' }, this.back, this.skip, this.next));
     state.stopBefore = (from, to) => this.stop(from, to);
     const kept = this.memory.read();
-    if (kept && kept.given.length === this.given.length) {
-      this.given.forEach((given, i) => Object.assign(given, { ...kept.given[i], chosen: new Set(kept.given[i].chosen) }));
+    const all = this.given.flat();
+    if (kept && kept.given.length === all.length) {
+      all.forEach((given, i) => Object.assign(given, { ...kept.given[i], chosen: new Set(kept.given[i].chosen) }));
     }
     this.show(Math.min(Math.max(0, kept?.part ?? 0), lesson.parts.length - 1));
   }
@@ -150,9 +169,18 @@ export class LessonPanel {
       ? { step: following.step, why: `Stopped: here begins part ${this.current + 2}, “${following.title}”. N goes there, Space plays on.` } : undefined;
   }
 
+  /** The questions of this part, up to the first that is open. */
+  private asked(): Asked[] {
+    const all = this.lesson.parts[this.current].questions.map((question, i) => ({ question, given: this.given[this.current][i] }));
+    const at = all.findIndex(({ given }) => !given.done);
+    return at < 0 ? all : all.slice(0, at + 1);
+  }
+  private open(): Asked | null {
+    const last = this.asked().pop();
+    return last && !last.given.done ? last : null;
+  }
   private pending(): Question | null {
-    const given = this.given[this.current];
-    return given.done || given.skipped ? null : this.lesson.parts[this.current].question;
+    return this.open()?.question ?? null;
   }
 
   /** Parts on the time line of the run that is shown. */
@@ -165,19 +193,20 @@ export class LessonPanel {
   }
   /** From where to where the part goes. */
   get moment(): { step: number; reveal: number; trace: number } {
-    const { step, trace, question } = this.lesson.parts[this.current];
-    return { step, trace, reveal: Math.max(step, question?.reveal ?? step) };
+    const { step, trace, questions } = this.lesson.parts[this.current];
+    return { step, trace, reveal: Math.max(step, ...questions.map((question) => question.reveal)) };
   }
 
   /** A click in the picture that means an option. True when it was one. */
   pick(bodies: number[]): boolean {
-    const question = this.pending();
-    if (!question || this.state.live) return false;
+    const open = this.open();
+    if (!open || this.state.live) return false;
+    const { question, given } = open;
     const same = (option: Option) => option.bodies.length > 0 && option.bodies.length === bodies.length
       && option.bodies.every((body) => bodies.includes(body));
     const at = question.options.findIndex(same);
     if (at < 0) return false;
-    this.choose(at, !this.given[this.current].chosen.has(at));
+    this.choose(at, !given.chosen.has(at));
     this.drawQuestion();
     return true;
   }
@@ -185,9 +214,9 @@ export class LessonPanel {
   /** Bodies that are marked in the picture, and how. */
   marked(): Map<number, string> {
     const out = new Map<number, string>();
-    const question = this.lesson.parts[this.current].question;
-    const given = this.given[this.current];
-    if (!question || this.state.live) return out;
+    const last = this.asked().pop();
+    if (!last || this.state.live) return out;
+    const { question, given } = last;
     for (const [i, option] of question.options.entries()) {
       const look = given.done && option.right ? 'right' : given.chosen.has(i) ? 'chosen' : '';
       if (look) for (const body of option.bodies) out.set(body, look);
@@ -243,14 +272,12 @@ export class LessonPanel {
   }
 
   private remember(): void {
-    this.memory.write(this.current, this.given);
+    this.memory.write(this.current, this.given.flat());
   }
 
   private drawParts(): void {
-    const state = (i: number) => {
-      const { question } = this.lesson.parts[i];
-      return i === this.current ? 'current' : i < this.current || (question && this.given[i].done) ? 'done' : 'ahead';
-    };
+    const state = (i: number) => (i === this.current ? 'current'
+      : i < this.current || (this.given[i].length > 0 && this.given[i].every((given) => given.done)) ? 'done' : 'ahead');
     this.dots.replaceChildren(...this.lesson.parts.map((part, i) => h('button', {
       type: 'button', class: `dot-part ${state(i)}`, 'aria-label': `Part ${i + 1}: ${part.title}`, title: part.title,
       'aria-current': i === this.current ? 'step' : undefined, tabindex: i === this.current ? 0 : -1, onclick: () => this.goToPart(i),
@@ -258,12 +285,14 @@ export class LessonPanel {
     roving([...this.dots.querySelectorAll('button')]);
     this.partsList.replaceChildren(...this.lesson.parts.map((part, i) => h('li', { class: state(i) },
       h('button', { type: 'button', tabindex: -1, onclick: () => this.goToPart(i) }, h('span', { class: 'mark' }, state(i) === 'done' ? '✓' : String(i + 1)),
-        part.title, part.question ? h('small', {}, 'question') : null))));
+        part.title, part.questions.length > 0 ? h('small', {}, 'question') : null))));
   }
 
   private choose(index: number, on: boolean): void {
-    const { chosen } = this.given[this.current];
-    if (!this.lesson.parts[this.current].question?.several) chosen.clear();
+    const open = this.open();
+    if (!open) return;
+    const { chosen } = open.given;
+    if (!open.question.several) chosen.clear();
     if (on) chosen.add(index);
     else chosen.delete(index);
     this.drawActions();
@@ -272,16 +301,16 @@ export class LessonPanel {
   }
 
   private answer(skip: boolean): void {
-    const given = this.given[this.current];
-    const question = this.lesson.parts[this.current].question;
-    if (!question) return;
+    const open = this.open();
+    if (!open) return;
+    const { given, question } = open;
     given.skipped = skip;
     given.done = true;
     this.drawParts();
     this.drawQuestion();
     this.remember();
     this.reveal(question);
-    this.ask.querySelector<HTMLElement>('.verdict')?.focus({ preventScroll: false });
+    [...this.ask.querySelectorAll<HTMLElement>('.verdict')].pop()?.focus({ preventScroll: false });
   }
 
   /** Plays on to where the answer can be seen; without motion it is shown at once. */
@@ -310,31 +339,31 @@ export class LessonPanel {
 
   /** The one primary button names its action. */
   private drawActions(): void {
-    const question = this.pending();
-    const given = this.given[this.current];
+    const open = this.open();
+    const question = open?.question ?? null;
+    const chosen = open?.given.chosen.size ?? 0;
     this.skip.hidden = !question;
     this.back.hidden = this.current === 0;
-    this.next.disabled = question !== null && given.chosen.size === 0 && !question.several;
+    this.next.disabled = open !== null && (open.question.number ? Number.isNaN(numberIn(open.given.typed)) : chosen === 0 && !open.question.several);
     const following = this.lesson.parts[this.current + 1];
-    this.next.textContent = question ? (question.several && given.chosen.size > 0 ? `Check ${given.chosen.size}` : 'Check')
+    this.next.textContent = question ? (question.several && chosen > 0 ? `Check ${chosen}` : 'Check')
       : following ? `Next: ${following.title}` : this.course && this.course.number > 0 ? (this.course.next ? `Next lesson: ${this.course.next}` : 'To the list of lessons') : 'From the start again';
   }
 
   private drawQuestion(): void {
-    const question = this.lesson.parts[this.current].question;
-    const given = this.given[this.current];
     this.state.veiled = this.pending() !== null;
     this.drawActions();
-    if (!question) {
-      this.ask.replaceChildren();
-      return;
-    }
+    this.ask.replaceChildren(...this.asked().flatMap(({ question, given }, at) => [
+      question.number ? this.numberField(question, given) : this.choices(question, given, at), ...(given.done ? [this.verdict(question, given)] : [])]));
+  }
+
+  private choices(question: Question, given: Given, at: number): HTMLElement {
     const alike = ofOneKind(question, this.state.trace);
     const options = shownOrder(question).map((i) => {
       const option = question.options[i];
       const input = h('input', {
         'aria-label': alike ? this.state.trace.name(option.bodies[0]) : undefined,
-        type: question.several ? 'checkbox' : 'radio', name: 'answer', value: i, checked: given.chosen.has(i), disabled: given.done,
+        type: question.several ? 'checkbox' : 'radio', name: `answer ${at}`, value: i, checked: given.chosen.has(i), disabled: given.done,
         onchange: () => this.choose(i, input.checked),
       });
       const mark = given.done ? (option.right ? ' ✓' : given.chosen.has(i) ? ' ✗' : '') : '';
@@ -342,13 +371,32 @@ export class LessonPanel {
       return h('label', { class: look }, input, h('span', {}, alike ? String(this.state.trace.short(option.bodies[0]).number) : this.state.trace.told(option.text), mark && h('strong', {}, mark)));
     });
     const inPicture = question.options.some((option) => option.bodies.length > 0);
-    const field = h('fieldset', {},
+    return h('fieldset', {},
       h('legend', {}, question.ask), inPicture && !given.done ? h('p', { class: 'hint' }, 'Choose in the picture or here. Nothing is counted.') : null,
       h('div', { class: alike ? 'options by-number' : question.options.length > 6 ? 'options many' : 'options' }, ...options));
-    this.ask.replaceChildren(field, ...(given.done ? [this.verdict(question, given)] : []));
+  }
+
+  private numberField(question: Question, given: Given): HTMLElement {
+    const input = h('input', {
+      type: 'text', inputmode: 'decimal', autocomplete: 'off', value: given.typed, disabled: given.done, 'aria-label': question.ask,
+      oninput: () => {
+        given.typed = input.value;
+        this.drawActions();
+        this.remember();
+      },
+      onkeydown: (event) => {
+        if ((event as KeyboardEvent).key === 'Enter' && !this.next.disabled) this.answer(false);
+      },
+    });
+    return h('fieldset', {}, h('legend', {}, question.ask), h('span', { class: 'number-answer' }, input, question.number?.unit ?? ''));
   }
 
   private verdict(question: Question, given: Given): HTMLElement {
+    if (question.number) {
+      const right = isRight(question, given);
+      return h('p', { class: given.skipped ? 'verdict' : right ? 'verdict right' : 'verdict wrong', tabindex: -1 },
+        h('strong', {}, given.skipped ? 'The answer: ' : right ? 'Right. ' : 'Not quite. '), this.state.trace.told(question.because));
+    }
     const rights = question.options.filter((option) => option.right).length;
     const found = question.options.filter((option, i) => option.right && given.chosen.has(i)).length;
     const falses = given.chosen.size - found;
@@ -363,15 +411,16 @@ export class LessonPanel {
   answers(): { title: string; answers: { part: number; ask: string; mine: string[]; skipped: boolean; simulation: string[] | null }[] } {
     return {
       title: this.pageTitle,
-      answers: this.lesson.parts.flatMap(({ question }, i) => {
-        if (!question) return [];
-        const given = this.given[i];
+      answers: this.lesson.parts.flatMap(({ questions }, i) => questions.map((question, k) => {
+        const given = this.given[i][k];
         const texts = (wanted: (option: Option, at: number) => boolean) => question.options.filter(wanted).map((option) => option.text);
-        return [{
-          part: i + 1, ask: question.ask, mine: texts((_, at) => given.chosen.has(at)), skipped: given.skipped,
-          simulation: given.done ? texts((option) => option.right) : null,
-        }];
-      }),
+        const { number } = question;
+        return {
+          part: i + 1, ask: question.ask, skipped: given.skipped,
+          mine: number ? (given.typed ? [`${given.typed} ${number.unit}`.trim()] : []) : texts((_, at) => given.chosen.has(at)),
+          simulation: !given.done ? null : number ? [`${Number(number.value.toPrecision(3))} ${number.unit}`.trim()] : texts((option) => option.right),
+        };
+      })),
     };
   }
   answersAsText(): string {

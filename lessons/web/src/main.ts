@@ -178,7 +178,7 @@ function start(): void {
     svg('svg', { viewBox: '0 0 24 24', 'aria-hidden': true }, svg('path', { d: 'M10 14a4 4 0 0 0 6 0l3 -3a4 4 0 0 0 -6 -6l-1.5 1.5M14 10a4 4 0 0 0 -6 0l-3 3a4 4 0 0 0 6 6l1.5 -1.5' })), h('span', {}, 'Link to this moment'));
   const kept = h('button', { type: 'button', class: 'item', onclick: () => state.showKept() }, 'Your last run');
   state.onChange(() => { kept.hidden = !state.hasKept; });
-  const answers = panel && data.lesson?.parts.some((part) => part.question) ? [
+  const answers = panel && data.lesson?.parts.some((part) => part.questions.length > 0) ? [
     h('button', { type: 'button', class: 'item', onclick: () => copied(panel.answersAsText(), status) }, 'Copy my answers'),
     h('button', { type: 'button', class: 'item', onclick: () => copied(JSON.stringify(panel.answers(), null, 2), status) }, 'Copy my answers as JSON')] : [];
   app.append(

@@ -189,7 +189,7 @@ export class Picture {
       const { base, number } = trace.short(i);
       if (body.motion === 'scripted') this.labels.put((Math.max(box.left, frame.left) + Math.min(box.right, frame.right)) / 2, (box.top + box.bottom) / 2, `${base} ↔`, 'name');
       if (!named || body.motion !== 'dynamic') continue;
-      const inside = this.labels.inside(box, number > 0 ? String(number) : base);
+      const inside = this.labels.inside(box, number > 0 ? String(number) : base, number === 0);
       // A body of its own is named beside it; members of an array would be mistaken for others.
       if (!inside && number === 0) this.labels.put((box.left + box.right) / 2, box.top - 9 * unit, base, 'name');
     }

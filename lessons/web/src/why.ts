@@ -62,7 +62,7 @@ const kWords: Record<string, RegExp> = { 'relative-motion': /relative motion|mov
 
 /** Of several reasons the one that the gauge shows, with the number of the others; the table has them all. */
 function shortened(text: string, test: Test | null): string {
-  const clauses = text.replace(/\.$/, '').split('; ');
+  const clauses = text.replace(/\.$/, '').split(/; (?![^(]*\))/);
   const found = /^(.*?: )(.*)$/.exec(clauses[0]);
   if (clauses.length < 2 || !found) return text;
   clauses[0] = found[2];

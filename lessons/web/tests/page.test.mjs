@@ -535,11 +535,17 @@ test('a student goes through the whole course, with right and wrong answers', as
     assert.match(await page.textContent('.kicker'), new RegExp(`Lesson ${n + 1} of ${kCourse.length}`));
     const parts = await page.locator('.dot-part').count();
     for (let part = 0; part < parts; ++part) {
-      if (await page.isVisible('.ask fieldset')) {
-        const options = page.locator('.option');
-        await options.nth((n + part) % (await options.count())).click();
+      for (;;) {
+        const fields = page.locator('.ask fieldset');
+        const open = page.locator('.ask fieldset:has(input:not(:disabled))');
+        if (await open.count() === 0) break;
+        const number = open.locator('.number-answer input');
+        const options = open.locator('.option');
+        if (await number.count()) await number.fill('1,96');
+        else await options.nth((n + part) % (await options.count())).click();
         await page.click('.lesson .primary');
-        assert.match(await page.textContent('.verdict'), /^(Right\.|Not quite\.|\d+ of \d+)/);
+        assert.match(await page.locator('.verdict').last().textContent(), /^(Right\.|Not quite\.|\d+ of \d+)/);
+        assert.ok((await fields.count()) >= 1);
       }
       await page.click('.lesson .primary');
       if (part + 1 < parts) assert.match(await page.textContent('.place'), new RegExp(`Part ${part + 2}`));
@@ -548,6 +554,130 @@ test('a student goes through the whole course, with right and wrong answers', as
   await page.waitForURL('**/index.html');
   await close();
 });
+
+test('a student with a keyboard alone answers, takes over, moves a limit, and comes back', async () => {
+  const { page, close } = await open('what-merging-is', { reducedMotion: 'reduce' });
+  await page.waitForSelector('html[data-engine]');
+  const press = async (...keys) => { for (const key of keys) await page.keyboard.press(key); };
+  const focused = (selector) => page.evaluate((wanted) => document.activeElement?.closest(wanted) !== null, selector);
+  const tabTo = async (selector, most) => {
+    for (let i = 0; i < most; ++i) {
+      await press('Tab');
+      if (await focused(selector)) return;
+    }
+    assert.fail(`${selector} is not within ${most} tab stops`);
+  };
+  await press('Tab', 'Enter', 'ArrowDown');
+  assert.equal(await page.locator('.ask input:checked').count(), 1);
+  await tabTo('.lesson .primary', 3);
+  await press('Enter');
+  assert.ok(await focused('.verdict'), 'after Check the focus is on the verdict');
+  await press('n');
+  assert.ok(await focused('.words h2'), 'after Next it is on the heading');
+  await press('n', 'n', 'q', ' ');
+  assert.match(await page.textContent('.lesson .primary'), /Check 1/);
+  await tabTo('.lesson .primary', 15);
+  await press('Enter');
+  assert.match(await page.locator('.verdict').textContent(), /brick 9/);
+  await press('t');
+  await page.waitForSelector('html.taken-over');
+  await page.focus('[data-key="merging.velocity"]');
+  await press('ArrowLeft');
+  await page.waitForFunction(() => /merging\.velocity/.test(document.querySelector('.deeds').textContent));
+  await page.evaluate(() => document.activeElement.blur());
+  await press('z');
+  assert.match(await page.textContent('.deeds'), /Nothing yet/);
+  await press('t');
+  assert.equal(await page.locator('html.taken-over').count(), 0);
+  await close();
+});
+
+test('a student with a phone answers by finger and drags a brick', async () => {
+  const { page, close } = await open('what-merging-is', { reducedMotion: 'reduce', viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  await page.waitForSelector('html[data-engine]');
+  await page.tap('.option >> nth=1');
+  await page.tap('.lesson .primary');
+  assert.match(await page.textContent('.verdict'), /Right|Not quite/);
+  await page.tap('.lesson .primary');
+  assert.match(await page.textContent('.place'), /Part 2/);
+  for (const place of ['.picture.interactive', '.play', '.take-over', '.lesson .primary', '.marks']) {
+    const box = await page.locator(place).first().boundingBox();
+    assert.ok(box && box.y >= 0 && box.y + box.height <= 844 && box.x >= -1 && box.x + box.width <= 391, `${place}: ${JSON.stringify(box)}`);
+  }
+  await page.tap('.take-over');
+  await page.waitForSelector('html.taken-over');
+  const names = await page.$eval('#data', (data) => JSON.parse(data.textContent).traces[0].head.bodies.map((body) => body.name));
+  const [x, y] = await centre(page, names.indexOf('brick[1,5]'));
+  const finger = await page.context().newCDPSession(page);
+  const touch = (type, points) => finger.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+  await touch('touchStart', [{ x, y }]);
+  for (let i = 1; i <= 6; ++i) await touch('touchMove', [{ x: x + 12 * i, y: y - 6 * i }]);
+  await page.waitForFunction(() => /dragged brick 12/.test(document.querySelector('.deeds').textContent));
+  await touch('touchEnd', []);
+  await page.waitForFunction(() => /let brick 12 go/.test(document.querySelector('.deeds').textContent));
+  await close();
+});
+
+test('a limit that is moved decides from the next step on', async () => {
+  const { page, close } = await takenOver('books', 0);
+  const collections = async () => Number(await page.textContent('.counts strong >> nth=1'));
+  const goTo = (step) => page.locator('.slider').fill(String(step));
+  const first = await page.$eval('#data', (data) => JSON.parse(data.textContent).traces[0].head.events.find(([, type]) => type === 'merge')[0]);
+  await goTo(first);
+  assert.ok((await collections()) > 0);
+  await page.keyboard.press('Home');
+  await page.click('.all-limits summary');
+  await page.locator('[data-key="merging.steps"]').fill('20');
+  await page.waitForFunction(() => /merging\.steps: 3 → 20/.test(document.querySelector('.deeds').textContent));
+  await goTo(first);
+  assert.equal(await collections(), 0);
+  await close();
+});
+
+/** The share of cells of a coarse grid whose brightness differs by more than a sixth. */
+function difference(page, one, other) {
+  return page.evaluate(async (sources) => {
+    const [w, h] = [120, 90];
+    const cells = await Promise.all(sources.map(async (source) => {
+      const image = new Image();
+      image.src = `data:image/jpeg;base64,${source}`;
+      await image.decode();
+      const canvas = document.createElement('canvas');
+      [canvas.width, canvas.height] = [w, h];
+      const context = canvas.getContext('2d');
+      context.imageSmoothingQuality = 'high';
+      context.drawImage(image, 0, 0, w, h);
+      return context.getImageData(0, 0, w, h).data;
+    }));
+    let differ = 0;
+    for (let i = 0; i < w * h; ++i) {
+      const grey = cells.map((data) => (data[4 * i] + data[4 * i + 1] + data[4 * i + 2]) / 3);
+      differ += Math.abs(grey[0] - grey[1]) > 42 ? 1 : 0;
+    }
+    return differ / (w * h);
+  }, [one, other]);
+}
+
+const kShots = {
+  'desktop-lesson': [{ width: 1440, height: 900 }, '#part=2', 'light'],
+  'laptop-question': [{ width: 1280, height: 720 }, '#part=4', 'dark'],
+  'tablet-question': [{ width: 820, height: 1180 }, '#part=4', 'light'],
+  'phone-lesson': [{ width: 390, height: 844 }, '#part=2', 'light'],
+  'zoomed-lesson': [{ width: 720, height: 450 }, '#part=2', 'light'],
+};
+for (const [name, [viewport, hash, colorScheme]] of Object.entries(kShots)) {
+  test(`the page looks as in the reference shot ${name}`, async () => {
+    const { page, close } = await open('what-merging-is', { viewport, colorScheme, reducedMotion: 'reduce', deviceScaleFactor: 0.5 }, hash);
+    await page.waitForSelector('html[data-engine]');
+    if (!/question/.test(name)) await page.waitForFunction(() => document.querySelector('.stage .result').textContent !== '');
+    const shot = await page.screenshot({ type: 'jpeg', quality: 70 });
+    const file = join(here, 'reference', `${name}.jpg`);
+    if (process.env.UPDATE_SHOTS) writeFileSync(file, shot);
+    const share = await difference(page, shot.toString('base64'), readFileSync(file).toString('base64'));
+    assert.ok(share < 0.03, `${(100 * share).toFixed(1)} % of the picture differ: look at it, and if it is right, UPDATE_SHOTS=1`);
+    await close();
+  });
+}
 
 test('a page for a frame in another page is compact, and works in a sandbox', async () => {
   const { page, close } = await open('cycles', { viewport: { width: 900, height: 600 } });
