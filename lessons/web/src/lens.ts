@@ -18,6 +18,7 @@ export class Lens {
   private second = '';
   private home: Box | null = null;
   private athome = true;
+  private paper = 0; // units per pixel on paper, which has no layout yet
   private x = 0;
   private y = 0;
   private zoom = 1;
@@ -40,6 +41,14 @@ export class Lens {
     if (this.home) this.fitTo(this.home);
     this.apply();
   }
+  /** For a sheet of paper: so many units of the picture are a pixel, whatever the screen does. */
+  onPaper(unit: number): void {
+    this.paper = unit;
+    this.fit();
+  }
+  private frame(): { width: number; height: number } {
+    return this.paper > 0 ? { width: kWidth / this.paper, height: kHeight / this.paper } : this.root.getBoundingClientRect();
+  }
   /** The part of the picture that one sees at first, and with "fit"; null is the whole of it. */
   setHome(home: Box | null): void {
     if (home === this.home) return;
@@ -58,7 +67,7 @@ export class Lens {
   /** The part that is seen, with what is beside the picture in its frame. */
   get visible(): Box {
     const { x, y, unit } = this;
-    const box = this.root.getBoundingClientRect();
+    const box = this.frame();
     const [w, h] = [kWidth / this.zoom, kHeight / this.zoom];
     const [dx, dy] = box.width > 0 ? [Math.max(0, box.width * unit - w) / 2, Math.max(0, box.height * unit - h) / 2] : [0, 0];
     return { left: x - dx, right: x + w + dx, top: y - dy, bottom: y + h + dy };
@@ -72,7 +81,7 @@ export class Lens {
   }
 
   private fitTo(home: Box): void {
-    const box = this.root.getBoundingClientRect();
+    const box = this.frame();
     const unit = box.width > 0 ? Math.max(kWidth / box.width, kHeight / box.height) : 1;
     const [w, h] = box.width > 0 ? [box.width * unit, box.height * unit] : [kWidth, kHeight];
     // Free pixels: above for the scale bar and the counts, beside for names.
@@ -114,7 +123,7 @@ export class Lens {
 
   private drawScaleBar(): void {
     // Units of the picture per pixel of the screen, so that words keep their size.
-    const box = this.root.getBoundingClientRect();
+    const box = this.frame();
     const unit = box.width > 0 ? Math.max(kWidth / box.width, kHeight / box.height) : 1;
     this.unit = unit / this.zoom;
     this.root.style.setProperty('--u', this.unit.toFixed(4));

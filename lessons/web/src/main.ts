@@ -267,7 +267,7 @@ function printing(data: PageData, state: State): void {
     theme = root.dataset.theme;
     root.dataset.theme = 'light';
     sheet?.remove();
-    sheet = handout(data.title, data.lesson, state.traces);
+    sheet = handout(data.title, [data.course.number > 0 ? `Lesson ${data.course.number} of ${data.course.of}` : '', data.lesson?.minutes ? `about ${data.lesson.minutes} minutes` : ''].filter(Boolean).join(' · '), data.lesson, state.traces);
     document.body.append(sheet);
   });
   window.addEventListener('afterprint', () => {

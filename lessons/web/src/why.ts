@@ -71,6 +71,13 @@ function shortened(text: string, test: Test | null): string {
   return `${found[1]}${chosen}. And ${plural(clauses.length - 1, 'more reason')}.`;
 }
 
+/** The heading names the pair: the sentence need not do it again. */
+function pronouns(text: string, names: string): string {
+  const at = text.indexOf(names);
+  if (text.includes(`The weld of ${names}`)) return text.replace(`The weld of ${names}`, 'Their weld');
+  return at < 0 ? text : text.replace(names, at === 0 ? 'They' : 'them');
+}
+
 /** "0.072 m/s" stands out. */
 function sentence(text: string): Node[] {
   return text.split(/(\d[\d.,]* (?:m\/s|mm\/s|mm|m|N s|steps?)\b)/).map((part, i) => (i % 2 ? h('strong', {}, part) : document.createTextNode(part)));
@@ -94,7 +101,7 @@ export function whyCard(state: State, equation: HTMLElement): HTMLElement {
   const show = (reason: Reason, names: string) => {
     title.replaceChildren(state.trace.told(reason.heading), h('span', { class: 'names' }, `${names}, step ${state.step}`));
     const test = decisive(reason);
-    const told = shortened(state.trace.told(reason.text), test).replace(`The weld of ${names}`, 'Their weld').replace(names, 'They').replace(` at step ${state.step}`, '');
+    const told = pronouns(shortened(state.trace.told(reason.text), test), names).replace(` at step ${state.step}`, '');
     text.replaceChildren(h('p', {}, ...sentence(told)), ...(reason.outlook ? [h('p', { class: 'outlook' }, ...sentence(state.trace.told(reason.outlook)))] : []));
     holder.replaceChildren(...(test ? [gauge(test)] : []));
     text.append(...nextBroken());
