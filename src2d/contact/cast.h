@@ -4,9 +4,10 @@
 /// A row at the nearest points of now, with the gap of now, pushes bodies that will pass by, and
 /// hits with the normal of now. So both bodies are moved through the step as they would move
 /// without contacts, by conservative advancement (Mirtich 1996): with n the direction of the
-/// shortest way between them, v the velocities of the centres of mass and R the reach of a shape
-/// from there, no point comes nearer than −n·(v_b − v_a) + |ω_a|R_a + |ω_b|R_b, so the distance
-/// over this bound is a time in which they cannot meet.
+/// shortest way between them, v the velocities of the centres of mass and max|r| the distance from
+/// there to the farthest point of a shape, no two points approach faster than
+/// −n·(v_b − v_a) + |ω_a| max|r_a| + |ω_b| max|r_b|, so the distance over this bound is a time in
+/// which they cannot meet.
 ///
 /// Where they meet, or else where they are nearest, the manifold is found anew, and its gaps are
 /// carried back along w, the relative velocity there: gap − t·w. The row of a hit then closes at

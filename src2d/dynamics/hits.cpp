@@ -255,8 +255,8 @@ class HitSolver {
     return p.rows < 0 ? 0.0 : rows_[static_cast<std::size_t>(p.rows)].lambda_n(p.row);
   }
 
-  /// Takes back the energy that the impulses would add: with the part c of them the energy changes
-  /// by c λ·w⁻ + c²/2 λ·Kλ. Gives that part.
+  /// Takes back the energy that the impulses would add. Where all of them are multiplied by `part`,
+  /// the energy changes by part λ·w⁻ + part²/2 λ·Kλ. Returns that part.
   double weaken() {
     double along = 0.0, change = 0.0, by_loads = 0.0;
     for (const ContactBlock& k : rows_) {

@@ -21,7 +21,7 @@ double dot(const FrameLoad& x, const FrameLoad& y) {
 
 constexpr std::size_t kWitnesses = LoadCertificate::kMost;
 
-/// x · xᵢ of a load and a witness.
+/// ℓ · ℓᵢ of a load and a witness.
 double product(const State& state, const Collection& c, const CollectionLoad& load,
                const Witness& witness) {
   double sum = dot(load.frame, witness.frame);
@@ -36,7 +36,7 @@ double product(const State& state, const Collection& c, const CollectionLoad& lo
   return sum;
 }
 
-/// x · x.
+/// ℓ · ℓ.
 double square(const CollectionLoad& load) {
   const double outer = kOuterWeight * load.outer_norm;
   return load.norm * load.norm + outer * outer;
@@ -53,13 +53,13 @@ double product(const Witness& x, const Witness& y) {
 /// A load beside those of the witnesses.
 struct Projection {
   LoadCertificate::Weights weights{};
-  double left = 0.0;  ///< |x − Σ wᵢ xᵢ|², of which rounding may leave less than nothing
+  double left = 0.0;  ///< |ℓ − Σ βᵢ ℓᵢ|², of which rounding may leave less than nothing
 };
 
-/// The nearest combination of the first `n` loads of `gram` to one of products `b` and square `xx`.
+/// The nearest combination of the first `n` loads of `gram` to one of products `b` and square `ll`.
 Projection project(std::span<const double> gram, const LoadCertificate::Weights& b, std::size_t n,
-                   double xx) {
-  Projection p{nonNegativeFit(gram, b, n), xx};
+                   double ll) {
+  Projection p{nonNegativeFit(gram, b, n), ll};
   for (std::size_t i = 0; i < n; ++i) {
     p.left -= 2.0 * p.weights[i] * b[i];
     for (std::size_t j = 0; j < n; ++j) {

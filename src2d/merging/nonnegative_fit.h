@@ -7,8 +7,8 @@
 
 namespace merge2d {
 
-/// The weights w >= 0 that minimise |x - sum w_i x_i| over the first `n` vectors, from the products
-/// `gram` = x_i . x_j and `b` = x_i . x; the others are 0. Source: Lawson, Hanson 1974.
+/// The weights β ≥ 0 that minimise |ℓ − Σ βᵢ ℓᵢ| over the first `n` vectors ℓᵢ, from the products
+/// `gram` = ℓᵢ · ℓⱼ and `b` = ℓᵢ · ℓ; the others are 0. Source: Lawson, Hanson 1974.
 LoadCertificate::Weights nonNegativeFit(std::span<const double> gram,
                                         const LoadCertificate::Weights& b, std::size_t n);
 

@@ -115,6 +115,25 @@ TEST(Symbols, EachLetterHasOneMeaning) {
   for (const Row& row : symbolRows()) EXPECT_TRUE(seen.insert(row[0]).second) << row[0];
 }
 
+/// All Greek letters of a text in UTF-8, where each takes two bytes.
+std::set<std::string> greekLettersIn(const std::string& text) {
+  std::set<std::string> found;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if (byte == 0xCE || byte == 0xCF) found.insert(text.substr(i, 2));
+  }
+  return found;
+}
+
+TEST(Symbols, EveryGreekLetterOfTheEngineIsListed) {
+  const std::set<std::string> listed = greekLettersIn(read(kRoot / "docs/symbols.md"));
+  for (const fs::path& file : filesBelow("src2d", {".h", ".cpp"})) {
+    for (const std::string& letter : greekLettersIn(read(file))) {
+      EXPECT_TRUE(listed.contains(letter)) << nameOf(file) << ": " << letter;
+    }
+  }
+}
+
 TEST(Symbols, EachHasAUnitAndAShape) {
   for (const Row& row : symbolRows()) {
     EXPECT_FALSE(row[2].empty()) << row[0];
