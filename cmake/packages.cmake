@@ -21,19 +21,19 @@ set(gl "libosmesa6 | libegl-mesa0, libosmesa6 | libegl1")
 set(packages program library development python)
 set(names merge2d libmerge2d${PROJECT_VERSION_MAJOR} libmerge2d-dev python3-merge2d)
 set(sections science libs libdevel python)
-set(depends "fonts-dejavu-core, ${gl}" "fonts-dejavu-core" "libmerge2d0 (= ${PROJECT_VERSION})"
+set(depends "fonts-dejavu-core, ${gl}" "fonts-dejavu-core" "libmerge2d${PROJECT_VERSION_MAJOR} (= ${PROJECT_VERSION})"
     "python3 (>= 3.9), python3-numpy, fonts-dejavu-core, ${gl}")
 set(summaries "${PROJECT_DESCRIPTION}" "shared library for adaptive merging of rigid bodies in 2D"
     "development files for merge2d" "Python module for adaptive merging of rigid bodies in 2D")
 set(details
 "merge2d simulates rigid bodies in 2D. Bodies that touch and move as one are
- simulated as one body until something tears them apart. It renders pictures,
- writes traces and lesson pages, and needs no display and no network."
+simulated as one body until something tears them apart. It renders pictures,
+writes traces and lesson pages, and needs no display and no network."
 "This package contains the shared library, with a C interface."
 "This package contains the header for C and C++, a static archive, and the
- files by which CMake and pkg-config find them."
+files by which CMake and pkg-config find them."
 "This package contains the module merge2d, with NumPy views of a world's
- bodies, pictures for notebooks, and explanations in words.")
+bodies, pictures for notebooks, and explanations in words.")
 foreach(package name section depend summary detail IN ZIP_LISTS packages names sections depends
         summaries details)
   string(TOUPPER ${package} upper)
@@ -41,7 +41,6 @@ foreach(package name section depend summary detail IN ZIP_LISTS packages names s
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
   set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "${depend}")
   set(CPACK_COMPONENT_${upper}_DESCRIPTION "${summary}\n${detail}")
-  set(CPACK_DEBIAN_${upper}_DESCRIPTION "${summary}\n ${detail}")
 endforeach()
 
 # Copyright and changelog, for the packages alone.
@@ -51,11 +50,25 @@ string(REGEX REPLACE "\n\n" "\n.\n" license "${license}")
 string(REGEX REPLACE "\n" "\n " license "${license}")
 string(STRIP "${license}" license)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/copyright.in ${PROJECT_BINARY_DIR}/packages/copyright @ONLY)
-configure_file(${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_BINARY_DIR}/packages/changelog COPYONLY)
-execute_process(COMMAND gzip -9nf ${PROJECT_BINARY_DIR}/packages/changelog)
+configure_file(${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_BINARY_DIR}/packages/NEWS COPYONLY)
+string(TIMESTAMP date "%a, %d %b %Y 00:00:00 +0000" UTC)
+file(WRITE ${PROJECT_BINARY_DIR}/packages/changelog
+"merge2d (${PROJECT_VERSION}) unstable; urgency=medium
+
+  * Version ${PROJECT_VERSION}; NEWS.gz beside this file tells what is new.
+
+ -- ${CPACK_PACKAGE_CONTACT}  ${date}
+")
+execute_process(COMMAND gzip -9nf changelog NEWS WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+# CPack calls ldconfig beside the trigger, and cannot be told not to.
+file(WRITE ${PROJECT_BINARY_DIR}/packages/libmerge2d${PROJECT_VERSION_MAJOR}
+     "libmerge2d${PROJECT_VERSION_MAJOR}: maintscript-calls-ldconfig\n")
+install(FILES ${PROJECT_BINARY_DIR}/packages/libmerge2d${PROJECT_VERSION_MAJOR}
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides COMPONENT library EXCLUDE_FROM_ALL)
 file(WRITE ${PROJECT_BINARY_DIR}/packages/triggers "activate-noawait ldconfig\n")
 foreach(package name IN ZIP_LISTS packages names)
   install(FILES ${PROJECT_BINARY_DIR}/packages/copyright ${PROJECT_BINARY_DIR}/packages/changelog.gz
+                ${PROJECT_BINARY_DIR}/packages/NEWS.gz
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${package} EXCLUDE_FROM_ALL)
 endforeach()
 # A manual page from the program's own help.
