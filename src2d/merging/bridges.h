@@ -5,9 +5,9 @@
 
 namespace merge2d {
 
-/// Marks the welds whose cut would leave two parts that nothing else joins. What such a weld
-/// carries follows from the weight of either part, so rigid rows and soft contacts agree about it.
-/// Bodies of the frame count as one. The welds of each node must be listed.
+/// Marks the welds whose cut would leave two parts that nothing else joins. The force in such a
+/// weld follows from the weight of either part, so rigid rows and soft contacts agree on it. Bodies
+/// of the frame count as one. The welds of each node must be listed.
 void markBridges(Collection& collection);
 
 }  // namespace merge2d

@@ -1,5 +1,5 @@
 #pragma once
-/// How much the motion of a pair is doubted whose last welds were cut in vain.
+/// The factor on the thresholds of a pair whose last welds were cut in vain.
 
 #include <algorithm>
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace merge2d {
 
-/// More cuts in vain than these make no difference, and no more than the others while something new
-/// has just come in, as that may well move what nothing moved before.
+/// The most cuts in vain that count; fewer count while something new has just come in, as that may
+/// move bodies that nothing moved before.
 inline constexpr std::int16_t kMostVain = 8, kMostVainWhenJolted = 5;
 
 /// Cuts in vain that count now.
@@ -19,8 +19,8 @@ inline int vainCuts(const Collection& c, const Weld& weld) {
 
 /// Factor on all that is asked of a weld before it is cut. Deviation: a pair whose last welds were
 /// cut in vain, as it got nowhere when it was free, is cut later, or it would merge and part for
-/// ever. Rigid contacts may find motion where soft ones hold; and what lands on a heap jostles it
-/// again and again. Guarded by Pile.NoPairMergesAndPartsOverAndOver,
+/// ever. Rigid contacts may find motion where soft ones hold, and bodies that land on a heap
+/// disturb it again and again. Guarded by Pile.NoPairMergesAndPartsOverAndOver,
 /// Caution.LastsWhileAPairIsOnlyJostled and Caution.IsLessWhileAJoltStillCounts.
 inline double cautionWith(const State& state, const Collection& c, const Weld& weld) {
   constexpr double kSteps = 200.0;  // of a weld, times the factor, before it is as any other

@@ -27,14 +27,14 @@ void absorbContacts(State& state);
 /// Mass, centre, inertia and bounds of a collection from its members; momentum is not touched.
 void gatherMass(State& state, RigidId id);
 
-/// Lays out what changed: welds, blocks and boxes of all collections whose contacts changed.
+/// Makes welds, blocks and boxes anew of all collections whose contacts changed.
 void layOutCollections(State& state);
 
-/// The same, but for what is fixed to a frame: the solver needs nothing of that, and it may change
-/// once more before the next sweep.
+/// The same for floating collections alone: the solver needs nothing of anchored ones, which may
+/// change once more before the next sweep.
 void layOutFloating(State& state);
 
-/// Computes anew what the inner forces do to each member.
+/// Computes the push of each member anew from the impulses inside.
 void layOutPush(const State& state, Collection& collection);
 
 /// Takes the collection apart: `part[i]` is the part of its i-th member, `anchored[p]` says whether

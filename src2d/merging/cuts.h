@@ -1,5 +1,5 @@
 #pragma once
-/// Cut welds, and what becomes of their collection: the part of Unmerge that all rules share.
+/// Splits collections at their cut welds: the part of Unmerge that all rules share.
 
 #include <string_view>
 
@@ -16,7 +16,7 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
 /// it together. Of joints the paper does not speak. Returns false when there are none.
 bool breakJointsInside(State& state, Scratch& scratch, Collection& collection);
 
-/// A run of what was noted: one collection's decisions.
+/// The decisions about one collection: a run of those noted in this step.
 struct Noted {
   Notes* notes;  ///< null: nobody asks
   std::size_t first = 0, last = 0;
@@ -24,13 +24,14 @@ struct Noted {
   explicit Noted(Notes* all) : notes(all) {
     if (notes) first = last = notes->decisions.size();
   }
-  /// Ends with what was noted last.
+  /// Ends the run at the last decision so far.
   void close() {
     if (notes) last = notes->decisions.size();
   }
 };
 
-/// What was decided about welds may not be what came of it: one verdict `to` another where `holds`.
+/// A weld that a test wants to unmerge may stay for other reasons: replaces the verdict by `to`
+/// where `holds`.
 template <class Holds>
 void restate(const Noted& noted, std::string_view to, Holds&& holds) {
   for (std::size_t i = noted.first; i < noted.last; ++i) {

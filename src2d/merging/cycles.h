@@ -12,7 +12,7 @@
 namespace merge2d {
 
 /// Groups of nodes that hold together by one pin per active contact; those of one pair of nodes
-/// should stand in a row. `Off`: whatever is connected.
+/// should stand in a row. `Off`: the connected components.
 Groups heldGroups(std::uint32_t nodes, std::span<const Pin> pins, CycleCriterion criterion);
 
 }  // namespace merge2d

@@ -4,7 +4,7 @@
 /// – slip and opening are summed over consecutive steps before they are compared with the
 ///   threshold: a sweep's velocity is thrown away each step, so a single one only sees
 ///   accelerations above ε/h;
-/// – after a cut, what remains together must be rigid, not merely connected.
+/// – after a cut, bodies that stay together must be a rigid group, not merely connected.
 
 #include "src2d/dynamics/state.h"
 

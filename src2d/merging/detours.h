@@ -1,5 +1,5 @@
 #pragma once
-/// Ways around a weld: what is cut does not part its two bodies while other welds hold them.
+/// Detours around a cut weld: other welds that still hold its two bodies together.
 
 #include <cstdint>
 #include <span>
@@ -12,9 +12,9 @@ namespace merge2d {
 /// welds of each node.
 void indexWelds(const State& state, Collection& c);
 
-/// True when welds near each of these, what is left of it included and none of them cut, hold its
-/// two bodies in one rigid group, and not by way of the frame. What held together with these welds
-/// then holds together without them. False when in doubt.
+/// True when the two bodies of each of these welds are in one rigid group by its remaining contacts
+/// and by welds near it that are not cut, and not by way of the frame. A collection that held
+/// together with these welds then does so without them. False when in doubt.
 bool heldByDetours(const State& state, const Collection& c, std::span<const std::uint32_t> welds);
 
 }  // namespace merge2d

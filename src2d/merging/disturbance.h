@@ -15,15 +15,15 @@ double impactSpeed(const State& state);
 inline constexpr std::int16_t kFollowed = 10;
 
 /// A member that meets something is jolted, and so is one whose velocity sweeps change by more than
-/// this: five times the slip that parts a weld, half of what gravity adds in a step of 0.01 s
-/// [m/s].
+/// this: five times the slip that cuts a weld, half of the velocity that gravity adds in a step of
+/// 0.01 s [m/s].
 double joltVelocity(const State& state);
 
 /// Notes for kFollowed steps that a body is jolted, where its velocity changes by so much, squared
 /// [m²/s²].
 void noteJolt(State& state, std::uint32_t body, double change);
 
-/// Whether what has come in lately has jolted a good part of the collection: a quarter.
+/// Whether a quarter of the members have been jolted lately.
 bool isJolted(const State& state, const Collection& c);
 
 /// ContactOrdering: the bodies at which something is new: a fresh contact that closes in this step,
@@ -31,7 +31,7 @@ bool isJolted(const State& state, const Collection& c);
 /// jumps is disturbed as a whole.
 void orderContacts(State& state, Scratch& scratch);
 
-/// What a collection feels, those that touch it feel in the same step.
+/// Collections that touch a disturbed one are disturbed in the same step.
 void spreadDisturbance(const State& state, Scratch& scratch);
 
 }  // namespace merge2d

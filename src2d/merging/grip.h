@@ -1,13 +1,13 @@
 #pragma once
-/// What each weld of a collection still holds by: its contacts that press or have not opened since,
-/// and its joints.
+/// The grip of each weld: how many contacts it still holds by, which press or have not opened
+/// since, and its joints.
 
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
 
-/// Contacts of a weld that have carried a force and have not opened since, and what its joints are
-/// worth beside them.
+/// Contacts of a weld that have carried a force and have not opened since, and the contacts that
+/// its joints count as.
 int activeContacts(const Collection& c, const Weld& weld);
 
 /// Points of this collection nearer than this count as one [m].

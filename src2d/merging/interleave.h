@@ -1,5 +1,5 @@
 #pragma once
-/// An order for many sweeps over the same items, which a processor gets through sooner.
+/// A faster order for many sweeps over the same items.
 
 #include <algorithm>
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace merge2d {
 
-/// Puts next to each other what shares no body: in turns, each item in the first one after those of
-/// the items before it that share a body with it. As each body meets its items in the same order as
-/// before, a sweep changes everything to the same numbers; but the next item need not wait until
-/// the last one is done.
+/// Puts items next to each other that share no body. Each item goes into the first turn after those
+/// of all earlier items that share a body with it. Each body meets its items in the same order as
+/// before, so a sweep has the same results to the bit; but the processor need not finish one item
+/// before it begins the next.
 class Interleaving {
  public:
   static constexpr std::uint32_t kFixed = ~0u;  ///< does not respond to forces, and is shared

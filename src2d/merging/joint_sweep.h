@@ -9,7 +9,7 @@ namespace merge2d {
 /// Rows of the joints that act inside the collection.
 void layOutJoints(const State& state, Collection& collection);
 
-/// Adds what they do to each member's push; `add(body, sign, impulse, moment)` collects it.
+/// Adds their impulses to the pushes of the members by `add(body, sign, impulse, moment)`.
 template <class Add>
 void addJointPush(const Collection& collection, Add&& add) {
   for (const JointBlock& k : collection.joints) {
@@ -28,8 +28,8 @@ void listSweepJoints(const State& state, Scratch& scratch);
 /// Puts last step's impulses of these joints, and of others at marked bodies, on the velocities.
 void warmStartSweepJoints(const State& state, Scratch& scratch);
 
-/// Keeps what the sweep found where the full solve has no row: inside collections and between fixed
-/// things.
+/// Keeps the impulses of the sweep where the full solve has no row: inside collections and between
+/// fixed things.
 void keepJointForces(State& state, Scratch& scratch);
 
 }  // namespace merge2d

@@ -1,7 +1,8 @@
 #pragma once
-/// What joints hold in a collection. In the contacts' coin: a revolute joint is a pivot, as a
+/// The joints inside a collection as welds, counted in contacts. A revolute joint is a pivot, as a
 /// single contact is, and holds only in a rigid group or beside another contact or joint; a weld
-/// holds alone; so do a strong enough brake and a limit that presses.
+/// joint counts as two contacts and holds alone; so do a strong enough brake and a limit that
+/// presses.
 
 #include <span>
 
@@ -10,19 +11,19 @@
 
 namespace merge2d {
 
-/// Adds a weld for each pair of bodies that has joints inside the collection, and says what they
-/// hold just now. Welds stay ascending.
+/// Adds a weld for each pair of bodies that has joints inside the collection, with the contacts
+/// that these count as just now. Welds stay ascending.
 void addJointWelds(const State& state, Collection& collection);
 
 /// Where the joints of a weld hold, in the collection's frame.
 Vec2 jointPoint(const State& state, const Collection& collection, const Weld& weld);
 
-/// After a sweep with the velocities `u`: says anew what the joints of each weld hold. A limit lets
-/// go, and a brake yields, once the velocities that the sweep finds there sum up to
-/// `unmerging.sliding`. True when some weld holds less.
+/// After a sweep with the velocities `u`: counts the joints of each weld anew. A limit lets go, and
+/// a brake yields, once the velocities that the sweep finds there sum up to `unmerging.sliding`.
+/// True when some weld holds less.
 bool loosenJoints(State& state, Collection& collection, const std::vector<SolverVelocity>& u);
 
-/// The same after more sweeps in the same step: what they do not confirm is forgotten.
+/// The same after more sweeps in the same step: sums that they do not confirm are forgotten.
 void confirmJoints(State& state, Collection& collection, const std::vector<SolverVelocity>& u);
 
 /// True when a joint inside bears more than it can.
@@ -32,8 +33,8 @@ bool anyJointBreaks(const State& state, const Collection& collection);
 std::vector<std::uint32_t> takeOverloadedJoints(const State& state, Collection& collection);
 
 /// Breaks those of them whose bodies other things still hold together. Between bodies that came
-/// apart a joint acts once more, in this step's full solve, and breaks then, as without merging: or
-/// the blow that breaks it would go through what it held.
+/// apart a joint acts once more, in this step's full solve, and breaks then, as without merging;
+/// otherwise the blow that breaks it would not slow the bodies that it held.
 void breakWhatStaysInside(State& state, Scratch& scratch, std::span<const std::uint32_t> joints);
 
 /// Counts the steps in which the bodies of each joint could have merged: Eqs. (15)-(17), and the

@@ -1,8 +1,8 @@
 #pragma once
-/// What a struck body may run into within its own collection. Contacts there are never looked for
-/// (Section 4.1), as nothing moves; but an impulse can set a member off within the very step, and
-/// without these contacts it would pass through a neighbour that it does not touch yet.
-/// Deviation: the paper has no such contacts. Guarded by
+/// Expected contacts: those that a struck member can close with others of its own collection.
+/// Detection does not look for contacts there (Section 4.1), as nothing moves; but an impulse moves
+/// a member within the very step, and without these contacts it would pass through a neighbour that
+/// it does not touch yet. Deviation: the paper has no such contacts. Guarded by
 /// Kicked.ABodyPushesANeighbourThatItDoesNotTouchYet.
 
 #include "src2d/dynamics/state.h"
@@ -10,7 +10,7 @@
 namespace merge2d {
 
 /// Adds the contacts that members with an impulse in this step can close: to their collections, for
-/// the sweep, and towards what is fixed to the same frame. They hold nothing together.
+/// the sweep, and towards bodies that are fixed to the same frame. They are no welds.
 void expectContactsOfKicked(State& state, Scratch& scratch);
 
 /// Forgets those that are still inside a collection when all welds have been tested.

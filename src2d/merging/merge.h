@@ -11,15 +11,15 @@
 
 namespace merge2d {
 
-/// The part of the thresholds that holds for things of a size [m]: a hundredth of a metre per
-/// second is little for a brick, and a hundred times its size for a grain of 0.1 mm.
+/// The factor on the thresholds for bodies of a size [m]: a hundredth of a metre per second is
+/// little for a brick, and a hundred times its size per second for a grain of 0.1 mm.
 inline double thresholdScale(double size) {
   constexpr double kUsual = 0.1;  // [m]
   return std::min(1.0, size / kUsual);
 }
 
-/// Eq. (15); the box of what is fixed to the world or to a script is not looked at [m/s]. With
-/// `merging.metric = "naive"` only the contacts of a pair are.
+/// Eq. (15); only the boxes of floating things are looked at [m/s]. With `merging.metric = "naive"`
+/// only the contacts of a pair are.
 double relativeMotion(const State& state, const BodyPair& pair, Notes* notes);
 
 /// Counts, for each pair in contact, the consecutive steps in which it could merge: relative

@@ -6,8 +6,8 @@
 
 namespace merge2d {
 
-/// What floats has the momentum of its members, of which `velocityOf(b)` is the SolverVelocity;
-/// what is fixed moves with its frame.
+/// A floating collection has the momentum of its members, of which `velocityOf(b)` is the
+/// SolverVelocity; an anchored one moves with its frame.
 template <class VelocityOf>
 VelocityField fieldOf(const State& state, const Collection& c, VelocityOf&& velocityOf) {
   const Rigid& r = state[c.rigid];

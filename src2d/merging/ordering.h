@@ -1,6 +1,6 @@
 #pragma once
-/// ContactOrdering (Section 6.2): the sweep starts at what is new and walks the contact graph from
-/// there, breadth first from all places at once.
+/// ContactOrdering (Section 6.2): the sweep starts at the seeds and walks the contact graph from
+/// there, breadth first from all of them at once.
 
 #include <cstdint>
 #include <span>

@@ -19,7 +19,7 @@ class PairTest {
   /// True when the pair passes all of them in this step.
   bool ready();
 
-  /// What all criteria together make of the count.
+  /// Writes the count before and after this step into the noted tests of the pair.
   void noteCount(int before, int now) const;
 
  private:

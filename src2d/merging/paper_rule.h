@@ -1,7 +1,7 @@
 #pragma once
-/// `rule = "paper"`: Sections 5 to 7 of the paper to the letter. These files are all that there is
-/// of it beside the parts that every rule shares; docs/decisions/cures.md says where it goes wrong
-/// in the plane.
+/// `rule = "paper"`: Sections 5 to 7 of the paper to the letter. Besides paper_rule.cpp,
+/// paper_unmerge.cpp and paper_sleep.cpp it uses only the parts that every rule shares;
+/// docs/decisions/cures.md says where it goes wrong in the plane.
 
 #include "src2d/merging/rule.h"
 
@@ -10,15 +10,15 @@ namespace merge2d {
 extern const MergingMethod kPaperMerging;
 extern const UnmergingMethod kPaperUnmerging;
 
-/// Section 6.2: one sweep over all contacts of merged and free bodies, breadth first from what is
-/// new.
+/// Section 6.2: one sweep over all contacts of merged and free bodies, breadth first from the seeds
+/// where there are any.
 void sweepBreadthFirst(State& state, Scratch& scratch);
 
 /// Sections 6.3 and 6.4: cuts the welds with a contact that is broken or slides, and those that
 /// turn; splits each collection into the components of the welds that are left.
 void unmergeByContacts(State& state, Scratch& scratch);
 
-/// Section 7: each thing of B sleeps, and wakes, by itself.
+/// Section 7: each body and each collection sleeps, and wakes, by itself.
 void sleepEachByItself(State& state, Scratch& scratch);
 
 }  // namespace merge2d

@@ -1,5 +1,5 @@
 #pragma once
-/// What still hangs together in a collection without the welds that are cut.
+/// The parts of a collection that its welds still hold together without those that are cut.
 
 #include <cstdint>
 #include <vector>

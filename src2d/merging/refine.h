@@ -11,7 +11,7 @@
 
 namespace merge2d {
 
-/// What a refinement may sweep.
+/// The rows that a refinement may sweep, and how often.
 struct SweepScope {
   std::vector<SweepItem> loose;          ///< contacts outside collections, and all joints
   std::span<const std::uint8_t> inside;  ///< per collection slot: its contacts too
@@ -39,18 +39,18 @@ inline void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, Sol
   solveJoint(*item.joint, item.turn, u[item.joint->a], u[item.joint->b]);
 }
 
-/// Velocities below this are what a sweep leaves for the next one: a thousandth of what gravity
-/// adds in a step [m/s].
+/// Velocities below this may be left by one sweep for the next: a thousandth of the velocity that
+/// gravity adds in a step [m/s].
 double residualVelocity(const State& state);
 
 /// A sweep that changes a member's velocity by more than this is to be followed by others: a tenth
 /// of the slip that parts a weld [m/s].
 double refinedVelocity(const State& state);
 
-/// Sweeps what is at the seeds and at the bodies marked in `scratch.restless_bodies`, breadth
-/// first; then what is at bodies that the last sweep changed by more than `threshold` [m/s], and so
-/// on, accelerated as in the full solve, until there are none or `scope.most` sweeps are
-/// spent. Returns the largest change that may be left [m/s].
+/// Sweeps the rows at the seeds and at the bodies marked in `scratch.restless_bodies`, breadth
+/// first; then those at bodies that the last sweep changed by more than `threshold` [m/s], and so
+/// on, accelerated as in the full solve, until there are none or `scope.most` sweeps are spent.
+/// Returns the largest change that may be left [m/s].
 double sweepUntilQuiet(State& state, Scratch& scratch, const SweepScope& scope,
                        std::span<const std::uint32_t> seeds, double threshold);
 

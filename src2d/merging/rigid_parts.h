@@ -9,9 +9,10 @@ namespace merge2d {
 bool makeParts(const State& state, Scratch& scratch, const Collection& collection);
 
 /// Takes members as one part that are joined by welds for which `joins` is true, and gives each
-/// part the momentum that the sweep has left its members. The frame, and what rests against them,
-/// is immovable; what else they touch moves as the sweep has left it, or its collection, and has
-/// its mass. False when there are too many parts or contacts to be solved in passing.
+/// part the momentum that the sweep has left its members. The frame, and bodies that rest against
+/// the parts, are immovable; others that the parts touch have the velocity that the sweep has left
+/// them, or their collection, and its mass. False when there are too many parts or contacts to be
+/// solved in passing.
 template <class Joins>
 bool formParts(const State& state, Scratch& scratch, const Collection& collection, Joins&& joins) {
   const auto members = static_cast<std::uint32_t>(collection.members.size());

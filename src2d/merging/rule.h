@@ -8,13 +8,13 @@
 
 namespace merge2d {
 
-/// Which pairs merge, and into what (Section 5).
+/// Which pairs merge (Section 5).
 struct MergingMethod {
   /// A pair all of whose contacts are on the edge of their cones, Eq. (20), is not ready.
   bool refuses_edge;
   /// Collections on one pinned or scripted body are one collection.
   bool unites_on_floors;
-  /// What must hold the pairs that are ready (Section 8.2).
+  /// The criterion for pairs with single contacts that are ready (Section 8.2).
   CycleCriterion (*cycles)(const MergingSettings& settings);
 };
 
@@ -24,7 +24,7 @@ struct InnerRows {
   std::array<double, 2> bias{};  ///< per point [m/s]
 };
 
-/// How the forces inside collections are kept, and what comes free (Sections 6 and 7).
+/// How the forces inside collections are kept, and which bodies come free (Sections 6 and 7).
 struct UnmergingMethod {
   /// SleepAndWake.
   void (*sleepAndWake)(State& state, Scratch& scratch);
@@ -42,7 +42,7 @@ struct UnmergingMethod {
 
   /// Unmerge: cuts welds, and splits the collections that fall apart (cuts.h).
   void (*unmerge)(State& state, Scratch& scratch);
-  /// What the welds hold together that are not cut.
+  /// The parts that the welds hold together that are not cut.
   Parts (*parts)(const State& state, Scratch& scratch, const Collection& collection);
   /// How many steps a contact waits that leaves its collection, before its pair may merge again.
   /// `cut` is its weld when a test of this step cut it, else null.

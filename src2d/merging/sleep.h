@@ -13,17 +13,17 @@ void sleepAndWake(State& state, Scratch& scratch);
 /// by tests/src2d/merging/sleep_test.cpp.
 void sleepByIslands(State& state, Scratch& scratch);
 
-/// True for what the stage may put to sleep: it floats, or is a collection.
+/// True for a rigid thing that the stage may put to sleep: it floats, or is a collection.
 bool canSleep(const State& state, RigidId id);
 
-/// Marks in `scratch.restless` what something from outside keeps or makes awake: impulses, changed
-/// loads, moving scripted bodies.
+/// Marks in `scratch.restless` the rigid things that something from outside keeps awake or wakes:
+/// impulses, changed loads, moving scripted bodies.
 void markRestless(State& state, Scratch& scratch);
 
 /// Puts one rigid thing to sleep.
 void fallAsleep(State& state, Scratch& scratch, RigidId id);
 
-/// Writes down what becomes of a rigid thing, and the one test that decided it.
+/// Notes whether a rigid thing stays awake, and the one test that decided it.
 void noteSleep(const State& state, const Scratch& scratch, RigidId id, bool stays_awake);
 
 /// Wakes one rigid thing; its island follows in the stage.

@@ -1,6 +1,7 @@
 #pragma once
-/// Whether a collection falls apart where welds are cut, judged as seldom as can be: the same welds
-/// are found cut in step after step while others hold their bodies together.
+/// Whether a collection falls apart at its cut welds. The same welds are found cut in step after
+/// step while others hold their bodies together, so the answer is kept, and asked for as seldom as
+/// possible.
 
 #include <optional>
 
@@ -22,7 +23,7 @@ bool losesAMember(const Collection& c, const Scratch& scratch);
 
 /// The parts into which the welds that are cut divide the collection, once the others are listed;
 /// nothing while it holds together. `anew`: something else has changed too, or a member was lost,
-/// and what was found before does not help.
+/// and the answers kept from earlier steps do not help.
 std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collection& c, bool anew);
 
 }  // namespace merge2d

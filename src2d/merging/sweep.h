@@ -2,7 +2,7 @@
 /// SingleIterationPGS (Section 6.2): one sweep of PGS over the contacts inside collections, and
 /// those around them, keeps the inner forces alive. Its velocities are only looked at, by Unmerge;
 /// its impulses of contacts outside collections are thrown away, so that the full solve's warm
-/// start is untouched. What is swept in which order is a matter of the rule (rule.h).
+/// start is untouched. The rule decides which rows are swept, and in which order (rule.h).
 
 #include "src2d/dynamics/state.h"
 
@@ -11,13 +11,13 @@ namespace merge2d {
 /// Updates the impulses inside collections.
 void sweepCollections(State& state, Scratch& scratch);
 
-/// Sweeps over the active contacts of a collection. What they change is added to each member's
-/// push. Contacts that they leave at their limits are watched from now on. Returns the largest
+/// Sweeps over the active contacts of a collection, and adds the changes of the members' velocities
+/// to their pushes. Contacts left at their limits are watched from now on. Returns the largest
 /// change of a member's velocity [m/s]; that of each is left in `scratch.u`, squared.
 double sweepInside(const State& state, Collection& collection, Scratch& scratch, int sweeps);
 
-/// Computes anew what the inner forces do to members, where more sweeps have changed them: once in
-/// a step, and not where all is laid out anew.
+/// Computes the pushes of the members anew where more sweeps have changed the impulses: once in a
+/// step, and not where the collection is laid out anew.
 void renewPushes(State& state, Scratch& scratch);
 
 /// True for a collection whose inner forces may be sought in this step: it is there and awake.

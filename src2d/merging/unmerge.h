@@ -1,6 +1,6 @@
 #pragma once
-/// Unmerge (Sections 6.3 and 6.4): which welds end, and what falls apart without them. Which ones
-/// is a matter of the rule (rule.h).
+/// Unmerge (Sections 6.3 and 6.4): cuts welds and splits the collections that fall apart without
+/// them. The rule decides which welds are cut (rule.h).
 
 #include "src2d/dynamics/state.h"
 
