@@ -62,7 +62,7 @@ Core coreOf(std::uint32_t nodes, std::span<const Pin> pins, DisjointSets& sets) 
   return core;
 }
 
-/// Joins what hangs on the largest group, one body after the other.
+/// Joins the bodies that hang on the largest group, one after the other.
 void joinGrown(const Core& core, double resolution, DisjointSets& sets) {
   const auto inside =
       grownGroup(static_cast<std::uint32_t>(core.nodes.size()), core.pins, {resolution});

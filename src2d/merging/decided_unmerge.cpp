@@ -96,8 +96,8 @@ void notePressing(Collection& c) {
   }
 }
 
-/// The components of the graph of welds that are not cut: in a converged solution, whatever does
-/// not move is held, and no rigidity need be asked for.
+/// The components of the graph of welds that are not cut: in a converged solution each body that
+/// does not move is held, and no rigidity need be asked for.
 Parts componentsOf(const Collection& c) {
   const auto members = static_cast<std::uint32_t>(c.members.size());
   DisjointSets sets;

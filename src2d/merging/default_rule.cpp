@@ -38,7 +38,7 @@ InnerRows rigidRows(const State& state, const InternalContact& contact, const So
 /// Guarded by Cures.AContactThatCarriedNothingWhenItsPairMergedTakesALoadLater.
 void keepAllPoints(InternalContact&) {}
 
-/// What turns as slowly as this seems to be at rest for so many steps.
+/// The number of steps for which a pair that turns as slowly as this seems to be at rest.
 int stepsUntilSeen(const State& state, const Drift& turning) {
   constexpr double kMost = 200.0;  // steps
   const double seen = state.settings.merging.velocity * turning.steps;

@@ -38,8 +38,8 @@ bool breakInside(State& state, Scratch& scratch, Collection& c) {
   return breakJointsInside(state, scratch, c);
 }
 
-/// What seemed to part would not have moved: that is asked again, but ever less often where nothing
-/// new comes in.
+/// Doubles the wait before the trial is asked again (back-off): the parts of this collection would
+/// not have moved.
 void refuse(Collection& c) {
   c.patience = static_cast<std::int8_t>(1 << c.refusals);
   c.refusals =
@@ -47,8 +47,7 @@ void refuse(Collection& c) {
   c.refuted = true;
 }
 
-/// Where nothing seems to part, as no weld is cut or others hold what it held, refusals are
-/// forgotten little by little.
+/// Forgets refusals one by one while no weld is cut, or others hold its bodies together.
 void forgetRefusals(const State& state, Collection& c) {
   constexpr std::int64_t kEvery = 256;  // steps
   if (c.refusals == 0 || state.step % kEvery != 0) return;
@@ -56,8 +55,9 @@ void forgetRefusals(const State& state, Collection& c) {
   c.patience = std::min(c.patience, static_cast<std::int8_t>(1 << c.refusals));
 }
 
-/// Whether to let all that seems to part be for now. Not what is jolted in this step: a heap on
-/// which things fall is always disturbed somewhere, and the rest of it waits on.
+/// Whether the collection waits for the next trial, with all cuts withheld. Cuts at bodies that are
+/// jolted in this step do not wait: a heap on which things fall is always disturbed somewhere, and
+/// the rest of it waits on.
 bool waits(const State& state, Collection& c, bool disturbed, Noted& noted) {
   if (disturbed && isJolted(state, c)) c.patience = c.refusals = 0;
   if (c.cut_welds.empty() && c.loosened.empty()) {
@@ -78,7 +78,7 @@ struct Tested {
   Noted noted;
   bool apart = false;  ///< falls into `parts`
   Parts parts = {};
-  bool sure = false;  ///< whatever the trial finds
+  bool sure = false;  ///< even where the trial finds no motion
 
   void fallsInto(Parts&& found) {
     apart = true;
@@ -119,7 +119,7 @@ void noteFooting(const Collection& c, const Footing& footing, Notes* notes) {
   }
 }
 
-/// Parts what, taken as a few rigid bodies, cannot stay where it is.
+/// Splits a collection whose model of a few rigid parts is not in equilibrium.
 bool losesFooting(State& state, Scratch& scratch, Tested& tested) {
   Collection& c = state.collections[tested.slot];
   const Footing footing = footingOf(state, scratch, c);
@@ -143,7 +143,7 @@ bool losesFooting(State& state, Scratch& scratch, Tested& tested) {
   return true;
 }
 
-/// Tests the welds of one collection, and finds what it falls into.
+/// Tests the welds of one collection, and finds the parts that it falls into.
 void testCollection(State& state, Scratch& scratch, Tested& tested) {
   const std::size_t slot = tested.slot;
   Collection& c = state.collections[slot];
@@ -173,7 +173,7 @@ void testCollection(State& state, Scratch& scratch, Tested& tested) {
   if (parts) tested.fallsInto(*std::move(parts));
 }
 
-/// What would not move stays: asked of all at once.
+/// Asks the trial about all collections at once, and keeps the parts that would not move.
 void keepWhatStays(State& state, Scratch& scratch, std::vector<Tested>& apart) {
   if (apart.empty()) return;
   std::vector<Proposal> proposals;

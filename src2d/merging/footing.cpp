@@ -13,7 +13,7 @@
 namespace merge2d {
 namespace {
 
-/// What the load adds to a velocity in a step: that of gravity, or of a frame that turns [m/s].
+/// The velocity that the load adds in a step: that of gravity, or of a frame that turns [m/s].
 double loadStep(const State& state, const Collection& c) {
   const Rigid& r = state[c.rigid];
   const Aabb& bounds = state.extent(c.rigid).bounds;
@@ -30,18 +30,18 @@ bool hasJoints(const State& state, const Scratch& scratch, const Collection& c) 
   });
 }
 
-/// What keeps swaying under a load is asked, not what more sweeps look at anyway, nor what joints
-/// hold: they are solved in their own way.
+/// A collection that keeps swaying under a load is asked, but none that more sweeps look at anyway,
+/// and none with joints: they are solved in their own way.
 bool isAsked(const State& state, const Scratch& scratch, const Collection& c, double load) {
   constexpr std::size_t kFewest = 6;  // members: sweeps through fewer are done in time
-  constexpr double kSways = 0.02;     // of what the load adds in a step
+  constexpr double kSways = 0.02;     // of loadStep()
   if (c.stale || c.members.size() < kFewest) return false;
   if (scratch.disturbed[index(c.rigid) - state.bodies.size()]) return false;
   const double enough = std::max(kSways * load, residualVelocity(state));
   return sway(state, scratch, c) > enough && !hasJoints(state, scratch, c);
 }
 
-/// The place among the members of what all others may stand on.
+/// The place of the heaviest member, on which all others may stand.
 std::uint32_t heaviestOf(const State& state, const Collection& c) {
   const auto mass = [&](BodyId b) { return state[b].mass; };
   return static_cast<std::uint32_t>(std::ranges::max_element(c.members, {}, mass) -
@@ -70,8 +70,9 @@ bool gives(const State& state, Scratch& scratch, const Collection& c, const Join
   return true;
 }
 
-/// The direction in which the load pulls on members, in the collection's frame [rad]. Where that
-/// turns, the load is another elsewhere, so that what has borne it is still asked at times.
+/// The direction in which the load pulls on members, in the collection's frame [rad]. Where the
+/// frame turns, the load differs from place to place, so that a collection that has borne it is
+/// still asked at times.
 double loadDirection(const State& state, const Collection& c) {
   const Vec2 gain = state.h * state.gravity - c.frame_gain;
   const Vec2 load = state[c.rigid].rotation.inverse() * gain;
@@ -104,7 +105,7 @@ void extend(LoadRange& range, double direction) {
 Footing footingOf(const State& state, Scratch& scratch, Collection& c) {
   constexpr std::int64_t kOften = 8, kSeldom = 32;  // steps
   constexpr std::int64_t kBorne = 8;                // times as seldom
-  constexpr double kStands = 5e-3;                  // of what the load adds in a step
+  constexpr double kStands = 5e-3;                  // of loadStep()
   if (scratch.disturbed[index(c.rigid) - state.bodies.size()]) c.borne = {};
   const bool floating = state[c.rigid].floating(), seldom = state.step % kSeldom == 0;
   const std::int64_t interval = floating ? kSeldom : kOften;

@@ -53,7 +53,7 @@ class GroupList {
   std::map<std::uint32_t, std::int32_t> place_;
 };
 
-/// Pinned or scripted: what collections are fixed to.
+/// Pinned or scripted: a body that collections can be fixed to.
 bool isFrame(const State& state, BodyId body) {
   return !state[rigidOf(body)].floating() && !state.isCollection(state[body].rigid);
 }

@@ -9,7 +9,7 @@ bool isSweptMember(const State& state, BodyId b) {
   return state.isCollection(state[b].rigid) && !state.rigid(b).asleep;
 }
 
-/// A member's centre of mass; what holds it does not respond, so that any place will do.
+/// A member's centre of mass; the world at the other end does not respond, so any place will do.
 Vec2 centerOf(const State& state, const Joint& joint, bool of_b) {
   if (of_b && joint.to_world) return Vec2::Zero();
   return state.pose(of_b ? joint.b : joint.a).position;

@@ -20,7 +20,7 @@ bool isWithinBounds(const JointBlock& k, std::size_t i) {
   return k.lambda[i] > k.rows[i].lower && k.lambda[i] < k.rows[i].upper;
 }
 
-/// A motor that presses against a limit wants what the limit forbids: the limit holds.
+/// A motor that presses against a limit is overruled: the limit holds.
 bool isOverruled(const JointBlock& k, std::size_t i) {
   return i == kMotorRow && k.motor && k.limit && isWithinBounds(k, kLimitRow);
 }
@@ -36,7 +36,7 @@ std::vector<RowOf> rowsOf(Collection& c) {
   return rows;
 }
 
-/// What the rows still want to change [m/s, rad/s].
+/// The residual of each row [m/s, rad/s].
 Eigen::VectorXd restOf(const std::vector<RowOf>& rows, const Rotation& turn,
                        const std::vector<SolverVelocity>& u) {
   Eigen::VectorXd rest(static_cast<Eigen::Index>(rows.size()));
@@ -55,7 +55,7 @@ struct RowEnd {
   double sign, arm;
 };
 
-/// By body, then by row; without what does not respond.
+/// By body, then by row; without bodies that do not respond.
 std::vector<RowEnd> endsOf(const std::vector<RowOf>& rows, const std::vector<SolverVelocity>& u) {
   std::vector<RowEnd> ends;
   for (std::uint32_t i = 0; i < rows.size(); ++i) {

@@ -55,7 +55,7 @@ auto weldAt(std::vector<Weld>& welds, const Pair& pair) {
                           [](const Weld& w, const Pair& p) { return pairOf(w) < p; });
 }
 
-/// Says anew what the joints of each weld hold: `found(weld, contacts)`, in contacts.
+/// Counts the joints of each weld anew, in contacts: `found(weld, contacts)`.
 template <class F>
 void countHolds(const State& state, Collection& c, F&& found) {
   thread_local std::vector<Hold> holds;  // per weld; its memory is kept
@@ -132,7 +132,7 @@ Vec2 jointPoint(const State& state, const Collection& c, const Weld& weld) {
 void addJointWelds(const State& state, Collection& c) {
   for (const JointBlock& k : c.joints) {
     const Joint& joint = state.joints[k.joint];
-    if (joint.to_world) continue;  // whoever is fixed to the world, is so by other means
+    if (joint.to_world) continue;  // it is no weld
     const Pair pair = pairOf(joint);
     const auto at = weldAt(c.welds, pair);
     if (at != c.welds.end() && pairOf(*at) == pair) continue;

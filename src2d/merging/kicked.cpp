@@ -23,7 +23,7 @@ double wayOf(const State& state, const Scratch& scratch, BodyId body) {
   return state.h * speed;
 }
 
-/// Detection leaves out pairs within a collection, and within what is fixed to one frame.
+/// Detection leaves out pairs within a collection, and pairs that are fixed to one frame.
 bool leftOut(const State& state, BodyId a, BodyId b) {
   if (a == b || !state.rigid(b).present() || joined(state, a, b)) return false;
   if (state[a].rigid == state[b].rigid) return true;

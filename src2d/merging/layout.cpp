@@ -54,8 +54,8 @@ void gatherMass(State& state, RigidId id) {
 
 namespace {
 
-/// The oriented box of all members (Section 5.2). What is fixed to a frame is never asked for its
-/// motion, and any box will do.
+/// The oriented box of all members (Section 5.2). The motion of an anchored collection is never
+/// asked for, so any box will do there.
 void fitBox(State& state, RigidId id) {
   if (!state[id].floating()) {
     Extent& extent = state.extents[state[id].extent];
@@ -184,7 +184,7 @@ void orderBlocks(Collection& c) {
   for (std::uint32_t i = 0; i < colour_of.size(); ++i) c.block_contact[first[colour_of[i]]++] = i;
 }
 
-/// What fitted before moves to its new place; the rest is made.
+/// Blocks that still fit move to their new places; the others are made.
 void layOutBlocks(const State& state, Collection& c) {
   orderBlocks(c);
   const auto old_blocks = std::exchange(c.blocks, {});
@@ -211,7 +211,7 @@ void layOutBlocks(const State& state, Collection& c) {
   }
 }
 
-/// What was found of the welds as they were.
+/// Forgets all that was found out about the welds as they were.
 void forgetJudgement(Collection& c) {
   c.cut_welds.clear();
   c.spare.clear();
@@ -252,7 +252,7 @@ void layOutPush(const State& state, Collection& c) {
 
 namespace {
 
-/// Most are in order: what came in last follows after them.
+/// Most are in order: the contacts that came in last follow after them.
 void sortContacts(std::vector<InternalContact>& contacts) {
   const auto byKey = [](const InternalContact& x, const InternalContact& y) {
     return x.key < y.key;

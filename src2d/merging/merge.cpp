@@ -35,9 +35,9 @@ std::vector<BodyPair> pairsToWeld(State& state, Scratch& scratch) {
   return held;
 }
 
-/// Brings together what is welded to one body of a frame, where the rule says so. Deviation: else
-/// it stays apart; in the paper a pinned body is a member like any other, so that two piles on one
-/// floor are one collection. Guarded by Collection.TwoPilesOnOneFloorStayTwo.
+/// Unites the collections that are welded to one body of a frame, where the rule says so.
+/// Deviation: else they stay apart; in the paper a pinned body is a member like any other, so that
+/// two piles on one floor are one collection. Guarded by Collection.TwoPilesOnOneFloorStayTwo.
 class Floors {
  public:
   explicit Floors(State& state) : state_(state) {
@@ -64,7 +64,7 @@ class Floors {
   std::map<BodyId, BodyId> on_;  ///< a member that is welded to each of them
 };
 
-/// Welds one pair, unless what they are fixed to moves differently.
+/// Welds one pair, unless its two bodies are fixed to different frames.
 bool weld(State& state, Floors& floors, const BodyPair& pair) {
   const RigidId ra = state[pair.a].rigid, rb = state[pair.b].rigid;
   const Rigid &a = state[ra], &b = state[rb];
@@ -84,7 +84,7 @@ bool weld(State& state, Floors& floors, const BodyPair& pair) {
   return true;
 }
 
-/// Brings up to date what the next sweep starts from.
+/// Brings pushes and layouts up to date, from which the next sweep starts.
 void finishCollections(State& state, Scratch& scratch) {
   renewPushes(state, scratch);
   layOutCollections(state);

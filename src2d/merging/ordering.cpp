@@ -42,7 +42,7 @@ std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const Gra
     }
   }
 
-  // What the walk does not reach.
+  // Items that the walk does not reach.
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     if (!placed[i]) order.push_back(i);
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPairOnEdge = 1.0 - 1e-6;
 
-/// What the contacts of one pair say.
+/// Sums and extremes over the contacts of one pair.
 struct PairContacts {
   int active = 0;
   double fastest_slip = 0.0;    ///< of active contacts [m/s]

@@ -43,7 +43,8 @@ Nodes nodesOf(const Collection& c) {
   return nodes;
 }
 
-/// The contacts of a weld that hold, seen from the first member, and what its joints are worth.
+/// The contacts of a weld that hold, seen from the first member, and as many pins as its joints
+/// count for.
 void addPins(const State& state, const Collection& c, const Weld& weld, std::uint32_t a,
              std::uint32_t b, std::vector<Pin>& pins) {
   const Vec2& origin = state[c.members.front()].local;
@@ -57,8 +58,9 @@ void addPins(const State& state, const Collection& c, const Weld& weld, std::uin
   }
 }
 
-/// What one body of the frame holds is one part, where the rule says so (see Floors in merge.cpp).
-/// `nodeOf(node)` is the set of a weld's node in `parts`; `held(set)`: the frame holds it.
+/// All members welded to one body of the frame are one part, where the rule says so (see Floors in
+/// merge.cpp). `nodeOf(node)` is the set of a weld's node in `parts`; `held(set)`: the frame holds
+/// it.
 template <class NodeOf, class Held>
 void uniteOnFloors(const State& state, const Collection& c, NodeOf&& nodeOf, Held&& held,
                    DisjointSets& parts) {

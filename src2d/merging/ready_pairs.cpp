@@ -12,7 +12,7 @@ namespace {
 /// The contacts of a pair come before its joints.
 auto keyOf(const ReadyPair& r) { return std::tuple(r.pair.a, r.pair.b, r.pair.count == 0); }
 
-/// True for a pair that was refused in the last step, being then what it is now.
+/// True for a pair that was refused in the last step with the same nodes and no fewer contacts.
 class Refused {
  public:
   explicit Refused(const std::vector<ReadyPair>& before) : before_(before) {}

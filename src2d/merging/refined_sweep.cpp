@@ -52,9 +52,9 @@ std::vector<SweepItem> disturbedItems(State& state, Scratch& scratch) {
   return items;
 }
 
-/// For who asks: the whole order of a disturbed step. Deviation: not through what does not respond
-/// to forces, or a floor would pass everything on to everything at once.
-/// Guarded by Sweep.TheWalkDoesNotPassTheFloor.
+/// Notes the whole order of a disturbed step. Deviation: the walk does not pass bodies that do not
+/// respond to forces, or a floor would pass everything on to everything at once. Guarded by
+/// Sweep.TheWalkDoesNotPassTheFloor.
 void noteOrder(State& state, Scratch& scratch) {
   if (!scratch.notes) return;
   std::vector<std::uint8_t> passable(scratch.sweep_u.size());
@@ -107,12 +107,12 @@ void follow(const State& state, Collection& c, Scratch& scratch, double change) 
 
 /// Deviation: where sweeps have come to change nothing for long, and the impulses of the last step
 /// hold the members together under the loads of this one too, three sweeps in four are left out;
-/// the paper wishes for less than one a step as well (Section 8.2). What is struck again soon needs
-/// its forces right. Guarded by Sweep.RestsWhereTheLastImpulsesStillHold.
+/// the paper wishes for less than one a step as well (Section 8.2). A collection that is soon
+/// struck again needs its forces right. Guarded by Sweep.RestsWhereTheLastImpulsesStillHold.
 bool rests(const State& state, const Scratch& scratch, Collection& c) {
   constexpr std::int8_t kCalm = 60, kMost = 3;  // steps before the first rest, and then in a row
-  constexpr double kNothing = 1e-6;             // of what a sweep may leave
-  constexpr double kInVain = 0.01;              // of what is left: a sweep hardly makes it less
+  constexpr double kNothing = 1e-6;             // of residualVelocity()
+  constexpr double kInVain = 0.01;              // of the residual: a sweep hardly makes it less
   const bool disturbed = scratch.disturbed[index(c.rigid) - state.bodies.size()] != 0;
   const bool calm = c.settled && !disturbed && c.follow_up == 0;
   c.calm = !calm ? 0 : c.calm < kCalm + kMost ? c.calm + 1 : kCalm;
@@ -122,10 +122,10 @@ bool rests(const State& state, const Scratch& scratch, Collection& c) {
 }
 
 /// Sweeps one collection once; a few times more one that could sleep but for its inner forces, so
-/// that it soon can, and one on which a load has set in: what cannot bear it, however faint, is not
-/// to wait, nor to fall asleep. Returns the largest change [m/s].
+/// that it soon can, and one on which a load has set in: a collection that cannot bear it, however
+/// faint it is, is not to wait, nor to fall asleep. Returns the largest change [m/s].
 double sweepOnce(State& state, Collection& c, Scratch& scratch) {
-  constexpr double kSettled = 0.02;  // of what a sweep may leave
+  constexpr double kSettled = 0.02;  // of residualVelocity()
   const UnmergingSettings& settings = state.settings.unmerging;
   if (refines(settings) && rests(state, scratch, c)) {
     follow(state, c, scratch, 0.0);
@@ -147,7 +147,7 @@ double sweepOnce(State& state, Collection& c, Scratch& scratch) {
   return change;
 }
 
-/// What a refinement of many contacts needed, and the full solve does not.
+/// Gives back the memory that a refinement of many contacts needed, and the full solve does not.
 void releaseBuffers(Scratch& scratch) {
   NncgBuffers& m = scratch.nncg;
   if (m.before.size() <= 2 * scratch.blocks.size()) return;
@@ -163,14 +163,14 @@ bool anyDisturbed(const Scratch& scratch) {
 }
 
 /// As many sweeps as the full solve may take: where something new enters, and before anything
-/// parts. What comes of a blow in later steps needs fewer, as each step goes on from the last.
+/// parts. The steps after a blow need fewer, as each goes on from the last.
 int fullEffort(const State& state) {
   return std::max(state.settings.unmerging.disturbed_sweeps, state.settings.solver.iterations);
 }
 
-/// Breadth first from what is new, and from what the sweep changed: `blow` at most.
+/// Refines breadth first from the seeds, and from bodies that the sweep changed: by `blow` at most.
 void refineDisturbed(State& state, Scratch& scratch, double blow) {
-  constexpr float kOwn = 3.0F;  // times its own change: more of what is left is another's
+  constexpr float kOwn = 3.0F;  // times its own change: a larger residual is another's
   if (!anyDisturbed(scratch)) return releaseBuffers(scratch);
   spreadDisturbance(state, scratch);
   noteOrder(state, scratch);

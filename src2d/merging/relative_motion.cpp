@@ -19,7 +19,7 @@ OrientedBox worldBox(const State& state, const Rigid& r) {
   return box;
 }
 
-/// The corners of a box and how the two move against each other there, for who asks.
+/// Notes the corners of a box and the relative velocities of the two there.
 void noteCorners(Notes* notes, const BodyPair& pair, const OrientedBox& box, const Rigid& a,
                  const Rigid& b) {
   if (!notes) return;
@@ -30,7 +30,8 @@ void noteCorners(Notes* notes, const BodyPair& pair, const OrientedBox& box, con
   notes->corners.push_back(seen);
 }
 
-/// The fastest of a pair's contact points: what a beam at its pivot does not show.
+/// The naive metric: the fastest of a pair's contact points, which misses a beam that turns about
+/// one.
 double fastestContact(const State& state, const BodyPair& pair) {
   const Pose pose = state.pose(pair.a);
   double fastest = 0.0;
@@ -59,8 +60,8 @@ void notePatience(Notes* notes, const BodyPair& pair, int count) {
 }
 
 /// Sums up how far a pair that was cut in vain slips while it is free: it is known as such until it
-/// has got somewhere, or touches nothing any more. What a heap jostles comes and goes, and stays
-/// where it is. Guarded by Caution.LastsWhileAPairIsOnlyJostled and
+/// has got somewhere, or touches nothing any more. A body that a heap jostles comes and goes, and
+/// stays where it is. Guarded by Caution.LastsWhileAPairIsOnlyJostled and
 /// Caution.EndsWhereAPairGetsSomewhere.
 void followWhatWasCutInVain(const State& state, Contact& contact) {
   constexpr double kSeconds = 0.4;  // at the velocity at which it could merge

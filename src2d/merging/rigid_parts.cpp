@@ -92,8 +92,9 @@ bool restsOn(const State& state, RigidId id, const VelocityField& field, const C
   return speed <= residualVelocity(state);
 }
 
-/// What rests on the collection, or it on that, may bear any load, and is taken not to respond.
-/// What moves against it only pushes, with no more than its own mass; it clamps nothing.
+/// A body outside that rests on the collection, or on which it rests, may bear any load, and is
+/// taken not to respond. One that moves against it only pushes, with no more than its own mass; it
+/// clamps nothing.
 std::uint32_t outsidePart(const State& state, const Scratch& scratch, const Collection& c,
                           RigidParts& p, BodyId b, const VelocityField& whole) {
   const RigidId id = state[b].rigid;
@@ -160,7 +161,8 @@ bool listWelds(const State& state, const Collection& c, RigidParts& p) {
   return true;
 }
 
-/// What leans on members, or they on it. False when there are too many.
+/// Lists the contacts with bodies outside that lean on members, or they on those. False when there
+/// are too many.
 bool listOuterContacts(const State& state, const Scratch& scratch, const Collection& c,
                        RigidParts& p) {
   const VelocityField whole = fieldOfWhole(state, scratch, c);

@@ -106,7 +106,7 @@ void noteSleep(const State& state, const Scratch& scratch, RigidId id, bool stay
 
 namespace {
 
-/// What keeps an island awake: the strongest reason of its members.
+/// Why an island stays awake: the strongest reason of its members.
 enum Awake : std::uint8_t { kNothing, kInnerForces, kMotion };
 
 Awake reasonToStay(const State& state, RigidId id, bool restless) {
@@ -145,7 +145,8 @@ void awaitMerges(const State& state, Scratch& scratch) {
   }
 }
 
-/// Islands over everything that can sleep, sleeping or not: what touches, or a joint holds.
+/// Islands over everything that can sleep, sleeping or not: things that touch, or that a joint
+/// holds.
 void uniteIslands(const State& state, Scratch& scratch) {
   auto& sets = scratch.sets;
   sets.reset(state.rigids.size());
@@ -160,7 +161,7 @@ void uniteIslands(const State& state, Scratch& scratch) {
   }
 }
 
-/// Per island the strongest reason to stay awake of what is in it.
+/// Per island the strongest reason of its members to stay awake.
 void findWhatStaysAwake(const State& state, Scratch& scratch) {
   scratch.island_awake.assign(state.rigids.size(), kNothing);
   for (const RigidId id : state.present) {

@@ -48,7 +48,7 @@ void sweepManyTimes(const State& state, Collection& c, Scratch& scratch, int swe
 
 bool hastenSweeps(const State& state, Collection& c, Scratch& scratch) {
   constexpr std::int16_t kFirst = 4, kMost = 512;  // steps
-  constexpr double kMuch = 5.0;                    // times what a sweep may leave
+  constexpr double kMuch = 5.0;                    // times residualVelocity()
   constexpr int kMostPoints = 200, kSweeps = 100;
   if (c.points > kMostPoints || !c.joints.empty()) return false;  // joints have their own way
   if (scratch.disturbed[index(c.rigid) - state.bodies.size()]) {  // more sweeps follow anyway

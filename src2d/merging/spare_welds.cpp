@@ -31,8 +31,8 @@ bool asksForGood(const State& state, const Scratch& scratch, const Collection& c
   return state.step % kEvery == 0 && !scratch.disturbed[index(c.rigid) - state.bodies.size()];
 }
 
-/// Whether it would hold together without the others and what was spare before, all at once: then
-/// none of them is asked about for a while.
+/// Whether the collection would hold together without the others and the known spare welds, all at
+/// once: then none of them is asked about for a while.
 bool othersAreSpare(const State& state, Scratch& scratch, Collection& c,
                     std::vector<std::uint32_t>& others) {
   if (c.spare.empty()) return false;
@@ -91,7 +91,7 @@ std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collectio
     return {};
   }
   if (known && for_good && othersAreSpare(state, scratch, c, others)) return {};
-  // What no detour leads around mostly parts, whatever else is spare.
+  // Welds without a detour mostly part, spare ones or not.
   Parts parts = judge(state, scratch, c);
   if (fallsApart(state, c, parts)) return parts;
   if (known && !for_good && othersAreSpare(state, scratch, c, others)) return {};

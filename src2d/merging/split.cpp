@@ -40,8 +40,8 @@ RigidId freeBody(State& state, BodyId b, const Rigid& whole) {
   return rigidOf(b);
 }
 
-/// What leaves the world's frame gets a frame of its own at one of its bodies: as it turns, the
-/// rounding must not depend on how far from the world's origin it was.
+/// A part that leaves the world's frame gets a frame of its own at one of its bodies: as it turns,
+/// the rounding must not depend on how far from the world's origin it was.
 void leaveWorldFrame(State& state, RigidId id) {
   Collection& c = state.collection(id);
   const Vec2 offset = state[c.members.front()].local;
@@ -111,7 +111,7 @@ void countVain(InternalContact& inner) {
   inner.vain = std::min<std::int16_t>(kMostVain, static_cast<std::int16_t>(inner.vain + 1));
 }
 
-/// How far ahead to look for its points again: contacts of what was struck may still be open [m].
+/// How far ahead to look for its points again: contacts of a struck body may still be open [m].
 double farthestPoint(const InternalContact& inner) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(inner.count); ++i) {
@@ -132,7 +132,7 @@ void releaseContacts(State& state, const std::vector<Released>& released) {
   addContacts(state.contacts, contacts);
 }
 
-/// What parted is not remembered, should it come back before the collection is laid out.
+/// Forgets the welds of pairs that parted, should they come back before the next layout.
 void forgetPartedWelds(const State& state, Collection& c, FrameId frame) {
   std::erase_if(c.welds, [&](const Weld& weld) {
     const bool a_in = state[weld.a].rigid == c.rigid, b_in = state[weld.b].rigid == c.rigid;
@@ -249,7 +249,7 @@ class Split {
   BodyId anchor_;                             ///< its own
   std::vector<std::vector<BodyId>> members_;  ///< of each part
   std::size_t largest_ = 0;
-  std::vector<std::vector<InternalContact>> kept_;  ///< what goes with each part
+  std::vector<std::vector<InternalContact>> kept_;  ///< contacts that go with each part
   std::vector<Released> released_;
 };
 

@@ -13,8 +13,8 @@
 namespace merge2d {
 namespace {
 
-/// Between two collections that are fixed to a frame the full solve has no row: what the sweep
-/// found there is all that is known.
+/// Keeps the impulses between two anchored collections, where the full solve has no row: only the
+/// sweep knows them.
 void keepFixedContacts(State& state, const Scratch& scratch) {
   for (const SweepContact& outer : scratch.sweep_contacts) {
     const ContactBlock& k = outer.block;

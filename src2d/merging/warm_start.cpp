@@ -15,7 +15,7 @@ namespace {
 
 bool isMember(const State& state, BodyId b) { return state.isCollection(state[b].rigid); }
 
-/// The velocity that a member has in its collection, and what acts on it.
+/// The velocity of each member in its collection, with last step's push.
 void startMembers(const State& state, const Collection& c, Scratch& scratch) {
   const Rigid& r = state[c.rigid];
   const Rotation before = unmergingMethod(state).startingRotation(r);

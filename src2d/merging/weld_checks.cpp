@@ -21,7 +21,7 @@ void WeldTest::testAll() {
   for (const Pivot& pivot : c_.pivots) testPivot(pivot);
   testLeaning();
   if (isStruck()) testShaken();
-  // What may be about to part does not fall asleep.
+  // A collection that may be about to split does not fall asleep.
   if (disturbed_) c_.refuted = false;
   if (growing_ && !c_.refuted && !confirming_) c_.settled = false;
 }
@@ -211,7 +211,7 @@ bool WeldTest::staysPut(const Pivot& pivot) const {
   const Weld& weld = c_.welds[pivot.weld];
   if (scratch_.notes || weld.cut) return false;
   const double speed = fastestBound(weld, pivot);
-  if (!weld.bridge && speed <= still_) return true;  // whatever doubt there is asks for more
+  if (!weld.bridge && speed <= still_) return true;  // caution only raises it
   const double limit = least(weld).most();
   return speed <= limit || closerBound(weld, pivot) <= limit;
 }

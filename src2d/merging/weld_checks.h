@@ -23,14 +23,14 @@ class WeldTest {
         disturbed_(disturbed),
         whole_(disturbed) {}
 
-  /// Adds this step's evidence to what was summed, and cuts the welds whose sum is too large. Only
+  /// Adds this step's evidence to the sums, and cuts the welds whose sum is too large. Only
   /// contacts at their limit, or watched since they were, need more than a look at their impulses.
   void testAll();
 
   bool somethingGrows() const { return growing_; }
 
-  /// Looks again after more sweeps. What was summed may have come from a sweep that had not
-  /// converged: it is replaced by today's velocity, as if it had been the same in all those steps.
+  /// Looks again after more sweeps. A sum may have come from a sweep that had not converged: it is
+  /// replaced by today's velocity, as if that had been the same in all those steps.
   void confirmAll();
 
  private:
@@ -47,7 +47,7 @@ class WeldTest {
     double nearest = 0.0;  ///< the fastest corner of the box that moves less [m/s]
   };
 
-  /// What a weld's bodies must move faster than [m/s].
+  /// The bounds that the relative motion of a weld must exceed [m/s].
   struct Least {
     double noise, slow;  ///< noiseAt(), slowFor()
     double most() const { return std::max(noise, slow); }
@@ -62,7 +62,7 @@ class WeldTest {
   /// One of its contacts has opened: see Collection::loosened.
   void noteLoosened(std::uint32_t weld);
 
-  /// Adds to what was summed. Evidence that more sweeps do not confirm is forgotten.
+  /// Adds to a sum. Evidence that more sweeps do not confirm is forgotten.
   Evidence weigh(Drift& drift, double w, double threshold);
   Evidence weigh(Drift& drift, double w, double threshold, double noise);
 
@@ -106,22 +106,23 @@ class WeldTest {
   double swayAgainst(const VelocityField& whole, const Weld& weld) const;
 
   /// A pivot that turns slowly gathers speed: each step starts from the velocity of the whole, so
-  /// what it would gain is summed, as slip is.
+  /// its gains are summed, as slip is.
   bool turns(Weld& weld, const Turning& now, const Least& least);
 
-  /// What nothing else holds turns on however slowly it begins: then it need not be fast, but be
-  /// seen for some steps; for fewer where a load has just set in, as that may be what tips it.
+  /// A pivot that nothing else holds turns on however slowly it begins: then it need not be fast,
+  /// but be seen for some steps; for fewer where a load has just set in, which may tip it.
   bool tipsFor(const Weld& weld) const;
-  /// Nothing else holds against the frame, and it was not cut in vain before. In a heap more than a
-  /// weld's own rows would hold: what barely tips there soon leans on its neighbours, but for what
-  /// a new load tips.
+  /// Nothing else holds against the frame, and it was not cut in vain before. In a heap more than
+  /// the rows of one weld hold: a body that barely tips there soon leans on its neighbours, unless
+  /// a new load tips it.
   bool mustTip(const Weld& weld) const;
-  /// Where nothing else holds, what is left of a sweep is all that could be wrong [m/s].
+  /// The error that the sweep may have left in the relative motion of a weld, where nothing else
+  /// holds [m/s].
   double noiseAt(const Weld& weld) const;
 
-  /// What turns slower than this does not turn: rigid rows may find a slow motion where soft
-  /// contacts hold, the faster the more often the weld was cut in vain. Not where nothing else
-  /// holds: there both know the same forces.
+  /// A slower pivot counts as still: rigid rows may find a slow motion where soft contacts hold,
+  /// the faster the more often the weld was cut in vain. Not where nothing else holds: there both
+  /// know the same forces.
   double slowFor(const Weld& weld) const;
 
   Least least(const Weld& weld) const { return {noiseAt(weld), slowFor(weld)}; }
@@ -159,7 +160,7 @@ class WeldTest {
   /// Factor on all thresholds of a weld.
   double caution(const Weld& weld) const { return cautionWith(state_, c_, weld); }
 
-  /// What the last sweep may have left of a velocity [m/s].
+  /// The error that the last sweep may have left in a velocity [m/s].
   double noise() const;
 
   /// Its bodies are where more sweeps begin.
@@ -169,9 +170,9 @@ class WeldTest {
   Scratch& scratch_;
   Collection& c_;
   Rotation turn_;
-  double residual_;                    ///< what a sweep leaves for the next one [m/s]
+  double residual_;                    ///< residualVelocity() [m/s]
   std::vector<std::uint32_t>& leant_;  ///< bridges that leaned in the last step
-  double still_ = 0.0;                 ///< least() of a weld that nothing is special about [m/s]
+  double still_ = 0.0;                 ///< least() of an ordinary weld [m/s]
   bool confirming_ = false;
   bool growing_ = false;  ///< some sum grew in this step, and is not too large yet, or not for long
   bool disturbed_ = false;  ///< something new entered in this step: the sweeps have converged

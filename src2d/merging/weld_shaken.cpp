@@ -1,4 +1,4 @@
-/// What a blow does to the welds of a collection, in the step in which it strikes.
+/// Relative motion of the welds of a collection in the step in which a blow strikes it.
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 namespace merge2d {
 namespace {
 
-/// Deviation: what a blow moves by as much as this against the whole does not stay with it, though
-/// each single weld of it gives too little to part: of the unmerging velocity, what it moves by,
-/// and what its weld must give for that. Guarded by
+/// Deviation: a body that a blow moves against the whole collection comes free, though each single
+/// weld gives too little to be cut. Its speed against the whole, and the relative motion at its
+/// weld that is needed beside that, as parts of the unmerging velocity. Guarded by
 /// Blow.CarriesOffWhatManyJointsThatGiveLittleWouldHold.
 constexpr double kCarriedOff = 1.5, kGives = 0.1;
 
