@@ -148,7 +148,8 @@ void solveDoubted(State& state, Scratch& scratch) {
     solveOpened(state, scratch);
   }
   for (Collection& c : state.collections) {
-    if (doubtAbout(state, scratch, c) == Doubt::Search) continueSearch(state, scratch, c);
+    if (doubtAbout(state, scratch, c) != Doubt::Search) continue;
+    continueSearch(state, scratch, c, toleratedResidual(state));
   }
 }
 

@@ -225,11 +225,31 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   restate(state, noted, "cut");
 }
 
+/// Some weld's bodies move against each other, at their corners, by more than `noise`: a beam that
+/// begins to tip about its pivot hardly moves there.
+bool turns(const State& state, const Scratch& scratch, const Collection& c, double noise) {
+  const WeldMotions motions(state, c, scratch.trial_u);
+  const double threshold = cutSpeed(state);
+  return std::ranges::any_of(c.welds, [&](const Weld& weld) {
+    const WeldMotion motion = motions.of(weld, threshold);
+    return !weld.expected && motion.most > threshold && motion.least > noise;
+  });
+}
+
+/// Whether nothing moves in a search. What may turn is looked at more closely, for one step more.
+bool restsIn(const State& state, Scratch& scratch, Collection& c) {
+  const double tolerance = toleratedResidual(state);
+  const auto sure = [&] { return c.residual / kDecided.tolerance; };
+  if (!isAtRest(scratch, c, std::max(cutSpeed(state), sure()))) return false;
+  if (c.residual > tolerance || !turns(state, scratch, c, c.residual)) return true;
+  continueSearch(state, scratch, c, kDecided.tolerance * tolerance);
+  return !turns(state, scratch, c, sure());
+}
+
 /// A converged search is a proof, or else the full solve is to find the moving welds.
 void endSearch(const State& state, Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
-  const bool rests =
-      isAtRest(scratch, c, std::max(cutSpeed(state), c.residual / kDecided.tolerance));
+  const bool rests = restsIn(state, scratch, c);
   if (rests && c.residual > toleratedResidual(state)) {
     c.settled = proof.search.ahead;
     return;  // it goes on

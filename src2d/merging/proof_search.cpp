@@ -65,8 +65,9 @@ void relaxOpen(const State& state, Scratch& scratch, Collection& c) {
     scratch.trial_u[index(b)] = memberAt(state, b, {v.x(), v.y(), u.omega - one.omega});
   }
   c.residual = static_cast<float>(residualInside(c, scratch.trial_u));
-  if (isHit(c) || c.residual <= toleratedResidual(state)) return;
-  c.residual = static_cast<float>(relax(state, scratch, c));
+  const double tolerance = toleratedResidual(state);
+  if (isHit(c) || c.residual <= tolerance) return;
+  c.residual = static_cast<float>(relax(state, scratch, c, tolerance));
   for (const BodyId b : c.members) {
     const SolverVelocity& u = scratch.trial_u[index(b)];
     const Vec2 v = one.at(armOf(state, c, b)) + turn * Vec2(u.vx, u.vy);
@@ -121,11 +122,11 @@ void beginSearchAhead(const State& state, Collection& c, Witness&& load, double 
   }
 }
 
-void continueSearch(const State& state, Scratch& scratch, Collection& c) {
+void continueSearch(const State& state, Scratch& scratch, Collection& c, double tolerance) {
   ProofSearch& search = c.certificate.front().search;
   if (search.ahead) swapImpulses(c, search.load);
   startMembers(state, scratch, c);
-  c.residual = static_cast<float>(relax(state, scratch, c));
+  c.residual = static_cast<float>(relax(state, scratch, c, tolerance));
   if (search.ahead) swapImpulses(c, search.load);
 }
 

@@ -11,9 +11,8 @@ namespace merge2d {
 /// The numbers of `unmerging.rule = "decided"`, each with the experiment that chose it.
 struct DecidedSettings {
   /// Bodies of a weld that gain velocity against each other faster than this part [m/s²]: a
-  /// five-hundredth of gravity. `bench/carts` and `bench/tilts` change little between 0.005 and
-  /// 0.05.
-  double cut_acceleration = 0.02;
+  /// two-thousandth of gravity. A see-saw that is 0.7 mm out of balance gains 0.008.
+  double cut_acceleration = 0.005;
   /// The same in a step in which something hits: a slip that is slower ends within 2 µm [m/s].
   double cut_in_hit = 5e-3;
   /// A search has converged where the largest row residual is below this part of the cut speed [1].
@@ -55,9 +54,10 @@ void beginSearch(const State& state, Collection& collection, const CollectionLoa
 /// is fixed, as its rows follow from those of the others.
 void beginSearchAhead(const State& state, Collection& collection, Witness&& load, double way);
 
-/// Goes on with a search for one step; leaves the members' velocities in `scratch.trial_u` and the
+/// Goes on with a search, for one step at most or until its residual is below `tolerance` [m/s];
+/// leaves the members' velocities in `scratch.trial_u` and the
 /// largest residual of a row in Collection::residual.
-void continueSearch(const State& state, Scratch& scratch, Collection& collection);
+void continueSearch(const State& state, Scratch& scratch, Collection& collection, double tolerance);
 
 /// The velocities of the members in `scratch.trial_u` are all below `speed` at the contacts.
 bool isAtRest(const Scratch& scratch, const Collection& collection, double speed);

@@ -14,12 +14,12 @@ namespace {
 /// local; then sweeps over all rows.
 class Relaxation {
  public:
-  Relaxation(const State& state, Scratch& scratch, Collection& c)
+  Relaxation(const State& state, Scratch& scratch, Collection& c, double tolerance)
       : state_(state),
         u_(scratch.trial_u),
         scratch_(scratch),
         c_(c),
-        tolerance_(toleratedResidual(state)),
+        tolerance_(tolerance),
         left_(kDecided.row_sweeps) {
     for (const ContactBlock& k : c.blocks) ends_.push_back({memberOf(k.a), memberOf(k.b)});
   }
@@ -169,8 +169,8 @@ double residualInside(const Collection& c, const std::vector<SolverVelocity>& u)
   return most;
 }
 
-double relax(const State& state, Scratch& scratch, Collection& c) {
-  return Relaxation(state, scratch, c).run();
+double relax(const State& state, Scratch& scratch, Collection& c, double tolerance) {
+  return Relaxation(state, scratch, c, tolerance).run();
 }
 
 }  // namespace merge2d

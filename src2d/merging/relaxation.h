@@ -11,8 +11,8 @@ namespace merge2d {
 double residualInside(const Collection& collection, const std::vector<SolverVelocity>& u);
 
 /// Solves the rows inside, with the velocities in `scratch.trial_u`, until their residual is
-/// tolerated or the sweeps of a step are spent (DecidedSettings); returns it [m/s]. Where a search
-/// is under way it goes on as if there had been no pause.
-double relax(const State& state, Scratch& scratch, Collection& collection);
+/// below `tolerance` [m/s] or the sweeps of a step are spent (DecidedSettings); returns it [m/s].
+/// Where a search is under way it goes on as if there had been no pause.
+double relax(const State& state, Scratch& scratch, Collection& collection, double tolerance);
 
 }  // namespace merge2d

@@ -56,6 +56,34 @@ TEST(DecidedUnmerge, AColumnWithAHeavyTopTipsAsInTheReference) {
   EXPECT_NEAR(timeOfFall(scene, Mode::MergeSleep, "ground", "b4", 14.0), reference, 0.3);
 }
 
+/// On an edge of 10 cm, with its centre of mass `beyond` it [m]: it begins with 1.4 rad/s² per
+/// metre.
+std::string seesaw(double beyond) {
+  return R"(
+format = 1
+[[body]]
+name = "pivot"
+motion = "pinned"
+at = [0, -0.5]
+box = [0.1, 1]
+[[body]]
+name = "beam"
+box = [9.2, 0.2]
+at = [)" +
+         std::to_string(0.05 + beyond) + ", 0.1]\n";
+}
+
+/// It hardly moves at its contacts.
+TEST(DecidedUnmerge, ASeesawBarelyOutOfBalanceTipsAsInTheReference) {
+  for (const double beyond : {0.002, 0.007, 0.02}) {
+    const double reference = timeOfFall(seesaw(beyond), Mode::Reference, "pivot", "beam", 14.0);
+    ASSERT_LT(reference, 14.0);
+    EXPECT_NEAR(timeOfFall(seesaw(beyond), Mode::Merge, "pivot", "beam", 14.0), reference, 0.4)
+        << beyond;
+  }
+  EXPECT_EQ(timeOfFall(seesaw(-0.007), Mode::Merge, "pivot", "beam", 14.0), 99.0);
+}
+
 TEST(DecidedUnmerge, TheSameColumnStandsOnGroundThatTurnsLess) {
   const std::string scene = heavyTop(5, 7.0, 20.0);
   ASSERT_EQ(timeOfFall(scene, Mode::Reference, "ground", "b4", 14.0), 99.0);
