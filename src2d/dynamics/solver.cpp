@@ -4,6 +4,7 @@
 
 #include "src2d/dynamics/hits.h"
 #include "src2d/dynamics/joint_rows.h"
+#include "src2d/dynamics/newton.h"
 #include "src2d/dynamics/nncg.h"
 
 namespace merge2d {
@@ -31,19 +32,23 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   const std::span blocks(scratch.blocks.data() + island.first, island.last - island.first);
   const std::span bodies(scratch.island_bodies.data() + island.first_body,
                          island.last_body - island.first_body);
+  const std::span joints(scratch.joint_blocks.data() + island.first_joint,
+                         island.last_joint - island.first_joint);
   auto& u = scratch.u;
-  warmStart(blocks, u);
+  if (settings.method == SolverMethod::Newton) {
+    solveByNewton(blocks, joints, bodies, u);
+  } else {
+    warmStart(blocks, u);
+    warmStartJoints(joints, u);
+  }
   const auto body = [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; };
-  const bool accelerate = settings.method == SolverMethod::Nncg;
-  if (island.first_joint == island.last_joint) {
+  const bool accelerate = isAccelerated(settings.method);
+  if (joints.empty()) {
     Nncg iteration(
         blocks.size(), [&](std::size_t i) -> Impulses& { return blocks[i].lambda; }, bodies.size(),
         body, [&] { sweep(blocks, u, settings.method); }, scratch.nncg);
     return iteration.run(settings.iterations, accelerate);
   }
-  const std::span joints(scratch.joint_blocks.data() + island.first_joint,
-                         island.last_joint - island.first_joint);
-  warmStartJoints(joints, u);
   JointSolver together(joints, u, scratch.joint_memory);
   Nncg iteration(
       blocks.size() + joints.size(),

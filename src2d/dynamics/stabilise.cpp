@@ -66,8 +66,7 @@ void solve(const State& state, Scratch& scratch, const Island& island) {
         for (ContactBlock& k : blocks) solveBlock(k, k.nx, k.ny, u[k.a], u[k.b]);
       },
       scratch.nncg);
-  iteration.run(state.settings.solver.iterations,
-                state.settings.solver.method == SolverMethod::Nncg);
+  iteration.run(state.settings.solver.iterations, isAccelerated(state.settings.solver.method));
 }
 
 }  // namespace

@@ -223,7 +223,7 @@ class Refinement {
           },
           scratch_.nncg);
       known_ = reached_.size();
-      iteration.run(std::min(sweeps - done, most), method == SolverMethod::Nncg, overtaken);
+      iteration.run(std::min(sweeps - done, most), isAccelerated(method), overtaken);
       most -= iteration.done();
       done += iteration.done();
       if (!goOnFromRim()) break;

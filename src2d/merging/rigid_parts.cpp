@@ -241,7 +241,7 @@ double settleParts(const State& state, Scratch& scratch, const Collection& c, do
           for (ContactBlock& k : p.rows) sweepBlock(k, Rotation{}, p.u, method);
         },
         p.nncg);
-    iteration.run(sweeps, method == SolverMethod::Nncg);
+    iteration.run(sweeps, isAccelerated(method));
     done += sweeps;
     const double fastest = fastestAtWelds(state, c, p);
     const double change = std::abs(fastest - before);

@@ -41,7 +41,7 @@ void sweepManyTimes(const State& state, Collection& c, Scratch& scratch, int swe
         }
       },
       scratch.nncg);
-  iteration.run(sweeps, method == SolverMethod::Nncg);
+  iteration.run(sweeps, isAccelerated(method));
 }
 
 }  // namespace

@@ -213,7 +213,7 @@ class Trial {
         scratch_.nncg);
     const int most =
         std::max(state_.settings.unmerging.disturbed_sweeps, state_.settings.solver.iterations);
-    iteration.run(most, method == SolverMethod::Nncg);
+    iteration.run(most, isAccelerated(method));
   }
 
   void judgeParts(Tried& t) {

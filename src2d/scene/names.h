@@ -33,8 +33,11 @@ inline constexpr std::array<Named<UnmergingRule>, 3> kNames<UnmergingRule>{
      {"paper", UnmergingRule::Paper},
      {"decided", UnmergingRule::Decided}}};
 template <>
-inline constexpr std::array<Named<SolverMethod>, 3> kNames<SolverMethod>{
-    {{"nncg", SolverMethod::Nncg}, {"block", SolverMethod::Block}, {"pgs", SolverMethod::Pgs}}};
+inline constexpr std::array<Named<SolverMethod>, 4> kNames<SolverMethod>{
+    {{"nncg", SolverMethod::Nncg},
+     {"block", SolverMethod::Block},
+     {"pgs", SolverMethod::Pgs},
+     {"newton", SolverMethod::Newton}}};
 template <>
 inline constexpr std::array<Named<Stabilisation>, 2> kNames<Stabilisation>{
     {{"baumgarte", Stabilisation::Baumgarte}, {"post", Stabilisation::Post}}};

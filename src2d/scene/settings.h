@@ -23,10 +23,16 @@ enum class MergingRule { Default, Paper };
 enum class UnmergingRule { Default, Paper, Decided };
 
 enum class SolverMethod {
-  Nncg,   ///< "nncg": block sweeps inside a nonsmooth nonlinear conjugate gradient
-  Block,  ///< "block": sweeps with the exact 2×2 block of a manifold's normals
-  Pgs,    ///< "pgs": the paper's plain projected Gauss-Seidel, one row at a time
+  Nncg,    ///< "nncg": block sweeps inside a nonsmooth nonlinear conjugate gradient
+  Block,   ///< "block": sweeps with the exact 2×2 block of a manifold's normals
+  Pgs,     ///< "pgs": the paper's plain projected Gauss-Seidel, one row at a time
+  Newton,  ///< "newton": all rows of an island at once (dynamics/newton.h), then sweeps as "nncg"
 };
+
+/// Sweeps stand inside the conjugate gradient.
+inline bool isAccelerated(SolverMethod method) {
+  return method == SolverMethod::Nncg || method == SolverMethod::Newton;
+}
 
 enum class Stabilisation {
   Baumgarte,  ///< "baumgarte": a share of each overlap becomes a velocity

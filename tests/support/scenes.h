@@ -77,6 +77,14 @@ inline Scene column(int n) {
   return scene;
 }
 
+/// Boxes of which every other one is heavier, with a light one at the foot.
+inline Scene unequalColumn(int n, double ratio) {
+  Scene scene = column(n);
+  for (int i = 1; i <= n; ++i)
+    scene.bodies[static_cast<std::size_t>(i)].density = i % 2 ? 1 : ratio;
+  return scene;
+}
+
 /// Running bond, with a half brick at both ends of each odd row: no brick overhangs. The lower row
 /// stands on y = foot.y, centred on foot.x.
 inline void addWall(Scene& scene, int rows, int columns, const Vec2& foot = Vec2::Zero()) {

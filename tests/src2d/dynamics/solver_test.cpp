@@ -90,14 +90,6 @@ double speedAfterFiveSeconds(const Scene& scene) {
   return fastest(world);
 }
 
-/// Boxes of which every other one is heavier, with a light one at the foot.
-Scene unequalColumn(int n, double ratio) {
-  Scene scene = column(n);
-  for (int i = 1; i <= n; ++i)
-    scene.bodies[static_cast<std::size_t>(i)].density = i % 2 ? 1 : ratio;
-  return scene;
-}
-
 struct Pile {
   const char* name;
   Scene scene;
