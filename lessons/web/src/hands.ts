@@ -7,6 +7,13 @@ import type { State } from './state';
 import { arrow, coil, disc, fixed } from './strokes';
 import type { Trace } from './trace';
 
+/** The force of each hand in words, and where its arrow begins. */
+export function pullsShown({ state, view }: Sight): { at: Vec; told: string }[] {
+  const { live } = state;
+  if (!live || state.trace !== live.trace || state.step !== live.trace.known) return [];
+  return live.hands(state.step).map(([, , , tx, ty, fx, fy]) => ({ at: view.at([tx, ty]), told: `${number(Math.hypot(fx, fy))} N` }));
+}
+
 /** The springs of hands, with their forces. */
 export function hands(sight: Sight): Paths {
   const { state, view, scales } = sight;
@@ -111,7 +118,7 @@ export function listenToHands(picture: Picture, state: State, play: () => void, 
         if (!state.playing) play();
       } else {
         const [x, y] = picture.view.at(pull.from);
-        picture.aim(arrow(x, y, dx * picture.view.scale, -dy * picture.view.scale));
+        picture.aim(arrow(x, y, dx * picture.view.scale, -dy * picture.view.scale), aimText(state, pull), picture.view.at(pull.to));
         say(aimText(state, pull));
       }
     } else if (pan && event.buttons === 1) {
@@ -138,11 +145,19 @@ export function listenToHands(picture: Picture, state: State, play: () => void, 
     window.setTimeout(() => { picture.lens.moved = false; }, 0);
   };
   picture.root.addEventListener('pointerup', lift);
-  picture.root.addEventListener('pointercancel', () => {
+  const cancel = () => {
+    if (pull?.told) state.act(`drop @${pull.body}`);
     pull = null;
     pan = null;
     picture.aim('');
-  });
+  };
+  picture.root.addEventListener('pointercancel', cancel);
+  document.addEventListener('keydown', (event) => {
+    if (event.key !== 'Escape' || !pull) return;
+    event.stopPropagation();
+    cancel();
+    say('');
+  }, true);
 
   // A hand that moves is a change before each step in which it has moved.
   state.beforeSteps = () => {

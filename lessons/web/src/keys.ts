@@ -21,6 +21,7 @@ const kKeys: [string, string][] = [
   ['+ −', 'faster, slower'],
   ['1 … 9', 'layers of the picture'],
   ['N P', 'next, previous part of the lesson'],
+  ['Tab', 'to the picture; there arrows go from body to body, Enter chooses'],
   ['Esc', 'select nothing'],
   ['?', 'this help'],
 ];

@@ -38,6 +38,13 @@ export class Labels {
     return true;
   }
 
+  /** A body that sleeps has a "z" in its right upper corner, where there is room. */
+  asleep(body: Box): void {
+    const size = 12 * this.unit;
+    if (body.right - body.left < 3.5 * size || body.bottom - body.top < 1.4 * size) return;
+    this.root.append(svg('text', { x: fixed(body.right - size), y: fixed(body.top + 1.1 * size), class: 'z' }, 'z'));
+  }
+
   /** Near a place in the picture; where everything is taken, it stays away. */
   put(x: number, y: number, text: string, kind: keyof typeof kSizes): void {
     const characters = [...text];

@@ -66,7 +66,10 @@ export function lanes(state: State, flags: () => Flag[]): SVGSVGElement {
   const drawFork = (height: number) => {
     if (!state.live) return;
     const from = x(state.live.fork);
-    root.append(svg('path', { class: 'fork', d: `M${from} 0V${height - 14}` }),
+    root.append(
+      svg('defs', {}, svg('pattern', { id: 'own-run', width: 6, height: 6, patternUnits: 'userSpaceOnUse' }, svg('path', { d: 'M0 6L6 0' }))),
+      svg('rect', { class: 'own-run', x: from, y: 1, width: Math.max(0, width - kRight - from), height: Math.max(0, height - (kNarrow.matches ? 2 : 18)) }),
+      svg('path', { class: 'fork', d: `M${from} 0V${height - 14}` }),
       svg('text', { class: 'lane-name own', x: width - kRight - 4, y: kPitch + kPitch / 2 + 5 }, 'your run'));
     for (const deed of state.live.deeds.filter((one, i, all) => all[i - 1]?.step !== one.step)) {
       root.append(svg('path', { class: 'deed', d: `M${x(deed.step)} 0v3` }));

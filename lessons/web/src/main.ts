@@ -14,6 +14,7 @@ import { helpDialog, listenToKeys } from './keys';
 import { ledger } from './ledger';
 import { type CoursePlace, type Lesson, LessonPanel } from './lesson';
 import { homeOf, isEnough } from './camera';
+import { bodyCursor } from './cursor';
 import type { Box } from './labels';
 import { speak } from './language';
 import { copied, follow, linkTo, listenToAddress } from './link';
@@ -141,7 +142,7 @@ function start(): void {
     cancelAnimationFrame(due);
     due = requestAnimationFrame(() => picture.draw(state));
   };
-  const frame = h('div', { class: 'frame', id: 'picture', tabindex: -1 }, picture.root, counts(state), badge(state), lensButtons(picture, redraw));
+  const frame = h('div', { class: 'frame', id: 'picture', tabindex: 0, role: 'group', 'aria-label': 'The world: arrows go from body to body, Enter chooses one, a second one makes a pair' }, picture.root, counts(state), badge(state), lensButtons(picture, redraw));
 
   picture.onPick = ({ body, contact, at, turn, of }) => {
     if (state.live) {
@@ -155,6 +156,7 @@ function start(): void {
   };
   listenToHands(picture, state, controls.play, live.say);
   if (panel) aim(picture, state, panel);
+  bodyCursor(frame, picture, state, (body) => picture.onPick({ body, at: [0, 0], turn: 0, of: 0 }));
   state.onChange(() => {
     picture.draw(state);
     picture.show(panel?.marked());

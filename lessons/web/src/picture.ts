@@ -5,7 +5,7 @@ import { lookOf } from './groups';
 import { boxOnPicture } from './camera';
 import type { Vec } from './head';
 import { type Box, Labels } from './labels';
-import { hands, loads, loadsShown } from './hands';
+import { hands, loads, loadsShown, pullsShown } from './hands';
 import { boxes, corners, newCollections, springs, velocities, ways } from './motions';
 import { Lens } from './lens';
 import { type Sight, sightOf } from './sight';
@@ -38,7 +38,9 @@ export class Picture {
   private readonly ghostGroup = svg('g', { class: 'ghosts' });
   private readonly labels = new Labels();
   private readonly numbers = svg('g', { class: 'numbers' });
+  private readonly aimText = svg('text', { class: 'aim-size' });
   private contacts: Contact[] = [];
+  private cursor: number | undefined;
   private below = ''; // the pairs under the last click, and which of them was chosen
   private order: string[] = [];
   private turn = 0;
@@ -63,7 +65,7 @@ export class Picture {
       this.root.append(path);
     }
     this.lens = new Lens(this.root, this.view);
-    this.root.append(this.numbers, this.labels.root, this.lens.scaleBar);
+    this.root.append(this.numbers, this.labels.root, this.aimText, this.lens.scaleBar);
     if (interactive) this.root.addEventListener('click', (event) => this.click(event));
   }
 
@@ -131,6 +133,7 @@ export class Picture {
         this.place(node, trace, i, posed);
         node.setAttribute('class', `body ${lookOf(trace, i, posed, grouped[i])}`);
       }
+      node.classList.toggle('cursor', i === this.cursor);
       node.classList.toggle('picked', selection?.kind === 'body' ? selection.body === i
         : selection?.kind === 'pair' ? selection.a === i || selection.b === i : false);
     }
@@ -181,6 +184,7 @@ export class Picture {
     // The scale bar and the counts, and the buttons of the zoom.
     this.labels.clear(frame, [{ ...frame, bottom: frame.top + 36 * unit }, { ...frame, left: frame.right - 90 * unit, top: frame.bottom - 40 * unit }]);
     const boxes = trace.head.bodies.map((_, i) => (trace.present(i, posed) ? boxOnPicture(trace, view, i, posed) : null));
+    for (const { at, told } of pullsShown(sight)) this.labels.put(at[0], at[1] - 18 * unit, told, 'name');
     for (const { from, to, told } of loadsShown(sight)) this.labels.put(from[0], Math.min(from[1], to[1]) - 13 * unit, told, 'name');
     const named = state.layers.has('labels') && boxes.length <= 60;
     for (const [i, body] of trace.head.bodies.entries()) {
@@ -188,6 +192,7 @@ export class Picture {
       if (!box) continue;
       const { base, number } = trace.short(i);
       if (body.motion === 'scripted') this.labels.put((Math.max(box.left, frame.left) + Math.min(box.right, frame.right)) / 2, (box.top + box.bottom) / 2, `${base} ↔`, 'name');
+      if (body.motion === 'dynamic' && trace.asleep(i, posed)) this.labels.asleep(box);
       if (!named || body.motion !== 'dynamic') continue;
       const inside = this.labels.inside(box, number > 0 ? String(number) : base, number === 0);
       // A body of its own is named beside it; members of an array would be mistaken for others.
@@ -213,6 +218,12 @@ export class Picture {
     }
   }
 
+  /** The body on which the cursor of the keyboard is. */
+  showCursor(body: number | undefined): void {
+    this.cursor = body;
+    for (const [i, node] of this.bodies.entries()) node.classList.toggle('cursor', i === body);
+  }
+
   /** Marks bodies as chosen or right. */
   show(marks: Map<number, string> = new Map()): void {
     for (const [i, node] of this.bodies.entries()) {
@@ -230,9 +241,12 @@ export class Picture {
     const group = (event.target as Element).closest('[data-body]');
     return group ? Number(group.getAttribute('data-body')) : undefined;
   }
-  /** Draws the arrow that is being pulled. */
-  aim(d: string): void {
+  /** Draws the arrow that is being pulled, with its size beside its head. */
+  aim(d: string, told = '', head: Vec = [0, 0]): void {
     this.set('aim', d);
+    this.aimText.textContent = told;
+    this.aimText.setAttribute('x', fixed(head[0] + 12 * this.lens.unit));
+    this.aimText.setAttribute('y', fixed(head[1] - 10 * this.lens.unit));
   }
 
   /** The nearest contact within reach of a finger or a mouse, else the body below the pointer. */

@@ -42,7 +42,6 @@ function slider(state: State, limit: Limit): HTMLElement {
   const log = !limit.whole;
   const to = (value: number) => (log ? Math.log10(value) : value);
   const from = (at: number) => (log ? Number((10 ** at).toPrecision(2)) : Math.round(at));
-  const output = h('output');
   const was = h('span', { class: 'was' });
   const tick = h('span', { class: 'paper-tick', 'aria-hidden': true }, 'paper');
   const [low, high] = [to(limit.low), to(limit.high)];
@@ -53,16 +52,27 @@ function slider(state: State, limit: Limit): HTMLElement {
     onchange: () => state.act(`set ${limit.key}=${from(Number(input.value))}`),
   });
   let first: number | undefined; // at the fork
+  let now = limit.paper;
+  // The value can be typed, too; what is no number is not taken.
+  const typed = h('input', {
+    type: 'text', class: 'typed', inputmode: 'decimal', autocomplete: 'off', 'aria-label': `${limit.label}, value in ${limit.unit}`,
+    onchange: () => {
+      const value = Number(typed.value.trim().replace(',', '.'));
+      if (value > 0 && (log || Number.isInteger(value))) state.act(`set ${limit.key}=${value}`);
+      else show(now);
+    },
+  });
   const show = (value: number) => {
-    output.textContent = `${log && value >= 1e-3 ? value.toFixed(3) : number(value)} ${limit.unit}`;
+    now = value;
+    typed.value = log && value >= 1e-3 ? value.toFixed(3) : String(value);
     input.setAttribute('aria-valuetext', `${number(value)} ${limit.unit}, paper ${number(limit.paper)}`);
     was.textContent = first !== undefined && first !== value ? `was ${number(first)}` : '';
   };
-  return settingRow(state, limit.label, output, was, h('div', { class: 'track' }, input, tick), (settings, atFork) => {
+  return settingRow(state, limit.label, h('span', {}, typed, ` ${limit.unit}`), was, h('div', { class: 'track' }, input, tick), (settings, atFork) => {
     first = Number(atFork[limit.key]);
     const value = Number(settings[limit.key]);
     if (document.activeElement !== input || Number(from(Number(input.value))) !== value) input.value = String(to(Math.max(value, 1e-12)));
-    show(value);
+    if (document.activeElement !== typed) show(value);
   });
 }
 

@@ -28,11 +28,13 @@ const kWidth = 240;
 export function gauge(test: Test): HTMLElement {
   const value = Math.abs(test.value);
   const over = value >= test.threshold;
+  // Friction that holds as much as it can is neither below its limit nor above it.
+  const look = Math.abs(value / test.threshold - 1) < 1e-3 ? 'at' : over ? 'over' : 'under';
   const at = (x: number) => kWidth * Math.min(1, Math.max(0.02, 0.6 + 0.2 * Math.log10(Math.max(1e-12, x) / test.threshold)));
   const end = Math.min(kWidth - 6, at(value));
   const limit = at(test.threshold);
   const words = `${number(value, 3)} ${test.unit}`;
-  return h('figure', { class: `gauge ${over ? 'over' : 'under'}` },
+  return h('figure', { class: `gauge ${look}` },
     svg('svg', { viewBox: `0 0 ${kWidth} 62`, role: 'img', 'aria-label': `${words}, limit ${number(test.threshold)} ${test.unit}` },
       svg('path', { class: 'beyond', d: `M${limit} 24H${kWidth}v10H${limit}z` }),
       svg('path', { class: 'rest', d: `M0 24H${limit}v10H0z` }),

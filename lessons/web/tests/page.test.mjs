@@ -427,6 +427,28 @@ test('push, pin, add, delete, limits, back and undo in a run of one’s own', as
   await close();
 });
 
+test('a limit can be typed, and an arrow that is pulled has its size beside it until Esc', async () => {
+  const { page, close } = await takenOver('books', 100);
+  await page.fill('.typed >> nth=1', '0,5');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => /unmerging\.velocity: 0\.02 → 0\.5/.test(document.querySelector('.deeds').textContent));
+  await page.fill('.typed >> nth=0', 'much');
+  await page.keyboard.press('Enter');
+  assert.equal(await page.inputValue('.typed >> nth=0'), '0.010');
+  await page.click('[data-tool=throw]');
+  const dynamic = Number(await page.locator('.picture.interactive .body:not(.fixed)').first().getAttribute('data-body'));
+  const [x, y] = await centre(page, dynamic);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 60, y, { steps: 4 });
+  assert.match(await page.textContent('.aim-size'), /m\/s/);
+  await page.keyboard.press('Escape');
+  assert.equal(await page.textContent('.aim-size'), '');
+  await page.mouse.up();
+  assert.ok(!/threw/.test(await page.textContent('.deeds')));
+  await close();
+});
+
 test('the reference runs beside one’s own run, with the same pulls', async () => {
   const { page, close } = await takenOver('what-merging-is', 300);
   await page.selectOption('select[aria-label="Beside it"]', 'reference');
@@ -740,6 +762,21 @@ test('titles and names stay text', async () => {
   assert.match(await page.textContent('h1'), /<script>window\.hacked = 1<\/script>/);
   await page.locator('.picture .body').click();
   assert.equal(await page.textContent('.inspector h3'), '</script><b>');
+  await close();
+});
+
+test('bodies are chosen with the keyboard, and told in words', async () => {
+  const { page, close } = await open('what-merging-is', {}, '#part=2');
+  await page.focus('#picture');
+  await page.keyboard.press('ArrowUp');
+  const first = await page.textContent('#picture > [role=status]');
+  assert.match(first, /^brick \d+, in C\d+, .*touches .*brick \d+/);
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('ArrowUp');
+  assert.notEqual(await page.textContent('#picture > [role=status]'), first);
+  await page.keyboard.press('Enter');
+  assert.match(await page.textContent('.inspector h3'), /^brick \d+ and brick \d+$/);
+  await page.waitForFunction(() => /in C\d+: (brick \d+, )+brick \d+/.test(document.querySelector('.picture.interactive').getAttribute('aria-label')));
   await close();
 });
 
