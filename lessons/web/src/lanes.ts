@@ -78,7 +78,7 @@ export function lanes(state: State, flags: () => Flag[]): SVGSVGElement {
 
   const drawFlags = (height: number) => {
     let before = -Infinity;
-    for (const flag of flags()) {
+    for (const flag of [...flags()].sort((p, q) => p.step - q.step)) {
       const at = x(flag.step);
       const shifted = Math.max(at, before + 11); // two parts of one moment stand side by side
       before = shifted;
