@@ -1,5 +1,5 @@
 #pragma once
-/// Splits collections at their cut welds: the part of Unmerge that all rules share.
+/// Splits collections at their cut welds (Section 6.3): the part of Unmerge that all rules share.
 
 #include <string_view>
 

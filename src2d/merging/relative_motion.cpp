@@ -1,5 +1,5 @@
-/// AccumulateRelativeMotion: for how many steps each pair could have merged, and each rigid thing
-/// could have slept.
+/// AccumulateRelativeMotion (Sections 5 and 7): for how many steps each pair could have merged, and
+/// each rigid thing could have slept.
 
 #include <algorithm>
 

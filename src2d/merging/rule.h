@@ -1,7 +1,8 @@
 #pragma once
-/// The rules of merging and unmerging as tables of functions: one table for each value of
-/// `merging.rule` and of `unmerging.rule`. The stages of a step and the parts that all rules share
-/// (collections, splits, rows) ask the table; no other code knows which rule is in force.
+/// The rules of merging and unmerging (Sections 5 to 7) as tables of functions: one table for each
+/// value of `merging.rule` and of `unmerging.rule`. The stages of a step and the parts that all
+/// rules share (collections, splits, rows) ask the table; no other code knows which rule is in
+/// force.
 
 #include "src2d/dynamics/state.h"
 #include "src2d/merging/parts.h"

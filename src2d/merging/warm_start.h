@@ -1,5 +1,6 @@
 #pragma once
-/// WarmStart: the velocities that the single sweep starts from, and the rows around collections.
+/// WarmStart (Section 6.2): the velocities that the single sweep starts from, and the rows around
+/// collections.
 
 #include "src2d/dynamics/state.h"
 
