@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/interrupt.h"
+#include "app/json.h"
 #include "app/lesson_source.h"
 #include "app/output_file.h"
 #include "app/progress.h"
@@ -71,11 +72,18 @@ Recording recorded(const Scene& scene, Mode mode, Detail detail, const Console& 
   return recording;
 }
 
+/// Names a page that was written: its path, or with --json an object in a line.
+void printPage(const LessonOptions& options, const std::string& path) {
+  if (!options.json) return print(path + "\n");
+  print(Json{{"page", path}}.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
 /// Where a page goes: asked for before it is made, so that nobody waits for a refusal.
 class PageFile {
  public:
   PageFile(const LessonOptions& options, const std::string& name)
-      : path_(options.output.empty() ? (fs::path("frames") / name / "lesson.html").string()
+      : options_(options),
+        path_(options.output.empty() ? (fs::path("frames") / name / "lesson.html").string()
                                      : options.output) {
     if (options.output.empty()) made_.emplace(fs::path(path_).parent_path());
     file_.emplace(path_, Replaces{.everything = options.force, .ours = kPageStart});
@@ -84,10 +92,11 @@ class PageFile {
   void write(const PageContent& content, bool live) {
     file_->stream() << makePage(content, live);
     file_->finish();
-    if (path_ != "-") print(fmt::format("{}\n", path_));
+    if (path_ != "-") printPage(options_, path_);
   }
 
  private:
+  const LessonOptions& options_;
   std::string path_;
   std::optional<MadeFolder> made_;
   std::optional<OutputFile> file_;
@@ -152,7 +161,7 @@ void writeCourse(const LessonOptions& options, const Console& console) {
     OutputFile file((folder / name).string(), {.everything = options.force, .ours = kPageStart});
     file.stream() << page;
     file.finish();
-    print(fmt::format("{}\n", (folder / name).string()));
+    printPage(options, (folder / name).string());
   };
   std::vector<CourseEntry> entries;
   for (std::size_t i = 0; i < lessons.size(); ++i) {
