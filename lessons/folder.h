@@ -13,6 +13,8 @@ std::span<const EmbeddedFile> embeddedLessons();
 /// `player.js`, `player.css` and the engine, `engine.b64`. They read the output of this program, so
 /// nothing replaces them.
 std::span<const EmbeddedFile> embeddedPlayer();
+/// `page.txt` and `engine.txt`: the licences of what pages have in them.
+std::span<const EmbeddedFile> embeddedLicences();
 
 /// Where lessons are looked for, in this order.
 inline std::vector<DataFolder> lessonFolders() {

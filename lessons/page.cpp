@@ -63,7 +63,7 @@ constexpr const char* kPage = R"(<!DOCTYPE html>
 <noscript><p>This page draws a recorded simulation; it needs JavaScript, but no network.</p></noscript>
 <div id="app"></div>
 <script type="application/json" id="data">{data}</script>
-{engine}<script>
+{licences}{engine}<script>
 {program}</script>
 </body>
 </html>
@@ -138,16 +138,21 @@ std::string makeCourseIndex(const std::vector<CourseEntry>& entries) {
 std::string makePage(const PageContent& content, bool live) {
   const DataFolder player("built-in/player", embeddedPlayer());
   const std::string style = player.read("player.css"), program = player.read("player.js");
-  const std::string engine =
-      live ? fmt::format("<script type=\"text/plain\" id=\"engine\">{}</script>\n",
-                         player.read("engine.b64"))
-           : std::string();
+  const DataFolder texts("built-in/licences", embeddedLicences());
+  const auto block = [](const char* id, const std::string& text) {
+    return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, text);
+  };
+  const std::string licences = block("licences", texts.read("page.txt"));
+  const std::string engine = live ? block("engine-licences", texts.read("engine.txt")) +
+                                        block("engine", player.read("engine.b64"))
+                                  : std::string();
   std::string page;
   for (const Encoding& encoding : encodings()) {
     page = fmt::format(kPage, fmt::arg("policy", live ? kLivePolicy : kPolicy),
                        fmt::arg("title", escapedHtml(content.title)), fmt::arg("style", style),
                        fmt::arg("data", forScript(dataOf(content, encoding))),
-                       fmt::arg("engine", engine), fmt::arg("program", program));
+                       fmt::arg("licences", licences), fmt::arg("engine", engine),
+                       fmt::arg("program", program));
     if (page.size() <= kPageBytes + engine.size()) break;
   }
   return page;

@@ -37,6 +37,24 @@ TEST(Page, AsksTheNetworkForNothing) {
   }
 }
 
+TEST(Page, CarriesTheLicencesOfWhatIsInIt) {
+  const std::string page = pageOf("ball");
+  for (const char* holder : {"Arjun Barrett (fflate)", "the merge2d authors", "Erin Catto (Box2D)",
+                             "Mozilla Public License Version 2.0", "LLVM Exceptions"}) {
+    EXPECT_THAT(page, HasSubstr(holder));
+  }
+  EXPECT_THAT(page, HasSubstr("The above copyright notice and this permission notice shall be"));
+}
+
+TEST(Page, WithoutTheEngineItCarriesNoLicencesOfIt) {
+  PageContent content{.title = "ball", .lesson = "null", .traces = {}};
+  content.traces.push_back(
+      {"merge", record(parseScene("[[body]]\ncircle = 0.5\n", "ball.toml"), {.steps = 5})});
+  const std::string page = makePage(content, false);
+  EXPECT_THAT(page, HasSubstr("Arjun Barrett (fflate)"));
+  EXPECT_THAT(page, Not(HasSubstr("Erin Catto")));
+}
+
 TEST(Page, TheSameRunGivesTheSameBytes) { EXPECT_EQ(pageOf("ball"), pageOf("ball")); }
 
 TEST(Page, FinerEncodingsComeFirst) {
