@@ -14,6 +14,7 @@ if(MERGE2D_APP)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/lessons/
           DESTINATION ${CMAKE_INSTALL_DATADIR}/merge2d/lessons COMPONENT program
           FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN web EXCLUDE)
+  include(cmake/manual.cmake)
 endif()
 if(TARGET merge2d_shared)
   # merge2d::merge2d is the shared library.

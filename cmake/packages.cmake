@@ -71,17 +71,6 @@ foreach(package name IN ZIP_LISTS packages names)
                 ${PROJECT_BINARY_DIR}/packages/NEWS.gz
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${package} EXCLUDE_FROM_ALL)
 endforeach()
-# A manual page from the program's own help.
-find_program(HELP2MAN help2man)
-if(HELP2MAN)
-  set(page ${PROJECT_BINARY_DIR}/packages/merge2d.1)
-  add_custom_command(OUTPUT ${page}.gz
-    COMMAND ${HELP2MAN} -N -n "${PROJECT_DESCRIPTION}" -o ${page} $<TARGET_FILE:merge2d>
-    COMMAND gzip -9nf ${page}
-    DEPENDS merge2d VERBATIM)
-  add_custom_target(merge2d_manual ALL DEPENDS ${page}.gz)
-  install(FILES ${page}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
-endif()
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/packages/triggers)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS ffmpeg)
