@@ -23,7 +23,7 @@ bool isCut(const Collection& c, BodyId a, BodyId b) {
   });
 }
 
-/// Where more sweeps begin for the sake of the joints.
+/// Doubts the bodies at all joints, so that more sweeps begin there too.
 void doubtJoints(Scratch& scratch, const Collection& c) {
   for (const JointBlock& k : c.joints) {
     scratch.doubted.push_back(k.a);
@@ -31,7 +31,7 @@ void doubtJoints(Scratch& scratch, const Collection& c) {
   }
 }
 
-/// Joints that bear too much, also after more sweeps, hold nothing together any more.
+/// Breaks the joints that bear too much, also after more sweeps.
 bool breakInside(State& state, Scratch& scratch, Collection& c) {
   doubtJoints(scratch, c);
   sweepAgain(state, scratch, c);
@@ -86,7 +86,7 @@ struct Tested {
   }
 };
 
-/// One sweep may not have converged: before anything parts, looks again after more.
+/// Tests the welds again after more sweeps before anything parts: one sweep may not have converged.
 std::optional<Parts> confirmedParts(State& state, Scratch& scratch, Collection& c, WeldTest& test,
                                     bool joints_loosened, Noted& noted) {
   noted.close();

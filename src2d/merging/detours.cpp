@@ -27,7 +27,7 @@ class DetourSearch {
   }
 
  private:
-  /// A body that one contact holds to the group.
+  /// A body that a single contact holds to the group so far.
   struct Hinged {
     std::uint32_t node;
     Vec2 at;

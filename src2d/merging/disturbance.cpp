@@ -9,11 +9,11 @@
 namespace merge2d {
 namespace {
 
-/// A contact that closes slower than this disturbs nobody [m/s].
+/// A contact that closes slower than this is no meeting [m/s].
 constexpr double kGentle = 1e-3;
 
-/// How fast a contact closes that was open in the last step and meets in this one; or that was near
-/// enough to slow its bodies down then, and is hit with the rest now [m/s]. 0 for any other.
+/// The closing speed of a contact that was open in the last step and closes in this one, or that
+/// slowed its bodies down then and is hit with the rest of their speed now [m/s]; 0 for any other.
 double closingSpeed(const State& state, const Contact& contact) {
   const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
   if (sameFrame(a, b)) return 0.0;
@@ -31,8 +31,8 @@ double closingSpeed(const State& state, const Contact& contact) {
   return fastest;
 }
 
-/// True when the frame gains another velocity in this step than in the last one, by more than a
-/// hundredth of gravity: then one sweep cannot follow the load.
+/// True when the acceleration of the frame has changed by more than a hundredth of gravity since
+/// the last step: then one sweep cannot follow the load.
 bool frameJumps(const State& state, Collection& c) {
   constexpr double kPart = 1e-2;
   const Rigid& r = state[c.rigid];

@@ -68,7 +68,7 @@ std::vector<RowEnd> endsOf(const std::vector<RowOf>& rows, const std::vector<Sol
   return ends;
 }
 
-/// J M⁻¹ Jᵀ + C, a little softened: joints in a ring ask for more than there is to know.
+/// J M⁻¹ Jᵀ + C, a little softened: the rows of joints in a ring are linearly dependent.
 Eigen::SparseMatrix<double> matrixOf(const std::vector<RowOf>& rows,
                                      const std::vector<SolverVelocity>& u) {
   constexpr double kSlightly = 1e-9;

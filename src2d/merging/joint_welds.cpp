@@ -29,7 +29,7 @@ struct Hold {
     freedoms += taken;
     pivot |= kind == JointKind::Revolute;
   }
-  /// In contacts: a pivot takes two freedoms, three are all.
+  /// Counted in contacts: a pivot takes two of the three relative freedoms, two contacts take all.
   int contacts() const {
     if (freedoms >= 3) return 2;
     return freedoms == 2 && pivot ? 1 : 0;

@@ -102,8 +102,8 @@ class Refinement {
     return place_[body];
   }
 
-  /// Where it `moves`. That comes of a sweep that a processor has hardly begun: at a branch it
-  /// would have to guess, and be wrong half of the time.
+  /// Queues a body where it `moves`, without a branch: the processor would have to predict it from
+  /// a sweep that it has hardly begun, and be wrong half of the time.
   void enqueue(std::uint32_t place, bool moves = true) {
     Reached& r = reached_[place];
     const bool anew = moves & !r.queued;
@@ -134,7 +134,7 @@ class Refinement {
     }
   }
 
-  /// A body at the rim of the walk whose own items know nothing yet of what has come to it.
+  /// True for a body at the rim of the walk that has changed, though its own items were not swept.
   bool isOvertaken(const Reached& r) const {
     const double parts = std::max(threshold_, state_.settings.unmerging.sliding);
     return !r.queued && r.loose && changeSinceStart(r) > parts * parts;
@@ -196,15 +196,15 @@ class Refinement {
     const SolverVelocity& u = scratch_.sweep_u[r.body];
     return square(u.vx - r.vx) + square(u.vy - r.vy);
   }
-  double changeInLastSweep(std::size_t i) const {  // the conjugate gradient knows from what
+  double changeInLastSweep(std::size_t i) const {  // of the conjugate gradient's own memory
     const SolverVelocity& u = scratch_.sweep_u[reached_[i].body];
     const Twist& last = scratch_.nncg.u_before[i];
     return square(u.vx - last.vx) + square(u.vy - last.vy);
   }
   static double square(double x) { return x * x; }
 
-  /// Sweeps the items of the walk, which goes on where it is overtaken: there one sweep more is not
-  /// counted, or a blow would end where a gap let it through late.
+  /// Sweeps the items of the walk, and extends the walk where bodies at its rim are overtaken. The
+  /// sweep that found these is not counted, or a blow would end at a gap that it closes late.
   void converge(int sweeps) {
     auto& u = scratch_.sweep_u;
     const SolverMethod method = state_.settings.solver.method;
@@ -232,7 +232,7 @@ class Refinement {
   }
 
   /// Queues the bodies that are not quiet: those that the last sweep still changed, and at the rim,
-  /// where not all items know of it yet, those that moved in this round. Marks what was jolted.
+  /// where not all items know of it yet, those that moved in this round. Notes jolts.
   void queueRestless() {
     queue_.clear();
     restless_ = 0.0;

@@ -64,15 +64,15 @@ void noteOrder(State& state, Scratch& scratch) {
   orderedFromSeeds(disturbedItems(state, scratch), scratch, passable);
 }
 
-/// Where a sweep changes something by `blow`, sweeps go on until they change a hundredth of it
+/// The change of a velocity below which sweeps end that began with one of `blow`: a hundredth of it
 /// [m/s].
 double enoughAfter(const State& state, double blow) {
   constexpr double kPart = 0.01;
   return std::max(residualVelocity(state), std::min(kPart * blow, refinedVelocity(state)));
 }
 
-/// Marks the members whom the last sweep, which changed one by `largest`, changed too much [m/s],
-/// and those that it jolted: no others while the collection waits long, as only they can part.
+/// Marks the members that the last sweep changed too much, where `largest` is its largest change
+/// [m/s]. While the collection waits long, only those that it jolted: no others can come free.
 void markRestless(State& state, const Collection& c, Scratch& scratch, double largest) {
   const bool waits = c.waitsLong() && !isJolted(state, c);
   const double enough = waits ? joltVelocity(state) : enoughAfter(state, largest);
@@ -84,13 +84,14 @@ void markRestless(State& state, const Collection& c, Scratch& scratch, double la
   }
 }
 
-/// Sweeps go on where something is new.
+/// Whether more sweeps follow where something is new.
 bool refines(const UnmergingSettings& settings) { return settings.ordering; }
 
 /// Whether a collection is disturbed: something new entered, the sweep changed much, or a
-/// disturbance of the last steps still changes something. For some steps only: a load that changes
-/// for ever, as on a swing, is one that single sweeps follow well. Nor where more sweeps have just
-/// failed to quieten as much: that is forgotten little by little.
+/// disturbance of the last steps still changes something. That lasts for some steps only: a load
+/// that changes for ever, as on a swing, is followed well by single sweeps. Nor is a collection
+/// disturbed by a change that more sweeps have just failed to remove; this is forgotten little by
+/// little.
 void follow(const State& state, Collection& c, Scratch& scratch, double change) {
   constexpr float kForgets = 0.95F;  // in each step
   std::uint8_t& disturbed = scratch.disturbed[index(c.rigid) - state.bodies.size()];

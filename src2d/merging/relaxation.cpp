@@ -10,7 +10,7 @@
 namespace merge2d {
 namespace {
 
-/// A few rounds over the rows that want a change and those beside them, as most disturbances are
+/// A few rounds over the rows with a residual and those beside them, as most disturbances are
 /// local; then sweeps over all rows.
 class Relaxation {
  public:
@@ -56,7 +56,7 @@ class Relaxation {
     return residualOf(k, k.nx, k.ny, u_[k.a], u_[k.b]);
   }
 
-  /// Chooses the rows at members at which some row wants a change; returns the largest.
+  /// Chooses the rows at members at which some row has a residual; returns the largest [m/s].
   double choose() {
     double most = 0.0;
     hot_.assign(c_.members.size(), 0);

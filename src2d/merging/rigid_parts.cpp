@@ -11,7 +11,7 @@
 namespace merge2d {
 namespace {
 
-/// More take too long.
+/// More would take too long in passing.
 constexpr std::size_t kMostParts = 32, kMostRows = 400;
 
 /// Numbers the parts by their first members; the frame comes after them.

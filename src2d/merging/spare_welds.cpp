@@ -24,8 +24,8 @@ bool heldAround(const State& state, const Collection& c, const std::vector<std::
   return others.size() <= few && heldByDetours(state, c, others);
 }
 
-/// A detour holds for this step only. In a calm one it is worth more to find all that is spare, as
-/// the same contacts are at their limits for long.
+/// Whether to find all spare welds for good. A detour holds for this step only; in a calm
+/// collection the same contacts are at their limits for long.
 bool asksForGood(const State& state, const Scratch& scratch, const Collection& c) {
   constexpr std::int64_t kEvery = 16;  // steps
   return state.step % kEvery == 0 && !scratch.disturbed[index(c.rigid) - state.bodies.size()];
@@ -84,7 +84,7 @@ bool losesAMember(const Collection& c, const Scratch& scratch) {
 std::optional<Parts> partsAtCuts(const State& state, Scratch& scratch, Collection& c, bool anew) {
   auto& others = scratch.others;
   if (others.empty() && !anew) return {};
-  // A layout only assumes that all holds together.
+  // After a layout nobody has asked yet whether the collection holds together.
   const bool known = c.judged && !anew, for_good = asksForGood(state, scratch, c);
   if (known && !for_good && heldAround(state, c, others)) {
     c.stood.assign(c.cut_welds.begin(), c.cut_welds.end());

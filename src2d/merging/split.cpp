@@ -21,7 +21,7 @@ std::vector<std::vector<BodyId>> membersOfParts(const Collection& c,
   return members;
 }
 
-/// A member goes its own way, with the velocity that its collection has where it is.
+/// Makes a member a free body, with the velocity that its collection has there.
 RigidId freeBody(State& state, BodyId b, const Rigid& whole) {
   const Pose pose = state.pose(b);
   const double angle = state.angle(b);
@@ -106,7 +106,7 @@ const Weld* cutByTest(const Collection& c, const InternalContact& inner) {
   return weld->cut && weld->reason != EventReason::User ? &*weld : nullptr;
 }
 
-/// Until its pair gets somewhere, this cut is one in vain.
+/// Counts this cut as one in vain, until the pair gets somewhere.
 void countVain(InternalContact& inner) {
   inner.vain = std::min<std::int16_t>(kMostVain, static_cast<std::int16_t>(inner.vain + 1));
 }

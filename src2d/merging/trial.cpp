@@ -21,7 +21,7 @@ std::uint32_t largestOf(const Parts& parts) {
   return static_cast<std::uint32_t>(std::ranges::max_element(size) - size.begin());
 }
 
-/// What was summed against a weld; nothing where a single step was enough.
+/// The largest sum of evidence against a weld; none where a single step was enough.
 Drift evidenceOf(const Collection& c, const Weld& weld) {
   if (weld.reason == EventReason::RelativeMotion) {
     return {weld.turning.sum, std::max(1, weld.turning.steps)};
@@ -36,9 +36,9 @@ Drift evidenceOf(const Collection& c, const Weld& weld) {
   return most;
 }
 
-/// What was found against the welds of a part.
+/// The evidence against the welds of a part.
 struct Evidence {
-  int steps = 0;         ///< over which it was summed; 0: none was cut, it goes as others do
+  int steps = 0;         ///< over which it was summed; 0: no weld of it was cut
   double sum = 0.0;      ///< the largest [m/s]
   double caution = 1.0;  ///< the least factor
 
@@ -54,15 +54,15 @@ struct Tried {
   Collection* c;
   const Parts* parts;
   std::uint32_t host;                 ///< the largest part
-  bool fits;                          ///< few enough would move, and the host stays what it is
+  bool fits;                          ///< fewer than half move, and the host stays anchored or not
   std::vector<Evidence> against;      ///< per part
   std::vector<std::uint8_t> moves{};  ///< per part: the result
 
-  /// Where most of it would move, all of it does.
+  /// The host moves too where the proposal does not fit.
   bool isMover(std::uint32_t part) const { return part != host || !fits; }
 };
 
-/// The contacts of all that could move, solved as if it were free.
+/// Solves the contacts of all parts that could move as if they were free.
 class Trial {
  public:
   Trial(State& state, Scratch& scratch, std::span<const Proposal> proposals)
@@ -77,7 +77,7 @@ class Trial {
     }
   }
 
-  /// Solves, and says what moves.
+  /// Solves, and marks the parts that move.
   std::vector<Tried> run() {
     if (std::ranges::none_of(tried_, &Tried::fits)) return tried_;
     list();
@@ -115,7 +115,7 @@ class Trial {
     return tried_[t].isMover(tried_[t].parts->part[state_[rigidOf(BodyId{body})].member]);
   }
 
-  /// Lists what the movers touch.
+  /// Lists the contacts and joints at the movers.
   void list() {
     for (Tried& t : tried_) listInside(t);
     for (SweepContact& outer : scratch_.sweep_contacts) {
@@ -128,7 +128,7 @@ class Trial {
     }
   }
 
-  /// The same in one collection, and what was found against each part.
+  /// The same in one collection, and the evidence against each part.
   void listInside(Tried& t) {
     Collection& c = *t.c;
     const Rotation turn = state_[c.rigid].rotation;
@@ -171,7 +171,7 @@ class Trial {
       scratch_.sweep_u[touched_[i]] = velocities_[i];
   }
 
-  /// What moves as a part of a collection gets its velocity, and does not respond.
+  /// A body that stays in its collection gets the collection's velocity, and does not respond.
   void freeze() {
     for (const std::uint32_t b : touched_) {
       if (b >= state_.bodies.size() || isMover(b)) continue;
@@ -224,11 +224,12 @@ class Trial {
     }
   }
 
-  /// Fast enough to be seen, or not much slower than the sweep found. What was cut in vain before
-  /// must be as much faster, or not much slower than what was summed against it.
+  /// True for a member that is fast enough to be seen, or not much slower than the sweep found. One
+  /// that was cut in vain before must be faster by its caution, or not much slower than its
+  /// evidence says.
   bool movesAway(const Tried& t, std::uint32_t m) {
     constexpr double kMuch = 0.5;
-    constexpr double kBarely = 0.1;  // of what is seen: others part, but it stays
+    constexpr double kBarely = 0.1;  // of `seen`: for a part without a cut weld
     const BodyId b = t.c->members[m];
     if (place_[index(b)] == kNone) return true;  // nothing holds it
     const Evidence& against = t.against[t.parts->part[m]];
@@ -268,7 +269,7 @@ class Trial {
   std::vector<Known> fields_;               ///< of collections that were asked for
 };
 
-/// A weld that was cut, or lost contacts, holds by all that it held by before.
+/// Restores the grip of a weld that was cut, or lost contacts.
 void holdOn(const State& state, Collection& c, std::uint32_t w) {
   Weld& weld = c.welds[w];
   weld.cut = false;
@@ -278,7 +279,7 @@ void holdOn(const State& state, Collection& c, std::uint32_t w) {
   updateGrip(state, c, w);
 }
 
-/// The welds that stay are as if nothing had been found.
+/// Forgets the evidence against a weld that stays.
 void forget(const State& state, Collection& c, std::uint32_t w) {
   Weld& weld = c.welds[w];
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
@@ -305,7 +306,7 @@ bool withholdCuts(const State& state, Collection& c) {
 
 namespace {
 
-/// What the trial makes of one proposal.
+/// The parts that the trial leaves of one proposal.
 std::optional<Parts> remains(State& state, Scratch& scratch, const Tried& t) {
   Collection& c = *t.c;
   const Parts& parts = *t.parts;
