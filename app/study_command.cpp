@@ -182,10 +182,11 @@ std::vector<std::size_t> unfinished(const StudyOptions& options, Runs& runs) {
   std::vector<std::size_t> open;
   const std::size_t count = runs.all().size();
   const Interval asked = options.only.value_or(Interval{1, count});
-  if (asked.last > count) {
-    throw UsageError(fmt::format("--only names run {}, but the study has {}", asked.last, count));
+  if (asked.first > count) {
+    throw UsageError(
+        fmt::format("--only begins with run {}, but the study has {}", asked.first, count));
   }
-  for (std::size_t i = asked.first - 1; i < asked.last; ++i) {
+  for (std::size_t i = asked.first - 1; i < std::min(asked.last, count); ++i) {
     if (!runs.rows()[i].finished()) open.push_back(i);
   }
   return open;

@@ -202,6 +202,46 @@ TEST_F(StudyCommand, TheListedCommandsMakeTheSameRows) {
   EXPECT_THAT(table(), SizeIs(12));
 }
 
+TEST_F(StudyCommand, APartMayEndBeyondTheLastRunButNotBeginThere) {
+  EXPECT_EQ(run({"study", "grid.toml", "-o", "out", "--only", "11-20"}).code, 0);
+  EXPECT_EQ(rowFiles(), 2U);
+  const Outcome beyond = run({"study", "grid.toml", "-o", "out", "--only", "13"});
+  EXPECT_EQ(beyond.code, 2);
+  EXPECT_THAT(beyond.err, HasSubstr("begins with run 13, but the study has 12"));
+}
+
+TEST_F(StudyCommand, DrawsAReportThatNeedsNothingBesideIt) {
+  run({"study", "grid.toml", "-o", "out"});
+  const Outcome outcome = run({"study", "--report", "out"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const std::string page = read("out/report.html");
+  EXPECT_THAT(page, AllOf(StartsWith("<!DOCTYPE html>"), HasSubstr("<h1>grid</h1>"),
+                          HasSubstr("12 runs, 0 of them failed"),
+                          HasSubstr("Over merging.velocity and solver.iterations, means"),
+                          HasSubstr("<h3>Distribution</h3>")));
+  for (const char* way : {"src=", "http-equiv", "@import", "url(http"}) {
+    EXPECT_THAT(page, Not(HasSubstr(way))) << way;
+  }
+  EXPECT_EQ(run({"study", "--report", "out"}).code, 0) << "it is one of ours";
+}
+
+TEST_F(StudyCommand, AReportNamesTheRunsThatFailed) {
+  write("grid.toml",
+        "title = \"A <b> & c\"\nscenes = [\"stack.toml\"]\nsteps = 5\n"
+        "[parameters]\nsolver.iterations = [10, 0, 20]\n");
+  run({"study", "grid.toml", "-o", "out"});
+  EXPECT_EQ(run({"study", "--report", "out"}).code, 0);
+  EXPECT_THAT(read("out/report.html"),
+              AllOf(HasSubstr("<h1>A &lt;b&gt; &amp; c</h1>"), HasSubstr("Runs that failed"),
+                    HasSubstr("'iterations' in [solver] must be")));
+}
+
+TEST_F(StudyCommand, NoReportOfWhatIsNoStudy) {
+  const Outcome outcome = run({"study", "--report", "."});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("is not the folder of a study: it has no study.json"));
+}
+
 TEST_F(StudyCommand, CollectTellsWhatIsMissing) {
   run({"study", "grid.toml", "-o", "out", "--only", "2-3"});
   const Outcome collected = run({"study", "grid.toml", "-o", "out", "--collect"});

@@ -1,0 +1,69 @@
+#include <gmock/gmock.h>
+
+#include "tests/app/program_testing.h"
+
+namespace merge2d {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+class Completion : public ProgramTest {
+ protected:
+  /// What bash offers for these words, of which the last is being typed.
+  Words offered(const Words& words) {
+    write("completion.bash", run({"completion", "bash"}).out);
+    std::string script = ". ./completion.bash; COMP_WORDS=(";
+    for (const std::string& word : words) script += "'" + word + "' ";
+    script += "); COMP_CWORD=" + std::to_string(words.size() - 1) +
+              "; _merge2d; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    const std::string program = buildDir().string();
+    const std::string command = "cd '" + folder().string() + "' && PATH='" + program +
+                                "':\"$PATH\" bash -c \"$SCRIPT\" > offered";
+    setenv("SCRIPT", script.c_str(), 1);
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    unsetenv("SCRIPT");
+    return linesOf(read("offered"));
+  }
+};
+
+TEST_F(Completion, OffersCommandsOptionsValuesAndScenes) {
+  EXPECT_THAT(offered({"merge2d", "st"}), testing::ElementsAre("study", "step"));
+  EXPECT_THAT(offered({"merge2d", "run", "--mo"}), testing::ElementsAre("--mode"));
+  EXPECT_THAT(offered({"merge2d", "run", "--mode", "merge"}),
+              testing::ElementsAre("merge", "merge+sleep"));
+  EXPECT_THAT(offered({"merge2d", "render", "tower-pl"}), Contains("tower-platform"));
+  EXPECT_THAT(offered({"merge2d", "completion", "f"}), testing::ElementsAre("fish"));
+}
+
+TEST_F(Completion, OffersFilesWhereTheyAreMeant) {
+  write("my-scene.toml", kStack);
+  fs::create_directories(folder() / "my-folder");
+  EXPECT_THAT(offered({"merge2d", "run", "my-"}), Contains("my-scene.toml"));
+  EXPECT_THAT(offered({"merge2d", "render", "pile", "-o", "my-"}),
+              testing::ElementsAre("my-folder"));
+}
+
+TEST_F(Completion, EveryShellKnowsEveryCommand) {
+  const std::string help = run({"--help"}).out;
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    const std::string script = run({"completion", shell}).out;
+    for (const char* command : {"list", "validate", "run", "render", "compare", "study", "lesson",
+                                "cycles", "step", "explain", "doctor", "completion"}) {
+      EXPECT_THAT(help, HasSubstr(std::string("\n  ") + command + " "));
+      EXPECT_THAT(script, HasSubstr(command)) << shell;
+    }
+    EXPECT_THAT(script, HasSubstr("reference-error")) << shell;
+  }
+}
+
+TEST_F(Completion, AnUnknownShellIsAnsweredWithTheNearest) {
+  const Outcome outcome = run({"completion", "fishy"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean 'fish'?"));
+  EXPECT_EQ(run({"completion"}).code, 2);
+}
+
+}  // namespace
+}  // namespace merge2d
