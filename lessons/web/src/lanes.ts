@@ -15,7 +15,7 @@ const kLanes: Lane[] = [
   { label: 'Merges', kinds: ['merge'], mark: (x, y) => `M${x - 2.5} ${y - 3.5}h5v7h-5z` },
   { label: 'Sleep', kinds: ['sleep', 'wake'], mark: (x, y) => `M${x - 3} ${y}a3 3 0 1 0 6 0a3 3 0 1 0 -6 0` },
 ];
-export const kSliderInset = { left: 68, right: 14 };
+export const kSliderInset = { left: 80, right: 14 };
 /** Without names and parts where there is little room. */
 const kNarrow = matchMedia('(max-width: 699px), (max-height: 499px)');
 

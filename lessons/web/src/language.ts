@@ -14,6 +14,8 @@ function rules(): { exact: Map<string, Row>; patterns: Rule[] } {
     if (!english.includes('{}')) exact.set(english, row);
     else patterns.push([new RegExp(`^${english.split('{}').map((part) => part.replace(/[.*+?^${}()|[\]\\]/g, '\\$&')).join('(.+?)')}$`), row]);
   }
+  // "{} pairs watched" before "{} watched".
+  patterns.sort(([a], [b]) => b.source.length - a.source.length);
   return { exact, patterns };
 }
 

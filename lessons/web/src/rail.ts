@@ -1,7 +1,12 @@
 // The eleven stages of the step, each with its result in this one.
-import { h } from './dom';
+import { h, number } from './dom';
 import { kStages } from './stages';
 import type { State } from './state';
+
+/** No "7.2e-24": what is that small is rounding. */
+function tidied(text: string): string {
+  return text.replace(/\d+(?:\.\d+)?e-(\d+)/g, (value, exponent) => (Number(exponent) >= 9 ? '0' : number(Number(value), 2)));
+}
 
 const kIdle = /^(nothing|none ready)/;
 
@@ -18,10 +23,10 @@ export function ribbon(state: State): HTMLElement {
 
   const show = (texts: string[]) => {
     for (const [i, result] of results.entries()) {
-      result.textContent = texts[i] ?? '';
+      result.textContent = tidied(texts[i] ?? '');
       buttons[i].classList.toggle('idle', texts[i] !== undefined && kIdle.test(texts[i]));
     }
-    now.textContent = `${state.stage + 1} ${kStages[state.stage].label}${texts[state.stage] ? `: ${texts[state.stage]}` : ''}`;
+    now.textContent = `${state.stage + 1} ${kStages[state.stage].label}${texts[state.stage] ? `: ${tidied(texts[state.stage])}` : ''}`;
   };
   /** Looks into the step, a little at a time, as soon as nothing moves. */
   const look = () => {
