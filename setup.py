@@ -9,6 +9,7 @@ The packages of `scripts/install-packages build python` have to be there.
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -19,20 +20,28 @@ ROOT = pathlib.Path(__file__).parent.resolve()
 
 
 class CMakeBuild(build_ext):
-    """Builds and installs the component `python` in place of an extension."""
+    """Builds and installs the component `python` in place of an extension. MERGE2D_BUILD names a
+    build tree that has it already, for the same Python."""
 
     def build_extension(self, ext):
-        work = pathlib.Path(self.build_temp).resolve() / "cmake"
-        target = pathlib.Path(self.build_lib).resolve()
-        cmake = ["cmake", "-S", str(ROOT), "-B", str(work), "-DCMAKE_BUILD_TYPE=Release",
-                 "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=20",
-                 "-DMERGE2D_TESTS=OFF", "-DMERGE2D_PYTHON=ON", "-DMERGE2D_PYTHON_DIR=.",
-                 f"-DPython_EXECUTABLE={sys.executable}"]
-        subprocess.run(cmake, check=True)
+        ready = os.environ.get("MERGE2D_BUILD")
+        work = pathlib.Path(ready or pathlib.Path(self.build_temp) / "cmake").resolve()
+        if not ready:
+            self.build(work)
+        prefix = pathlib.Path(self.build_temp).resolve() / "prefix"
+        subprocess.run(["cmake", "--install", str(work), "--component", "python", "--prefix",
+                        str(prefix), "--strip"], check=True)
+        (package,) = prefix.glob("**/merge2d")
+        shutil.copytree(package, pathlib.Path(self.build_lib).resolve() / "merge2d",
+                        dirs_exist_ok=True)
+
+    def build(self, work):
+        subprocess.run(["cmake", "-S", str(ROOT), "-B", str(work), "-DCMAKE_BUILD_TYPE=Release",
+                        "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=20",
+                        "-DMERGE2D_TESTS=OFF", "-DMERGE2D_PYTHON=ON",
+                        f"-DPython_EXECUTABLE={sys.executable}"], check=True)
         subprocess.run(["cmake", "--build", str(work), "--target", "merge2d_python", "-j",
                         str(os.cpu_count() or 1)], check=True)
-        subprocess.run(["cmake", "--install", str(work), "--component", "python", "--prefix",
-                        str(target), "--strip"], check=True)
 
 
 VERSION = re.search(r"project\(merge2d VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]

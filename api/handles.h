@@ -34,6 +34,7 @@ struct WorldRecords {
   std::vector<m2_contact> contacts;
   std::vector<m2_collection> collections;
   std::vector<m2_body> members;
+  std::vector<m2_joint_state> joints;
   std::vector<m2_event> events;
   std::vector<m2_decision> decisions;
 };

@@ -49,6 +49,22 @@ m2_collection shown(const CollectionView& c, std::vector<m2_body>& members) {
           .omega = c.omega};
 }
 
+m2_joint_state shown(const JointView& j) {
+  return {.kind = static_cast<std::int32_t>(j.kind),
+          .a = number(j.a),
+          .b = j.to_world ? M2_NO_BODY : number(j.b),
+          .broken = j.broken,
+          .internal = j.internal,
+          .reserved = 0,
+          .ax = j.from.x(),
+          .ay = j.from.y(),
+          .bx = j.to.x(),
+          .by = j.to.y(),
+          .fx = j.force.x(),
+          .fy = j.force.y(),
+          .torque = j.torque};
+}
+
 m2_event shown(const Event& e) {
   return {.type = static_cast<std::int32_t>(e.type),
           .reason = static_cast<std::int32_t>(e.reason),
@@ -117,6 +133,7 @@ const WorldRecords& m2_world::seen() {
   world.capture(records.snapshot);
   const merge2d::Snapshot& s = records.snapshot;
   merge2d::showAll(s.contacts, records.contacts);
+  merge2d::showAll(s.joints, records.joints);
   merge2d::showAll(s.events, records.events);
   merge2d::showAll(s.decisions, records.decisions);
   records.collections.clear();
@@ -130,6 +147,10 @@ const WorldRecords& m2_world::seen() {
 
 m2_status m2_world_contacts(m2_world* world, const m2_contact** contacts, size_t* count) {
   return guarded([&] { merge2d::hand(given(world, "world").seen().contacts, contacts, count); });
+}
+
+m2_status m2_world_joints(m2_world* world, const m2_joint_state** joints, size_t* count) {
+  return guarded([&] { merge2d::hand(given(world, "world").seen().joints, joints, count); });
 }
 
 m2_status m2_world_collections(m2_world* world, const m2_collection** collections, size_t* count,

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "api/handles.h"
 #include "api/settings.h"
 #include "src2d/scene/check.h"
@@ -135,6 +138,31 @@ m2_status m2_scene_add_magnet(m2_scene* scene, m2_body body, double from, double
       if (magnet.body == body) return magnet.on.push_back({from, until});
     }
     s.magnets.push_back({body, {{from, until}}});
+  });
+}
+
+m2_status m2_scene_add_emitter(m2_scene* scene, const m2_body_def* def, double every, double start,
+                               uint32_t count, m2_vec spread, uint64_t seed) {
+  return guarded([&] {
+    merge2d::Scene& s = given(scene, "scene").scene;
+    merge2d::EmitterDesc emitter;
+    emitter.body = merge2d::toDesc(given(def, "def"));
+    emitter.every = every;
+    emitter.start = start;
+    emitter.count = static_cast<int>(std::min<uint32_t>(count, INT32_MAX));
+    emitter.spread = merge2d::toVec(spread);
+    emitter.seed = seed;
+    s.emitters.push_back(std::move(emitter));
+  });
+}
+
+m2_status m2_scene_set_camera(m2_scene* scene, m2_vec center, double height) {
+  return guarded([&] {
+    if (!std::isfinite(center.x) || !std::isfinite(center.y) || !std::isfinite(height) ||
+        height <= 0.0) {
+      throw merge2d::InputError("a camera has a finite centre and a positive height");
+    }
+    given(scene, "scene").scene.camera = {merge2d::toVec(center), height};
   });
 }
 

@@ -245,8 +245,8 @@ merge2d::Motion motionOf(const std::string& name) {
 }
 
 /// From the keyword arguments of add_body, whose defaults python/merge2d/__init__.py gives.
-template <class To>
-Body addBody(To& to, const py::dict& args) {
+template <class Add>
+Body addBodyTo(const py::dict& args, Add&& add) {
   merge2d::BodyDef def;
   std::vector<m2_key> keys;
   def.name = py::cast<std::string>(args["name"]);
@@ -276,7 +276,12 @@ Body addBody(To& to, const py::dict& args) {
       def.script = scriptOf(script);
     }
   }
-  return to.add(def);
+  return add(def);
+}
+
+template <class To>
+Body addBody(To& to, const py::dict& args) {
+  return addBodyTo(args, [&](const merge2d::BodyDef& def) { return to.add(def); });
 }
 
 merge2d::SpringDef springDef(Body body, const Pair& anchor, const Pair& to,
@@ -375,6 +380,19 @@ void bindScene(py::module_& m) {
       .def("add_force", [](Scene& s, Body body, const Pair& at, const Pair& force, double from,
                            double until) { s.addForce(body, vec(at), vec(force), from, until); })
       .def("add_magnet", &Scene::addMagnet)
+      .def("add_emitter",
+           [](Scene& s, const py::dict& args, double every, std::uint32_t count, double start,
+              const Pair& spread, std::uint64_t seed) {
+             addBodyTo(args, [&](const merge2d::BodyDef& def) {
+               s.addEmitter(def, every, count, start, vec(spread), seed);
+               return Body{0};
+             });
+           })
+      .def(
+          "set_camera",
+          [](Scene& s, const Pair& center, double height) { s.setCamera(vec(center), height); },
+          py::arg("center"), py::arg("height"),
+          "What pictures show: `height` metres about `center` [m].")
       .def("body_count", &Scene::bodyCount)
       .def("to_toml", &Scene::toToml)
       .def("warnings", &Scene::warnings)
@@ -557,6 +575,7 @@ void bindViews(py::class_<PyWorld>& c) {
 
 void bindRecords(py::class_<PyWorld>& c) {
   c.def("contacts", [](PyWorld& w) { return copy(Use(w)->contacts()); })
+      .def("joints", [](PyWorld& w) { return copy(Use(w)->joints()); })
       .def("events", [](PyWorld& w) { return copy(Use(w)->events()); })
       .def("note_decisions", [](PyWorld& w, bool on) { Use(w)->noteDecisions(on); })
       .def("decisions", [](PyWorld& w) { return copy(Use(w)->decisions()); })
@@ -608,6 +627,8 @@ void bindRecords(py::class_<PyWorld>& c) {
 PYBIND11_MODULE(_merge2d, m) {
   PYBIND11_NUMPY_DTYPE(m2_contact, a, b, feature, state, internal, fresh, x, y, nx, ny, gap,
                        lambda_n, lambda_t, w_n, w_t);
+  PYBIND11_NUMPY_DTYPE(m2_joint_state, kind, a, b, broken, internal, ax, ay, bx, by, fx, fy,
+                       torque);
   PYBIND11_NUMPY_DTYPE(m2_event, type, reason, a, b, collection);
   PYBIND11_NUMPY_DTYPE(m2_decision, a, b, value, threshold, count, needed, before, stage, criterion,
                        equation, verdict);

@@ -202,13 +202,10 @@ std::uint32_t addJoint(Setup& setup, Scratch& scratch, const JointDesc& desc) {
 void removeJoint(Setup& setup, Scratch& scratch, std::uint32_t joint) {
   State& state = setup.state;
   if (state.joints[joint].broken) return;
-  const BodyId a = state.joints[joint].a;
-  const bool other = !state.joints[joint].to_world;
-  const BodyId b = state.joints[joint].b;
-  for (const BodyId end : {a, b}) {
-    if (end == b && !other) continue;
-    if (state[end].alive) release(setup, scratch, end);
-  }
+  const BodyId a = state.joints[joint].a, b = state.joints[joint].b;
+  const bool to_world = state.joints[joint].to_world;
+  if (state[a].alive) release(setup, scratch, a);
+  if (!to_world && state[b].alive) release(setup, scratch, b);
   breakJoint(state, scratch, state.joints[joint]);
 }
 

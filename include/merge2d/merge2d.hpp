@@ -104,38 +104,60 @@ inline std::vector<const char*> pointers(const std::vector<std::string>& texts) 
 /** The version of the library that runs. */
 inline std::string version() { return m2_version(); }
 
+/** See m2_vec. */
 using Vec2 = m2_vec;
+/** See m2_body. */
 using Body = m2_body;
+/** See m2_spring. */
 using Spring = m2_spring;
+/** See m2_joint. */
 using Joint = m2_joint;
+/** See m2_collection_id. */
 using CollectionId = m2_collection_id;
+/** See m2_contact. */
 using Contact = m2_contact;
+/** See m2_event. */
 using Event = m2_event;
+/** See m2_decision. */
 using Decision = m2_decision;
+/** See m2_counts. */
 using Counts = m2_counts;
+/** See m2_joint_state. */
+using JointState = m2_joint_state;
+/** See m2_sums. */
 using Sums = m2_sums;
+/** See m2_ray_hit. */
 using RayHit = m2_ray_hit;
+/** See m2_body_info. */
 using BodyInfo = m2_body_info;
+/** See m2_piece. */
 using Piece = m2_piece;
 using SpringDef = m2_spring_def;    ///< start from springDef()
 using JointDef = m2_joint_def;      ///< start from jointDef()
 using PictureDef = m2_picture_def;  ///< start from pictureDef()
 
+/** See m2_spring_def_default(). */
 inline SpringDef springDef() { return m2_spring_def_default(); }
+/** See m2_joint_def_default(). */
 inline JointDef jointDef() { return m2_joint_def_default(); }
+/** See m2_picture_def_default(). */
 inline PictureDef pictureDef() { return m2_picture_def_default(); }
 
+/** See m2_mode. */
 enum class Mode { Reference, Sleep, Merge, MergeSleep };
+/** See m2_motion. */
 enum class Motion { Dynamic, Pinned, Scripted };
 
 /** A piece of a body, which owns its vertices. */
 class Shape {
  public:
+  /** See m2_circle(). */
   static Shape circle(double radius, Vec2 center = {0.0, 0.0}) {
     Shape shape(m2_circle(radius));
     shape.shape_.center = center;
     return shape;
   }
+  /** See m2_box(). */
   static Shape box(double width, double height, Vec2 center = {0.0, 0.0}, double angle = 0.0) {
     Shape shape(m2_box(width, height));
     shape.shape_.center = center;
@@ -165,21 +187,21 @@ class Shape {
 
 /** What a body is made from; units as in m2_body_def. */
 struct BodyDef {
-  std::string name{};
-  Motion motion = Motion::Dynamic;
-  Vec2 position{0.0, 0.0};
-  double angle = 0.0;
-  Vec2 velocity{0.0, 0.0};
-  double spin = 0.0;
-  std::vector<Shape> shapes{};
-  double mass = 0.0;  ///< 0: area times density
-  double density = 1.0;
-  double friction = 0.6;
-  double restitution = 0.0;
-  double rolling = 0.0;
-  double surface_velocity = 0.0;
-  double pinned_until = 0.0;
-  m2_script script = m2_body_def_default().script;
+  std::string name{};                               ///< see m2_body_def
+  Motion motion = Motion::Dynamic;                  ///< see m2_body_def
+  Vec2 position{0.0, 0.0};                          ///< see m2_body_def
+  double angle = 0.0;                               ///< see m2_body_def
+  Vec2 velocity{0.0, 0.0};                          ///< see m2_body_def
+  double spin = 0.0;                                ///< see m2_body_def
+  std::vector<Shape> shapes{};                      ///< see m2_body_def
+  double mass = 0.0;                                ///< 0: area times density
+  double density = 1.0;                             ///< see m2_body_def
+  double friction = 0.6;                            ///< see m2_body_def
+  double restitution = 0.0;                         ///< see m2_body_def
+  double rolling = 0.0;                             ///< see m2_body_def
+  double surface_velocity = 0.0;                    ///< see m2_body_def
+  double pinned_until = 0.0;                        ///< see m2_body_def
+  m2_script script = m2_body_def_default().script;  ///< see m2_body_def
 };
 
 namespace detail {
@@ -217,11 +239,15 @@ class Scene {
   Scene() : scene_(m2_scene_new()) {
     if (get() == nullptr) throw std::bad_alloc();
   }
+  /** See m2_scene_copy(). */
   Scene(const Scene& other) : scene_(m2_scene_copy(other.get())) {
     if (get() == nullptr) throw std::bad_alloc();
   }
+  /** A moved-from scene may only be assigned or destroyed. */
   Scene(Scene&&) noexcept = default;
+  /** See m2_scene_copy(). */
   Scene& operator=(const Scene& other) { return *this = Scene(other); }
+  /** What this one held is freed with the other. */
   Scene& operator=(Scene&&) noexcept = default;
   ~Scene() = default;
 
@@ -246,41 +272,62 @@ class Scene {
   void set(const std::string& key, const std::string& value) {
     detail::check(m2_scene_set(get(), key.c_str(), value.c_str()));
   }
+  /** See m2_scene_set(). */
   void set(const std::string& key, double value) { set(key, detail::shortest(value)); }
+  /** See m2_scene_get(). */
   std::string get(const std::string& key) const {
     char* text = nullptr;
     detail::check(m2_scene_get(get(), key.c_str(), &text));
     return detail::taken(text);
   }
 
+  /** See m2_scene_add_body(). */
   Body add(const BodyDef& def) {
     const detail::PlainBodyDef plain(def);
     Body body = 0;
     detail::check(m2_scene_add_body(get(), &plain.plain, &body));
     return body;
   }
+  /** See m2_scene_add_spring(). */
   Spring add(const SpringDef& def) {
     Spring spring = 0;
     detail::check(m2_scene_add_spring(get(), &def, &spring));
     return spring;
   }
+  /** See m2_scene_add_joint(). */
   Joint add(const JointDef& def) {
     Joint joint = 0;
     detail::check(m2_scene_add_joint(get(), &def, &joint));
     return joint;
   }
+  /** See m2_scene_add_impulse(). */
   void addImpulse(Body body, Vec2 at, Vec2 impulse, double time) {
     detail::check(m2_scene_add_impulse(get(), body, at, impulse, time));
   }
+  /** See m2_scene_add_force(). */
   void addForce(Body body, Vec2 at, Vec2 force, double from = 0.0,
                 double until = detail::kForever) {
     detail::check(m2_scene_add_force(get(), body, at, force, from, until));
   }
+  /** See m2_scene_add_magnet(). */
   void addMagnet(Body body, double from = 0.0, double until = detail::kForever) {
     detail::check(m2_scene_add_magnet(get(), body, from, until));
   }
 
+  /** See m2_scene_add_emitter(). */
+  void addEmitter(const BodyDef& def, double every, std::uint32_t count, double start = 0.0,
+                  Vec2 spread = {0.0, 0.0}, std::uint64_t seed = 1) {
+    const detail::PlainBodyDef plain(def);
+    detail::check(m2_scene_add_emitter(get(), &plain.plain, every, start, count, spread, seed));
+  }
+  /** See m2_scene_set_camera(). */
+  void setCamera(Vec2 center, double height) {
+    detail::check(m2_scene_set_camera(get(), center, height));
+  }
+
+  /** See m2_scene_body_count(). */
   std::size_t bodyCount() const { return m2_scene_body_count(get()); }
+  /** See m2_scene_to_toml(). */
   std::string toToml() const {
     char* text = nullptr;
     detail::check(m2_scene_to_toml(get(), &text));
@@ -303,27 +350,38 @@ class Scene {
 
 /** A collection, and its bodies in ascending order. */
 struct Collection : m2_collection {
+  /** Valid as long as the arrays of its world. */
   std::span<const Body> bodies;
 };
 
 /** A scene that moves on by time steps. */
 class World {
  public:
+  /** See m2_world_new(). */
   explicit World(const Scene& scene, Mode mode = Mode::MergeSleep) : world_(made(scene, mode)) {}
 
+  /** See m2_world_step(). */
   void step(std::uint64_t count = 1) { detail::check(m2_world_step(get(), count)); }
+  /** See m2_world_steps(). */
   std::int64_t steps() const { return m2_world_steps(get()); }
   double time() const { return m2_world_time(get()); }           ///< [s]
   double timeStep() const { return m2_world_time_step(get()); }  ///< [s]
 
+  /** See m2_world_mode(). */
   Mode mode() const { return static_cast<Mode>(m2_world_mode(get())); }
+  /** See m2_world_set_mode(). */
   void setMode(Mode mode) { detail::check(m2_world_set_mode(get(), static_cast<m2_mode>(mode))); }
+  /** See m2_world_gravity(). */
   Vec2 gravity() const { return m2_world_gravity(get()); }
+  /** See m2_world_set_gravity(). */
   void setGravity(Vec2 gravity) { detail::check(m2_world_set_gravity(get(), gravity)); }
+  /** See m2_world_set(). */
   void set(const std::string& key, const std::string& value) {
     detail::check(m2_world_set(get(), key.c_str(), value.c_str()));
   }
+  /** See m2_world_set(). */
   void set(const std::string& key, double value) { set(key, detail::shortest(value)); }
+  /** See m2_world_get(). */
   std::string get(const std::string& key) const {
     char* text = nullptr;
     detail::check(m2_world_get(get(), key.c_str(), &text));
@@ -337,21 +395,26 @@ class World {
     detail::check(m2_world_save(get(), &bytes, &size));
     return {static_cast<const char*>(bytes), size};
   }
+  /** See m2_world_restore(). */
   void restore(std::string_view bytes, bool other_settings = false) {
     detail::check(m2_world_restore(get(), bytes.data(), bytes.size(), other_settings));
   }
 
+  /** See m2_world_body_count(). */
   std::size_t bodyCount() const { return m2_world_body_count(get()); }
+  /** See m2_world_body_info(). */
   BodyInfo info(Body body) const {
     BodyInfo info{};
     detail::check(m2_world_body_info(get(), body, &info));
     return info;
   }
+  /** See m2_world_find_body(). */
   Body find(const std::string& name) const {
     Body body = M2_NO_BODY;
     detail::check(m2_world_find_body(get(), name.c_str(), &body));
     return body;
   }
+  /** See m2_world_body_pieces(). */
   std::vector<Piece> pieces(Body body) const {
     std::size_t count = 0;
     detail::check(m2_world_body_pieces(get(), body, nullptr, 0, &count));
@@ -360,25 +423,32 @@ class World {
     return out;
   }
 
+  /** See m2_world_add_body(). */
   Body add(const BodyDef& def) {
     const detail::PlainBodyDef plain(def);
     Body body = 0;
     detail::check(m2_world_add_body(get(), &plain.plain, &body));
     return body;
   }
+  /** See m2_world_add_spring(). */
   Spring add(const SpringDef& def) {
     Spring spring = 0;
     detail::check(m2_world_add_spring(get(), &def, &spring));
     return spring;
   }
+  /** See m2_world_add_joint(). */
   Joint add(const JointDef& def) {
     Joint joint = 0;
     detail::check(m2_world_add_joint(get(), &def, &joint));
     return joint;
   }
+  /** See m2_world_remove_body(). */
   void removeBody(Body body) { detail::check(m2_world_remove_body(get(), body)); }
+  /** See m2_world_remove_spring(). */
   void removeSpring(Spring spring) { detail::check(m2_world_remove_spring(get(), spring)); }
+  /** See m2_world_remove_joint(). */
   void removeJoint(Joint joint) { detail::check(m2_world_remove_joint(get(), joint)); }
+  /** See m2_world_move_spring(). */
   void moveSpring(Spring spring, Vec2 to) {
     detail::check(m2_world_move_spring(get(), spring, to));
   }
@@ -389,24 +459,33 @@ class World {
     return spring;
   }
 
+  /** See m2_world_apply_impulse(). */
   void applyImpulse(Body body, Vec2 at, Vec2 impulse) {
     detail::check(m2_world_apply_impulse(get(), body, at, impulse));
   }
+  /** See m2_world_apply_force(). */
   void applyForce(Body body, Vec2 at, Vec2 force) {
     detail::check(m2_world_apply_force(get(), body, at, force));
   }
+  /** See m2_world_set_pose(). */
   void setPose(Body body, Vec2 center, double angle) {
     detail::check(m2_world_set_pose(get(), body, center, angle));
   }
+  /** See m2_world_set_velocity(). */
   void setVelocity(Body body, Vec2 v, double omega) {
     detail::check(m2_world_set_velocity(get(), body, v, omega));
   }
+  /** See m2_world_set_friction(). */
   void setFriction(Body body, double friction) {
     detail::check(m2_world_set_friction(get(), body, friction));
   }
+  /** See m2_world_pin(). */
   void pin(Body body) { detail::check(m2_world_pin(get(), body)); }
+  /** See m2_world_unpin(). */
   void unpin(Body body) { detail::check(m2_world_unpin(get(), body)); }
+  /** See m2_world_release(). */
   void release(Body body) { detail::check(m2_world_release(get(), body)); }
+  /** See m2_world_wake(). */
   void wake(Body body) { detail::check(m2_world_wake(get(), body)); }
 
   /** Rows of three: x, y [m], angle [rad]. Kept up to date from the first call on. */
@@ -418,16 +497,23 @@ class World {
     return rows(m2_world_watch_collections(get()), 1);
   }
 
+  /** See m2_world_contacts(). */
   std::span<const Contact> contacts() { return list<Contact>(m2_world_contacts); }
+  /** See m2_world_joints(). */
+  std::span<const JointState> joints() { return list<JointState>(m2_world_joints); }
+  /** See m2_world_events(). */
   std::span<const Event> events() { return list<Event>(m2_world_events); }
   /** For these and why(), the steps have to note them. */
   void noteDecisions(bool on = true) { detail::check(m2_world_note_decisions(get(), on)); }
+  /** See m2_world_decisions(). */
   std::span<const Decision> decisions() { return list<Decision>(m2_world_decisions); }
+  /** See m2_world_why(). */
   std::string why(Body a, Body b) {
     char* text = nullptr;
     detail::check(m2_world_why(get(), a, b, &text));
     return detail::taken(text);
   }
+  /** See m2_world_collections(). */
   std::vector<Collection> collections() {
     const m2_collection* first = nullptr;
     const Body* members = nullptr;
@@ -439,27 +525,32 @@ class World {
     }
     return out;
   }
+  /** See m2_world_counts(). */
   Counts counts() const {
     Counts counts{};
     detail::check(m2_world_counts(get(), &counts));
     return counts;
   }
+  /** See m2_world_sums(). */
   Sums sums() {
     Sums sums{};
     detail::check(m2_world_sums(get(), &sums));
     return sums;
   }
 
+  /** See m2_world_query_point(). */
   std::vector<Body> at(Vec2 point) {
     return found([&](Body* bodies, std::size_t capacity, std::size_t* count) {
       return m2_world_query_point(get(), point, bodies, capacity, count);
     });
   }
+  /** See m2_world_query_box(). */
   std::vector<Body> inBox(Vec2 lower, Vec2 upper) {
     return found([&](Body* bodies, std::size_t capacity, std::size_t* count) {
       return m2_world_query_box(get(), lower, upper, bodies, capacity, count);
     });
   }
+  /** See m2_world_query_shape(). */
   std::vector<Body> touching(const Shape& shape, Vec2 position, double angle = 0.0) {
     const m2_shape plain = shape.get();
     return found([&](Body* bodies, std::size_t capacity, std::size_t* count) {
@@ -473,6 +564,7 @@ class World {
     if (hit.body == M2_NO_BODY) return std::nullopt;
     return hit;
   }
+  /** See m2_world_collection_of(). */
   CollectionId collectionOf(Body body) const {
     CollectionId id = M2_NO_COLLECTION;
     detail::check(m2_world_collection_of(get(), body, &id));
@@ -486,6 +578,7 @@ class World {
     detail::check(m2_world_draw(get(), &def, rgba.data(), rgba.size()));
     return rgba;
   }
+  /** See m2_world_write_png(). */
   void writePng(const std::string& path, const PictureDef& def = pictureDef()) {
     detail::check(m2_world_write_png(get(), &def, path.c_str()));
   }

@@ -17,12 +17,12 @@ from ._merge2d import Error, InputError, IoError, SimulationError, Shape, versio
 from .comparison import Comparison, compare
 from .pages import Page, lesson
 from .scenes import Scene, box, circle, polygon, scenes
-from .worlds import CONTACT_STATES, EVENT_TYPES, MODES, REASONS, World
+from .worlds import CONTACT_STATES, EVENT_TYPES, JOINT_KINDS, MODES, REASONS, World
 
 __version__ = _version()
 
 __all__ = [
-    "CONTACT_STATES", "Comparison", "EVENT_TYPES", "Error", "InputError", "IoError", "MODES",
-    "Page", "REASONS", "Scene", "Shape", "SimulationError", "World", "box", "circle", "compare",
+    "CONTACT_STATES", "Comparison", "EVENT_TYPES", "Error", "InputError", "IoError",
+    "JOINT_KINDS", "MODES", "Page", "REASONS", "Scene", "Shape", "SimulationError", "World", "box", "circle", "compare",
     "lesson", "polygon", "scenes",
 ]

@@ -215,6 +215,20 @@ class Scene(_merge2d.Scene):
         """Makes a body a magnet from `start` until `until` [s]."""
         super().add_magnet(body, start, until)
 
+    def add_emitter(self, name="", shapes=(), at=(0.0, 0.0), *, every, count, start=0.0,
+                    spread=(0.0, 0.0), seed=1, **body):
+        """Adds `count` copies of a body while the world runs, one `every` so many seconds from
+        `start` on, each off `at` by at most `spread` [m]. `body`: what else add_body takes. They are
+        numbered behind all other bodies, and named "name[k]"."""
+        given = {"angle": 0.0, "motion": "dynamic", "velocity": (0.0, 0.0), "spin": 0.0,
+                 "mass": None, "density": 1.0, "friction": 0.6, "restitution": 0.0,
+                 "rolling": 0.0, "surface_velocity": 0.0, "pinned_until": 0.0, "script": None}
+        unknown = set(body) - set(given)
+        if unknown:
+            raise TypeError(f"add_emitter has no argument {sorted(unknown)}")
+        super().add_emitter(body_args(name, shapes, at, **{**given, **body}), every, count, start,
+                            spread, seed)
+
     def copy(self):
         """A scene of its own."""
         other = Scene.__new__(Scene)

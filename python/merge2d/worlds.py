@@ -13,6 +13,7 @@ from .scenes import Scene, body_args, joint_args, key_of, number_of, text_of
 
 MODES = ("reference", "sleep", "merge", "merge+sleep")
 CONTACT_STATES = ("broken", "sticking", "sliding")
+JOINT_KINDS = ("revolute", "weld", "distance", "prismatic")
 EVENT_TYPES = ("merge", "unmerge", "sleep", "wake", "impact", "emit", "break")
 REASONS = ("none", "broken", "sliding", "relative-motion", "cycle", "user")
 
@@ -198,6 +199,12 @@ class World(_merge2d.World):
         True
         """
         return super().contacts()
+
+    @property
+    def joints(self):
+        """By number: kind (of JOINT_KINDS), a, b (4294967295: the world), broken, internal, the ends
+        ax, ay, bx, by [m], fx, fy [N] and torque [N m] on b."""
+        return super().joints()
 
     @property
     def events(self):

@@ -325,6 +325,41 @@ TEST(PublicScene, VersionsOfHeaderAndLibraryAgree) {
                                     std::to_string(M2_VERSION_PATCH));
 }
 
+TEST(PublicScene, EmitsBodiesWhileItRuns) {
+  Scene scene;
+  scene.addEmitter({.name = "drop", .position = {0.0, 5.0}, .shapes = {Shape::circle(0.1)}}, 0.1,
+                   3);
+  World world(scene);
+  ASSERT_EQ(world.bodyCount(), 3U);
+  world.step(15);
+  EXPECT_TRUE(world.info(1).present);
+  EXPECT_FALSE(world.info(2).present);
+  EXPECT_STREQ(world.info(2).name, "drop[2]");
+  scene.addEmitter({.shapes = {Shape::circle(0.1)}}, -1.0, 3);
+  EXPECT_THAT(refusal([&] { World refused(scene); }), HasSubstr("every"));
+}
+
+TEST(PublicWorld, TellsWhatJointsBear) {
+  Scene scene;
+  const Body bob =
+      scene.add({.position = {1.0, 2.0}, .shapes = {Shape::box(1.0, 1.0)}, .mass = 3.0});
+  auto joint = merge2d::jointDef();
+  joint.a = bob;
+  joint.at = {1.0, 2.5};
+  scene.add(joint);
+  World world(scene);
+  world.step(100);
+  ASSERT_EQ(world.joints().size(), 1U);
+  const merge2d::JointState state = world.joints()[0];
+  EXPECT_EQ(state.kind, M2_REVOLUTE);
+  EXPECT_EQ(state.b, M2_NO_BODY);
+  EXPECT_NEAR(state.ay, 2.5, 1e-3);
+  EXPECT_NEAR(std::hypot(state.fx, state.fy), 3.0 * 9.81, 0.1);
+  world.removeJoint(0);
+  world.step(10);
+  EXPECT_LT(world.poses()[1], 1.99) << "it falls";
+}
+
 TEST(PublicPictures, DrawTheWorld) {
   World world(towerOf(3));
   auto def = merge2d::pictureDef();

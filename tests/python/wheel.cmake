@@ -1,4 +1,5 @@
-# `pip wheel .` makes a wheel, which runs the tests in an environment of its own.
+# `pip wheel .` makes a wheel, from what this build tree has compiled already, and the tests pass
+# with it in an environment of its own.
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
@@ -7,12 +8,13 @@ function(run)
                   COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-execute_process(COMMAND ${PYTHON} -c "import pip, setuptools, venv, wheel" RESULT_VARIABLE status
+execute_process(COMMAND ${PYTHON} -c "import setuptools, wheel, venv, pip" RESULT_VARIABLE status
                 ERROR_QUIET)
 if(NOT status EQUAL 0)
   message(STATUS "skipped: pip, setuptools, venv or wheel is missing (scripts/install-packages package)")
   return()
 endif()
+set(ENV{MERGE2D_BUILD} ${BUILD})
 run(${PYTHON} -m pip wheel ${SOURCE} --no-deps --no-build-isolation --no-index -w ${WORK})
 file(GLOB wheel ${WORK}/merge2d-*.whl)
 run(${PYTHON} -m venv --system-site-packages ${WORK}/venv)

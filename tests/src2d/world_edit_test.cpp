@@ -213,6 +213,18 @@ TEST(WorldEdit, AJointHoldsBodiesAsTheyStandWhenItIsAdded) {
   EXPECT_LT(now(world, BodyId{2}).x.y(), 3.9);
 }
 
+TEST(WorldEdit, TheFirstBodyWakesWhenItsJointToTheWorldIsRemoved) {
+  Scene scene;
+  add(scene, box(1, 1, {0, 2}));
+  scene.joints.push_back(jointOf(JointKind::Revolute, 0, std::nullopt, {0, 2.5}));
+  World world(scene);
+  runSteps(world, 100);
+  ASSERT_TRUE(now(world, BodyId{0}).asleep);
+  world.removeJoint(0);
+  runSteps(world, 20);
+  EXPECT_LT(now(world, BodyId{0}).x.y(), 1.9);
+}
+
 TEST(WorldEdit, ArraysSayWhatASnapshotSays) {
   World world(mixed());
   runSteps(world, 60);
