@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cstdlib>
 
 #include "src2d/scene/load.h"
@@ -30,6 +31,38 @@ TEST(Pages, EveryLinkLeadsSomewhere) {
       EXPECT_TRUE(fs::exists(page.parent_path() / link)) << nameOf(page) << ": " << link;
     }
   }
+}
+
+/// The anchor that GitHub gives a heading: small letters, no punctuation, a hyphen for each space.
+std::string anchorOf(const std::string& heading) {
+  std::string anchor;
+  for (const char c : heading) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == ' ') {
+      anchor += '-';
+    } else if (std::isalnum(byte) || c == '-' || c == '_' || byte >= 0x80) {
+      anchor += static_cast<char>(std::tolower(byte));
+    }
+  }
+  return anchor;
+}
+
+TEST(Pages, EveryAnchorOfALinkIsAHeading) {
+  int anchors = 0;
+  for (const fs::path& page : pages()) {
+    for (const std::string& link : matches(pageOf(read(page)).prose, R"(\]\(([^):]*#[^)]+)\))")) {
+      const std::string file = link.substr(0, link.find('#'));
+      const fs::path target = file.empty() ? page : page.parent_path() / file;
+      std::set<std::string> headings;
+      for (const std::string& heading : matches(pageOf(read(target)).prose, R"(#+ ([^\n]+)\n)")) {
+        headings.insert(anchorOf(heading));
+      }
+      EXPECT_TRUE(headings.contains(link.substr(link.find('#') + 1)))
+          << nameOf(page) << ": " << link;
+      ++anchors;
+    }
+  }
+  EXPECT_GE(anchors, 3);
 }
 
 TEST(Pages, EveryTestExists) {
