@@ -261,7 +261,7 @@ class Trial {
   std::vector<Tried> tried_;
   std::vector<std::uint32_t> of_slot_;      ///< per collection slot: in tried_
   std::vector<std::uint32_t> place_;        ///< per body: in touched_
-  std::vector<SweepItem> items_;            ///< at what could move
+  std::vector<SweepItem> items_;            ///< at bodies that could move
   std::vector<Impulses> impulses_;          ///< theirs before the trial
   std::vector<std::uint32_t> touched_;      ///< all bodies at the items
   std::vector<SolverVelocity> velocities_;  ///< theirs before the trial
