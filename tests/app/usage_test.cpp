@@ -202,5 +202,15 @@ TEST_F(Usage, ErrorsHaveNoColourWhereStderrIsNoTerminal) {
   EXPECT_THAT(run({"frobnicate"}).err, Not(HasSubstr("\033")));
 }
 
+TEST_F(Usage, TheProgramNamesNoFolderOfItsBuild) {
+  const std::string program = contentOf(buildDir() / "merge2d");
+  if (program.find(".debug_info") != std::string::npos)
+    GTEST_SKIP() << "debuggers need its folders";
+  const std::string build = buildDir().string(), sources = buildDir().parent_path().string();
+  for (const std::string& folder : {build + "/", sources + "/src2d", sources + "/render"}) {
+    EXPECT_EQ(program.find(folder), std::string::npos) << folder;
+  }
+}
+
 }  // namespace
 }  // namespace merge2d
