@@ -278,8 +278,7 @@ void study(const StudyOptions& options) {
   const Console console(options);
   catchInterrupts();
   Runs runs(options);
-  prepareStudyFolder(runs.folder(), options.force);
-  describeStudy(runs.folder(), runs.study());
+  prepareStudyFolder(runs.folder(), runs.study(), options.force);
   runs.readRows();
   if (options.only) return runOnly(options, runs, console);
   const FolderLock lock(runs.folder());

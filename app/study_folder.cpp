@@ -45,6 +45,30 @@ bool isNumeric(const StudyAxis& axis) {
   return true;
 }
 
+/// Writes study.json.
+void describeStudy(const fs::path& folder, const Study& study) {
+  Json json;
+  json["format"] = kStudyFormat;
+  json["version"] = 1;
+  json["title"] = study.title;
+  json["program"] = "merge2d " MERGE2D_VERSION;
+  json["git"] = *kGitDescribe == '\0' ? Json() : Json(kGitDescribe);
+  json["scenes"] = study.scenes;
+  json["modes"] = Json::array();
+  for (const Mode mode : study.modes) json["modes"].push_back(nameOf(mode));
+  json["axes"] = Json::array();
+  for (const StudyAxis& axis : study.axes) {
+    Json one;
+    one["key"] = axis.key;
+    one["numeric"] = isNumeric(axis);
+    one["logarithmic"] = axis.range && axis.range->logarithmic;
+    one["drawn"] = study.design != StudyDesign::Grid && axis.range.has_value();
+    json["axes"].push_back(one);
+  }
+  writeFile((folder / "study.json").string(),
+            json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.everything = true});
+}
+
 }  // namespace
 
 fs::path endsFolder(const fs::path& folder) { return folder / "ends"; }
@@ -76,41 +100,20 @@ std::string RunKeys::of(const StudyRun& run) const {
   return fmt::format("{:016x}", digestOf(text));
 }
 
-void prepareStudyFolder(const fs::path& folder, bool force) {
+void prepareStudyFolder(const fs::path& folder, const Study& study, bool force) {
   makeFolder(folder);
   if (!force && !isStudyFolder(folder)) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
       if (entry.path().filename().string().starts_with(".merge2d")) continue;
+      if (isStudyFolder(folder)) break;  // since a moment ago
       throw UsageError(
           fmt::format("{} has files in it and no study; choose another folder, or say --force",
                       folder.string()));
     }
   }
+  describeStudy(folder, study);  // before the rest: from here on the folder is ours
   makeFolder(folder / "rows");
   makeFolder(endsFolder(folder));
-}
-
-void describeStudy(const fs::path& folder, const Study& study) {
-  Json json;
-  json["format"] = kStudyFormat;
-  json["version"] = 1;
-  json["title"] = study.title;
-  json["program"] = "merge2d " MERGE2D_VERSION;
-  json["git"] = *kGitDescribe == '\0' ? Json() : Json(kGitDescribe);
-  json["scenes"] = study.scenes;
-  json["modes"] = Json::array();
-  for (const Mode mode : study.modes) json["modes"].push_back(nameOf(mode));
-  json["axes"] = Json::array();
-  for (const StudyAxis& axis : study.axes) {
-    Json one;
-    one["key"] = axis.key;
-    one["numeric"] = isNumeric(axis);
-    one["logarithmic"] = axis.range && axis.range->logarithmic;
-    one["drawn"] = study.design != StudyDesign::Grid && axis.range.has_value();
-    json["axes"].push_back(one);
-  }
-  writeFile((folder / "study.json").string(),
-            json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.everything = true});
 }
 
 GrowingTable::GrowingTable(fs::path file, const Study& study, const std::vector<StudyRun>& runs,

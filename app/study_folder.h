@@ -30,12 +30,9 @@ class RunKeys {
   std::map<std::string, std::string> digests_;  ///< of the scenes, by their names
 };
 
-/// Makes the folder and those in it. Throws UsageError where there are files in it and no study of
-/// ours, unless `force`; IoError.
-void prepareStudyFolder(const std::filesystem::path& folder, bool force);
-
-/// Writes study.json.
-void describeStudy(const std::filesystem::path& folder, const Study& study);
+/// Makes the folder and those in it, and writes study.json. Several processes may do so at once.
+/// Throws UsageError where there are files in it and no study of ours, unless `force`; IoError.
+void prepareStudyFolder(const std::filesystem::path& folder, const Study& study, bool force);
 
 /// study.csv while runs end: first the rows that are there, then one after another. A reader, or
 /// who comes after a kill, finds whole lines.

@@ -102,6 +102,22 @@ TEST_F(StudyFault, TwoAtOnceInOneFolderAreRefusedButPartsAreNot) {
   wait(first);
 }
 
+TEST_F(StudyFault, PartsMayBeginAtOnceInAFolderThatIsNotThereYet) {
+  for (int trial = 0; trial < 10; ++trial) {
+    std::vector<pid_t> parts;
+    for (int i = 1; i <= 6; ++i) {
+      parts.push_back(
+          start({"study", "study.toml", "-o", "out", "--only", std::to_string(i), "--quiet"}));
+    }
+    for (const pid_t part : parts) {
+      const Outcome outcome = wait(part);
+      EXPECT_EQ(outcome.code, kFine) << outcome.err;
+    }
+    EXPECT_EQ(keptRows().size(), 6U);
+    fs::remove_all(folder() / "out");
+  }
+}
+
 TEST_F(StudyFault, AFullDiskIsAnErrorAndLosesNothing) {
   run({"study", "study.toml", "-o", "out", "--only", "1-5", "--quiet"});
   const auto before = keptRows();
