@@ -89,6 +89,17 @@ class MathReader {
   std::string atom() {
     skipSpaces();
     if (text_.empty()) return "<mrow></mrow>";
+    if (depth_ >= kDeepest) {
+      text_.remove_prefix(lengthOfCharacter());
+      return "<mrow></mrow>";
+    }
+    ++depth_;
+    std::string out = oneAtom();
+    --depth_;
+    return out;
+  }
+
+  std::string oneAtom() {
     const char first = text_.front();
     if (first == '{') return group();
     if (first == '\\') return command();
@@ -103,7 +114,7 @@ class MathReader {
 
   std::string group() {
     text_.remove_prefix(1);
-    return ++depth_ > 64 ? std::string() : row();
+    return row();
   }
 
   std::string number() {
@@ -162,6 +173,8 @@ class MathReader {
     }
     return length;
   }
+
+  static constexpr int kDeepest = 64;  ///< of groups and commands in each other
 
   std::string_view text_;
   int depth_ = 0;

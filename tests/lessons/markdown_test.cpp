@@ -26,6 +26,15 @@ TEST(Markdown, AFormulaThatIsNotClosedHasAnEnd) {
   EXPECT_THAT(mathMl("}}x_"), HasSubstr("<mi>x</mi>"));
   EXPECT_THAT(mathMl("<script>"), Not(HasSubstr("<script>")));
   EXPECT_THAT(mathMl(std::string(10000, '{')), HasSubstr("</math>"));
+  std::string nested;
+  for (int i = 0; i < 10000; ++i) nested += "\\frac";
+  EXPECT_THAT(mathMl(nested), HasSubstr("</math>"));
+}
+
+TEST(Markdown, ALongFormulaIsReadToItsEnd) {
+  std::string sum;
+  for (int i = 0; i < 200; ++i) sum += "x_{i} + ";
+  EXPECT_THAT(mathMl(sum + "z"), HasSubstr("<mi>z</mi>"));
 }
 
 TEST(Markdown, DollarsOfMoneyAndOfCodeAreNoFormulas) {
