@@ -44,6 +44,87 @@ struct Encounter {
   bool hit = false;
 };
 
+/// Two flights at one time of the step, and bounds of how they go on.
+class Approaching {
+ public:
+  Approaching(const Flights& f, double t, double left, const Vec2& n)
+      : f_(f), n_(n), left_(left), way_(f.b.centerAt(t) - f.a.centerAt(t)) {
+    list(f.a, f.shape_a, t, a_);
+    list(f.b, f.shape_b, t, b_);
+  }
+
+  /// A time from now on in which the two do not meet. The plane with the normal `n` that bounds the
+  /// one, seen from there, stands still: the other has to come through it with a vertex.
+  double clear() const {
+    const double front_a = highest(a_, 1.0) + radiusOf(f_.shape_a);
+    const double front_b = highest(b_, -1.0) + radiusOf(f_.shape_b);
+    const double of_a = clearOf(a_, f_.shape_a, 1.0, front_b, f_.a, f_.b);
+    const double of_b = clearOf(b_, f_.shape_b, -1.0, front_a, f_.b, f_.a);
+    return std::max(of_a, of_b);
+  }
+
+ private:
+  struct Corners {
+    std::array<Vec2, Polygon::kMaxVertices> arms;  ///< from the centre of mass
+    std::size_t count = 0;
+  };
+
+  static void list(const Flight& flight, const Collider& shape, double t, Corners& corners) {
+    const Pose pose = flight.at(t);
+    const Vec2 center = flight.centerAt(t);
+    corners.count = shape.isCircle() ? 1 : static_cast<std::size_t>(shape.count());
+    for (std::size_t i = 0; i < corners.count; ++i) {
+      const Vec2& p = shape.isCircle() ? shape.origin() : shape.vertex(static_cast<int>(i));
+      corners.arms[i] = pose.exactly(p) - center;
+    }
+  }
+  static double radiusOf(const Collider& shape) { return shape.isCircle() ? shape.radius() : 0.0; }
+
+  /// Of corners along ±n, from their own centre of mass.
+  double highest(const Corners& corners, double sign) const {
+    double most = -1e300;
+    for (std::size_t i = 0; i < corners.count; ++i) {
+      most = std::max(most, sign * n_.dot(corners.arms[i]));
+    }
+    return most;
+  }
+
+  /// Until a corner can have come to the plane, which is `front` before the other's centre of mass.
+  double clearOf(const Corners& corners, const Collider& shape, double sign, double front,
+                 const Flight& own, const Flight& other) const {
+    const Vec2 to_other = sign * way_, v = own.motion.v - other.motion.v;
+    const Vec2 n = sign * n_;
+    const double plane = n.dot(to_other) - front - radiusOf(shape);
+    double least = 1e300;
+    for (std::size_t i = 0; i < corners.count; ++i) {
+      const Vec2& arm = corners.arms[i];
+      const double way = plane - n.dot(arm);
+      const double speed = n.dot(v + cross(own.motion.omega, arm) -
+                                 cross(other.motion.omega, Vec2(arm - to_other))) +
+                           0.5 * left_ * bending(arm, to_other, v, own, other);
+      if (speed > 0.0) least = std::min(least, way / speed);
+    }
+    return least;
+  }
+
+  /// The acceleration of a corner seen from the other, which turns, at most: its own, Coriolis' and
+  /// the centrifugal one.
+  double bending(const Vec2& arm, const Vec2& to_other, const Vec2& v, const Flight& own,
+                 const Flight& other) const {
+    const double w = std::abs(own.motion.omega), turn = std::abs(other.motion.omega);
+    if (w == 0.0 && turn == 0.0) return 0.0;
+    const double r = arm.norm(), speed = v.norm();
+    const double far = to_other.norm() + left_ * speed + r;
+    return w * w * r + 2.0 * turn * (speed + w * r + turn * far) + turn * turn * far;
+  }
+
+  const Flights& f_;
+  Vec2 n_;       ///< from a to b
+  double left_;  ///< of the step [s]
+  Vec2 way_;     ///< between the centres of mass
+  Corners a_, b_;
+};
+
 /// From the distance and the normal of now on.
 Encounter advance(const Flights& f, double h, double touching, Nearest now) {
   constexpr int kRounds = 40;
@@ -64,9 +145,12 @@ Encounter advance(const Flights& f, double h, double touching, Nearest now) {
       nearest_yet.time = t;
     }
     if (t >= h) return nearest_yet;
-    const double closing = turning_both - (pose_a.rotation * now.normal).dot(v);
+    const Vec2 n = pose_a.rotation * now.normal;
+    const double closing = turning_both - n.dot(v);
     if (closing <= 0.0) return nearest_yet;
-    t = std::min(h, t + (now.distance - 0.5 * touching) / closing);
+    const double clear = Approaching(f, t, h - t, n).clear();
+    t = std::min(h, t + std::max((now.distance - 0.5 * touching) / closing,
+                                 clear * (1.0 - 0.5 * touching / now.distance)));
   }
   return {t, true};  // so near each other that they had better be kept apart
 }
@@ -96,9 +180,11 @@ bool couldClose(const State& state, const Flights& f, const Contact& contact) {
 bool isPredicted(const State& state, const Contact& contact, double ahead) {
   constexpr double kShort = 20.0;  // touching gaps; and twice the fall from rest by gravity
   if (contact.count == 0) return false;
+  const double gap = smallestGap(contact);
   const double gravity = 2.0 * state.gravity.norm() * state.h * state.h;
-  const double touching = touchingGap(state, contact.key), gap = smallestGap(contact);
-  return gap > touching && gap < ahead + gravity && ahead > kShort * touching + gravity;
+  if (gap <= 0.0 || gap >= ahead + gravity || ahead <= gravity) return false;
+  const double touching = touchingGap(state, contact.key);
+  return gap > touching && ahead > kShort * touching + gravity;
 }
 
 /// The contact as it is at the encounter, in the frames of then. The memory of a point is kept
@@ -172,6 +258,7 @@ double smallestGap(const Contact& contact) {
 void castContact(const State& state, Scratch& scratch, Contact& contact, double ahead) {
   const ContactKey& key = contact.key;
   if (!isPredicted(state, contact, ahead) || isBilateral(state, key.a, key.b)) return;
+  if (scratch.load_order.size() != scratch.loads.size()) orderLoads(state, scratch);
   const Vec2 origin = state.pose(key.a).position;
   const Flights f{Flight(state, scratch, key.a, origin), Flight(state, scratch, key.b, origin),
                   state.collider(key.shape_a), state.collider(key.shape_b)};

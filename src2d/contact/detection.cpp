@@ -89,7 +89,7 @@ bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
 void findManifold(const State& state, Scratch& scratch, Contact& contact) {
   const double ahead = approach(state, scratch, contact.key.a, contact.key.b);
   updateManifold(state, contact, ahead);
-  castContact(state, scratch, contact, ahead);
+  if (contact.count > 0) castContact(state, scratch, contact, ahead);
 }
 
 /// Follows the contacts that there are.
@@ -174,8 +174,10 @@ void collectPairs(const State& state, Scratch& scratch) {
 }
 
 void detectContacts(State& state, Scratch& scratch) {
-  const double farthest = farthestApproach(state, scratch);
+  orderKicks(state, scratch);
+  scratch.load_order.clear();
   scratch.casts.clear();
+  const double farthest = farthestApproach(state, scratch);
   updateBroadphase(state, scratch, farthest);
   followContacts(state, scratch, farthest);
   findTouching(state, scratch, farthest);

@@ -1,6 +1,10 @@
 #include "src2d/contact/hidden_sides.h"
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
 
 #include "src2d/contact/cast.h"
 #include "src2d/contact/internal_edges.h"
@@ -40,14 +44,14 @@ struct Cover {
 /// beside `p` as the face reaches.
 bool isHidden(const Collider& shape, const Vec2& p, const Vec2& normal, const Cover& cover) {
   constexpr double kLooks = 1e-9;
+  const double skin = cover.scale.skin;
   for (int i = 0; i < shape.count(); ++i) {
     const Vec2 &outward = shape.normal(i), &begin = shape.vertex(i);
+    if (outward.dot(normal) <= kLooks || std::abs(outward.dot(p - begin)) > skin) continue;
     const Vec2 along = perpendicular(outward);
     const double length = along.dot(shape.vertex(shape.next(i)) - begin);
-    const double at = along.dot(p - begin), skin = cover.scale.skin;
-    const bool on_face =
-        std::abs(outward.dot(p - begin)) <= skin && at >= -skin && at <= length + skin;
-    if (!on_face || outward.dot(normal) <= kLooks) continue;
+    const double at = along.dot(p - begin);
+    if (at < -skin || at > length + skin) continue;
     const auto covered = [&](double place) {
       const Vec2 on = begin + std::clamp(place, 0.0, length) * along;
       return cover.contains(on + cover.scale.ahead * outward);
@@ -66,17 +70,41 @@ bool mayBeHidden(const State& state, BodyId body, std::uint32_t shape) {
   return !state.collider(shape).isCircle() && (!state.responds(body) || hasSiblings(state, shape));
 }
 
-/// Contacts that touch something with hidden sides, by the shape that touches.
+/// Contacts that touch something with hidden sides, by the shape that touches; only those of shapes
+/// that touch two such things, where one of the contacts bears nothing yet.
 void listSeams(const State& state, std::vector<SeamContact>& seams) {
+  enum : std::uint8_t { kLoose = 1, kOne = 2, kTwo = 4 };
+  thread_local std::vector<std::uint8_t> found;  // per shape; between two calls all 0
+  found.resize(std::max(found.size(), state.shape_body.size()), 0);
   seams.clear();
   const auto& order = state.contacts.order;
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    const Contact& contact = state.contacts[order[i]];
-    if (contact.count == 0) continue;
-    const ContactKey& key = contact.key;
-    if (mayBeHidden(state, key.a, key.shape_a)) seams.push_back({key.shape_b, 2 * i + 1});
-    if (mayBeHidden(state, key.b, key.shape_b)) seams.push_back({key.shape_a, 2 * i});
-  }
+  const auto forEach = [&](const auto& isAsked, const auto& visit) {
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+      const Contact& contact = state.contacts[order[i]];
+      if (contact.count == 0) continue;
+      const ContactKey& key = contact.key;
+      const auto side = [&](std::uint32_t toucher, BodyId body, std::uint32_t shape, bool of_a) {
+        if (!isAsked(contact, toucher) || !mayBeHidden(state, body, shape)) return;
+        visit(SeamContact{toucher, 2 * i + (of_a ? 1 : 0)});
+      };
+      side(key.shape_b, key.a, key.shape_a, true);
+      side(key.shape_a, key.b, key.shape_b, false);
+    }
+  };
+  forEach([](const Contact& contact, std::uint32_t) { return !bears(contact); },
+          [&](const SeamContact& loose) { found[loose.toucher] = kLoose, seams.push_back(loose); });
+  if (seams.empty()) return;
+  seams.clear();
+  forEach([&](const Contact&, std::uint32_t toucher) { return found[toucher] != 0; },
+          [&](const SeamContact& seam) {
+            std::uint8_t& of = found[seam.toucher];
+            of |= (of & kOne) != 0 ? kTwo : kOne;
+            seams.push_back(seam);
+          });
+  const auto alone = [&](const SeamContact& seam) { return (found[seam.toucher] & kTwo) == 0; };
+  const auto end = std::partition(seams.begin(), seams.end(), std::not_fn(alone));
+  for (const SeamContact& seam : seams) found[seam.toucher] = 0;
+  seams.erase(end, seams.end());
   std::ranges::sort(seams, {}, [](const SeamContact& s) { return packed(s.toucher, s.side); });
 }
 
@@ -92,25 +120,66 @@ std::uint32_t shapeOf(const Contact& contact, const SeamContact& seam) {
   return seam.ofA() ? contact.key.shape_a : contact.key.shape_b;
 }
 
-/// True when all points of the contact of `s` lie on sides that the shape of `t` hides.
-bool hides(const State& state, const Scratch& scratch, const SeamContact& t, const SeamContact& s) {
+/// The points of a contact on the surface of a shape, and the normal out of it, in the frame of the
+/// shape's body.
+struct Side {
+  std::array<Vec2, 2> points;
+  int count = 0;
+  Vec2 normal;
+
+  Side(const State& state, const Scratch& scratch, const SeamContact& seam)
+      : Side(state, scratch, contactOf(state, seam), seam.ofA()) {}
+
+ private:
+  Side(const State& state, const Scratch& scratch, const Contact& contact, bool of_a)
+      : count(contact.count) {
+    const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
+    normal = of_a ? contact.normal : Vec2(b_in_a.rotation.inverse() * Vec2(-contact.normal));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      const SurfacePoints on = surfacePoints(scratch, contact, contact.points[k], b_in_a);
+      points[k] = of_a ? on.on_a : on.on_b;
+    }
+  }
+};
+
+/// True when the shape of `t` may hide what `s` touches: it is about as near, and does not move
+/// against the shape of `s`.
+bool mayHide(const State& state, const SeamContact& t, const SeamContact& s,
+             const SeamScale& scale) {
   const Contact &other = contactOf(state, t), &contact = contactOf(state, s);
-  const std::uint32_t cover_shape = shapeOf(other, t), shape = shapeOf(contact, s);
-  const BodyId body = state.shape_body[shape], cover_body = state.shape_body[cover_shape];
-  if (body != cover_body && (state.responds(body) || state.responds(cover_body))) return false;
-  const SeamScale scale = seamScale(state, shape, cover_shape, s.toucher);
   if (smallestGap(other) > smallestGap(contact) + scale.ahead) return false;
+  const BodyId body = state.shape_body[shapeOf(contact, s)];
+  const BodyId cover_body = state.shape_body[shapeOf(other, t)];
+  return body == cover_body || !(state.responds(body) || state.responds(cover_body));
+}
+
+/// True when all points of the contact of `s`, which are those of `side`, lie on sides that the
+/// shape of `t` hides.
+bool hides(const State& state, const SeamContact& t, const SeamContact& s, const Side& side) {
+  const std::uint32_t cover_shape = shapeOf(contactOf(state, t), t);
+  const std::uint32_t shape = shapeOf(contactOf(state, s), s);
+  const SeamScale scale = seamScale(state, shape, cover_shape, s.toucher);
+  if (!mayHide(state, t, s, scale)) return false;
+  const BodyId body = state.shape_body[shape], cover_body = state.shape_body[cover_shape];
   const Pose to_cover =
       body == cover_body ? Pose{} : state.pose(cover_body).toLocal(state.pose(body));
   const Cover cover{state.collider(cover_shape), to_cover, scale};
-  const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
-  const Vec2 normal =
-      s.ofA() ? contact.normal : Vec2(b_in_a.rotation.inverse() * Vec2(-contact.normal));
-  for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
-    const SurfacePoints on = surfacePoints(scratch, contact, contact.points[k], b_in_a);
-    if (!isHidden(state.collider(shape), s.ofA() ? on.on_a : on.on_b, normal, cover)) return false;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(side.count); ++k) {
+    if (!isHidden(state.collider(shape), side.points[k], side.normal, cover)) return false;
   }
   return true;
+}
+
+/// True when one of the shapes that the toucher of `s` touches hides what `s` touches.
+bool isHiddenByAny(const State& state, const Scratch& scratch, std::span<const SeamContact> all,
+                   const SeamContact& s) {
+  std::optional<Side> side;
+  return std::ranges::any_of(all, [&](const SeamContact& t) {
+    if (t.place() == s.place() || contactOf(state, t).count == 0) return false;
+    if (!mayHide(state, t, s, SeamScale{})) return false;
+    if (!side) side.emplace(state, scratch, s);
+    return hides(state, t, s, *side);
+  });
 }
 
 }  // namespace
@@ -124,10 +193,7 @@ void dropHiddenSides(State& state, Scratch& scratch) {
     for (auto s = first; s != last; ++s) {
       Contact& contact = contactOf(state, *s);
       if (contact.count == 0 || bears(contact)) continue;
-      const bool hidden = std::any_of(first, last, [&](const SeamContact& t) {
-        return t.place() != s->place() && contactOf(state, t).count > 0 &&
-               hides(state, scratch, t, *s);
-      });
+      const bool hidden = isHiddenByAny(state, scratch, {first, last}, *s);
       if (hidden) contact.count = 0, contact.quiet_steps = 0;
     }
     first = last;

@@ -12,7 +12,8 @@
 namespace merge2d {
 namespace {
 
-constexpr double kStill = 1e-9;  ///< slower is no approach [m/s]
+constexpr double kStill = 1e-9;  ///< slower is no approach, where a point bounces [m/s]
+constexpr double kSoft = 1e-5;   ///< the same without restitution: 0.1 µm in a step [m/s]
 constexpr double kMet = 1e-9;    ///< nearer than this two points have met [m]
 
 /// A contact point while hits go on.
@@ -25,6 +26,7 @@ struct HitPoint {
   double least = 0.0;       ///< slower approaches do not bounce [m/s]
   double alpha = 0.0;       ///< how much faster the approach becomes by loads [m/s²]
   double allowed = 0.0;     ///< slower approaches may sink in [m/s]
+  double still = kStill;    ///< slower is no approach [m/s]
   bool holds = false;       ///< touches and does not bounce: bears at any hit
   bool meets = false;       ///< takes part in the hit at hand
   std::int32_t rows = -1;   ///< of that hit, or −1
@@ -59,6 +61,12 @@ class HitSolver {
 
  private:
   static constexpr std::size_t kFewHits = 32, kManyPoints = 200;
+  static constexpr std::uint32_t kFixed = ~0U;
+
+  /// The places of a block's bodies among those of the island.
+  struct Ends {
+    std::uint32_t a = kFixed, b = kFixed;
+  };
 
   SolverVelocity& u(std::uint32_t rigid) { return scratch_.u[rigid]; }
   double velocityOf(const HitPoint& p) {
@@ -73,6 +81,7 @@ class HitSolver {
   void listPoints() {
     for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
       const ContactBlock& k = blocks_[i];
+      ends_.push_back({placeOf(k.a), placeOf(k.b)});
       const RowSource& source = scratch_.row_sources[scratch_.block_order[first_ + i].source()];
       if (source.isInner()) continue;  // the solve has held it, and it is to be closed again
       const Contact& contact = state_.contacts.contactOf(source.points[0]);
@@ -82,6 +91,7 @@ class HitSolver {
         const CastEnd* end = k.hits ? castOf(scratch_, contact, pointOf(p)) : nullptr;
         p.gap = end ? end->carried : pointOf(p).gap;
         p.e = k.bilateral ? 0.0 : restitutionOf(state_, key.a, key.b);
+        p.still = p.e > 0.0 || k.bilateral ? kStill : kSoft;
         p.touching = touchingGap(state_, key);
         p.least = leastBounce(state_, key);
         const bool hit = (k.hits >> row & 1) != 0;
@@ -107,7 +117,7 @@ class HitSolver {
     double least = 1e300;
     for (const HitPoint& p : points_) {
       const double w = velocityOf(p);
-      if (w >= p.allowed - kStill) continue;
+      if (w >= p.allowed - p.still) continue;
       least = std::min(least, p.gap <= kMet ? 0.0 : p.gap / -w);
     }
     return least;
@@ -126,7 +136,7 @@ class HitSolver {
   /// The velocities by Newton's law of the points that have met.
   void aim(HitPoint& p, double met) {
     const double w = velocityOf(p), extra = p.alpha * (time_ - 0.5 * state_.h);
-    const bool approaches = w < p.allowed - kStill && p.gap <= met;
+    const bool approaches = w < p.allowed - p.still && p.gap <= met;
     p.meets = approaches;
     p.target = blocks_[p.block].bilateral ? w : p.allowed;
     p.extra = 0.0;
@@ -156,11 +166,25 @@ class HitSolver {
       solve();
     }
     const double part = weaken();
+    // Without restitution a point that has met stays in touch, and bears the hits to come.
+    for (HitPoint& p : points_) p.holds |= p.meets && p.e == 0.0;
     for (const HitPoint& p : points_) pointOf(p).struck += static_cast<float>(part * impulseOf(p));
   }
 
   void returnToStart() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) u(bodies_[i]) = start_[i];
+  }
+
+  /// Bodies on which the rows of the hit at hand act, and all joints.
+  void listStruck() {
+    struck_.clear();
+    const auto add = [&](std::uint32_t rigid) {
+      if (u(rigid).inv_mass > 0.0) struck_.push_back(rigid);
+    };
+    for (const ContactBlock& k : rows_) add(k.a), add(k.b);
+    for (const JointBlock& k : joints_) add(k.a), add(k.b);
+    std::ranges::sort(struck_);
+    struck_.erase(std::unique(struck_.begin(), struck_.end()), struck_.end());
   }
 
   void collectRows() {
@@ -180,25 +204,32 @@ class HitSolver {
     }
   }
 
+  bool bears(const HitPoint& p) const {
+    return p.holds && (blocks_[p.block].bilateral || p.gap <= p.touching);
+  }
+
   /// True when there were some among those that touch and bear.
   bool addThoseThatGiveWay(bool all) {
     bool gives = false;
     for (HitPoint& p : points_) {
-      if (p.meets || !p.holds) continue;
+      if (p.meets || !bears(p)) continue;
       const double w = velocityOf(p) - p.target;
-      p.meets = blocks_[p.block].bilateral ? std::abs(w) > kStill : w < -kStill;
+      p.meets = blocks_[p.block].bilateral ? std::abs(w) > kStill : w < -p.still;
       gives |= p.meets;
     }
-    for (HitPoint& p : points_) p.meets |= gives && all && p.holds;
+    for (HitPoint& p : points_) p.meets |= gives && all && bears(p);
     return gives;
   }
 
   /// Lever arms where the bodies are now: both are pushed at one place, that on the first, or the
   /// impulse would change their angular momentum.
   void moveArms() {
-    for (ContactBlock& k : blocks_) {
-      if (u(k.a).inv_mass == 0.0 || u(k.b).inv_mass == 0.0) continue;
-      const Vec2 apart = state_.rigids[k.b].x - state_.rigids[k.a].x + wayOf(k.b) - wayOf(k.a);
+    for (std::size_t block = 0; block < blocks_.size(); ++block) {
+      ContactBlock& k = blocks_[block];
+      const Ends& ends = ends_[block];
+      if (ends.a == kFixed || ends.b == kFixed) continue;
+      const Vec2 apart =
+          state_.rigids[k.b].x - state_.rigids[k.a].x + wayOf(ends.b) - wayOf(ends.a);
       const double across = k.nx * apart.y() - k.ny * apart.x();
       const double along = k.nx * apart.x() + k.ny * apart.y();
       for (int i = 0; i < k.count; ++i) {
@@ -216,13 +247,17 @@ class HitSolver {
     return k;
   }
 
-  Vec2 wayOf(std::uint32_t rigid) const {
+  /// Its place among the bodies of the island, or kFixed.
+  std::uint32_t placeOf(std::uint32_t rigid) const {
     const auto at = std::ranges::lower_bound(bodies_, rigid);
-    const Twist& way = ways_[static_cast<std::size_t>(at - bodies_.begin())];
-    return {way.vx, way.vy};
+    const bool moves = at != bodies_.end() && *at == rigid;
+    return moves ? static_cast<std::uint32_t>(at - bodies_.begin()) : kFixed;
   }
 
+  Vec2 wayOf(std::uint32_t place) const { return {ways_[place].vx, ways_[place].vy}; }
+
   void solve() {
+    listStruck();
     std::vector<JointBlock> joints(joints_.begin(), joints_.end());
     for (JointBlock& k : joints) holdJoint(k);
     Nncg iteration(
@@ -230,13 +265,17 @@ class HitSolver {
         [&](std::size_t i) -> Impulses& {
           return i < rows_.size() ? rows_[i].lambda : joints[i - rows_.size()].lambda;
         },
-        bodies_.size(), [&](std::size_t i) -> SolverVelocity& { return u(bodies_[i]); },
+        struck_.size(), [&](std::size_t i) -> SolverVelocity& { return u(struck_[i]); },
         [&] {
           for (JointBlock& k : joints) solveJoint(k, {}, u(k.a), u(k.b));
           for (ContactBlock& k : rows_) solveBlock(k, k.nx, k.ny, u(k.a), u(k.b));
         },
         scratch_.nncg);
     constexpr std::size_t kFewRows = 8;
+    constexpr double kExact = 1e-13, kClose = 1e-7;
+    const bool bounces = std::ranges::any_of(
+        points_, [](const HitPoint& p) { return p.meets && p.target > p.allowed; });
+    iteration.endBelow(bounces ? kExact : kClose);
     const bool alone = rows_.size() == 1 && joints.empty();
     iteration.run(alone ? 2 : rows_.size() <= kFewRows ? 60 : 20, !alone);
   }
@@ -281,9 +320,8 @@ class HitSolver {
   }
 
   const SolverVelocity& before(std::uint32_t rigid) {
-    const auto at = std::ranges::lower_bound(bodies_, rigid);
-    const bool moves = at != bodies_.end() && *at == rigid;
-    return moves ? start_[static_cast<std::size_t>(at - bodies_.begin())] : u(rigid);
+    const std::uint32_t place = placeOf(rigid);
+    return place == kFixed ? u(rigid) : start_[place];
   }
 
   void finish() {
@@ -306,6 +344,8 @@ class HitSolver {
   double time_ = 0.0;
   std::vector<HitPoint> points_;
   std::vector<ContactBlock> rows_;  ///< of the hit at hand
+  std::vector<Ends> ends_;          ///< per block
+  std::vector<std::uint32_t> struck_;
   std::vector<SolverVelocity> start_;
   std::vector<Twist> ways_;  ///< so far [m, rad]
 };

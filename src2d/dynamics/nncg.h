@@ -45,6 +45,9 @@ class Nncg {
     m_.u_direction.resize(m_.u_before.size());
   }
 
+  /// Accelerated sweeps end where one changes the impulses by less than this part of them.
+  void endBelow(double part) { least_ = part * part; }
+
   SweepChange run(int sweeps, bool accelerate) {
     return run(sweeps, accelerate, [] { return false; });
   }
@@ -81,7 +84,7 @@ class Nncg {
       if (!accelerate && !last) continue;
       change = changeSince();
       m_.previous = previous;
-      if (last || change.squared == 0.0) break;
+      if (last || change.squared <= least_ * change.total) break;
       step(previous == 0.0 ? 0.0 : change.squared / previous);
       previous = change.squared;
     }
@@ -143,6 +146,7 @@ class Nncg {
   VelocityAt velocity_;
   Sweep sweep_;
   NncgBuffers& m_;
+  double least_ = 0.0;
   int done_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "src2d/contact/approach.h"
 #include "src2d/contact/cast.h"
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/hits.h"
@@ -194,17 +195,17 @@ void orderBlocks(const State& state, Scratch& scratch) {
 
 /// Lever arms of the points of a block: as they are now, or as they will be where it was `cast` to.
 void setArms(const State& state, const Scratch& scratch, const RowSource& source, const Cast* cast,
-             BlockGeometry& g) {
-  const ContactKey& key = state.contacts.contactOf(source.points[0]).key;
-  const Pose pose_a = state.pose(key.a);
+             const ContactBlock& k, BlockGeometry& g) {
+  const Contact& contact = state.contacts.contactOf(source.points[0]);
+  const Pose pose_a = state.pose(contact.key.a);
+  const Vec2 &center_a = state.rigids[k.a].x, &center_b = state.rigids[k.b].x;
   for (std::size_t i = 0; i < static_cast<std::size_t>(source.count()); ++i) {
     const ContactPoint& point = state.contacts.point(source.points[i]);
-    const Contact& contact = state.contacts.contactOf(source.points[i]);
-    const CastEnd* end = cast ? castOf(scratch, contact, point) : nullptr;
+    const CastEnd* end = nullptr;
+    if (cast) end = castOf(scratch, state.contacts.contactOf(source.points[i]), point);
     const Vec2 p = pose_a * point.position;
-    g.arm_a[i] = p - state[moverOf(state, scratch, key.a)].x;
-    g.arm_b[i] =
-        (end ? state.pose(key.b) * end->on_b : p) - state[moverOf(state, scratch, key.b)].x;
+    g.arm_a[i] = p - center_a;
+    g.arm_b[i] = (end ? state.pose(contact.key.b) * end->on_b : p) - center_b;
   }
 }
 
@@ -212,7 +213,7 @@ void setArms(const State& state, const Scratch& scratch, const RowSource& source
 /// a start. True when some of it rests.
 bool aimBlock(State& state, const Scratch& scratch, const RowSource& source, const Cast* cast,
               BlockGeometry& g, ContactBlock& k) {
-  setArms(state, scratch, source, cast, g);
+  setArms(state, scratch, source, cast, k, g);
   setArms(k, g);
   bool rests = false;
   for (int i = 0; i < source.count(); ++i) {
@@ -342,6 +343,7 @@ double contactSoftness(const State& state, BodyId a, BodyId b, double inv_mass_a
 
 void buildRows(State& state, Scratch& scratch) {
   startVelocities(state, scratch);
+  orderKicks(state, scratch);  // bodies may have left their collections
   withdrawCasts(state, scratch);
   scratch.row_sources.clear();
   reserveTightly(scratch.row_sources, scratch.pairs.size());

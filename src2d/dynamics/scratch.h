@@ -43,6 +43,13 @@ struct Kick {
   Vec2 impulse = Vec2::Zero();  ///< [N s]
 };
 
+/// A load or a kick, by the rigid thing that it acts on.
+struct ActionOrder {
+  RigidId rigid{};
+  std::uint32_t action = 0;  ///< its place in Scratch::loads or Scratch::kicks
+  auto operator<=>(const ActionOrder&) const = default;
+};
+
 /// A contact that closes in this step and was open in the last one, or is hit.
 struct Meeting {
   std::uint32_t pair = 0;     ///< of Scratch::pairs
@@ -200,7 +207,8 @@ struct Scratch {
   std::vector<ContactKey> candidates;
   std::vector<Contact> touching;  ///< idle pairs that have become contacts
   std::vector<SeamContact> seams;
-  std::vector<Cast> casts;  ///< ascending by key
+  std::vector<Cast> casts;                          ///< ascending by key
+  std::vector<ActionOrder> kick_order, load_order;  ///< ascending; loads only where one is asked
   std::vector<NearPair> near_candidates;
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
   /// Per rigid: with which other ones, by their index modulo 16.

@@ -31,45 +31,42 @@ Vec2 nearestOfEdge(const Vec2& p, const Vec2& begin, const Vec2& end) {
   return begin + std::clamp(along.dot(p - begin) / squared, 0.0, 1.0) * along;
 }
 
-/// The shortest way from an edge of `edges` to a vertex of `points`.
-void shortestWay(const Core& edges, const Core& points, double sign, double& least, Vec2& way) {
+/// The shortest way from an edge of `edges` to a vertex of `points`. Of a polygon only the edges
+/// that look at the vertex matter. False when no edge has all vertices before it.
+bool shortestWay(const Core& edges, const Core& points, double sign, double& least, Vec2& way) {
+  bool apart = edges.count < 3;
   for (std::size_t i = 0; i < edges.count; ++i) {
-    const Vec2 &begin = edges.vertices[i], &end = edges.vertices[(i + 1) % edges.count];
+    const Vec2 &begin = edges.vertices[i], &end = edges.vertices[i + 1 < edges.count ? i + 1 : 0];
+    const Vec2 outward = -perpendicular(end - begin);
+    bool all = true;
     for (std::size_t j = 0; j < points.count; ++j) {
-      const Vec2 d = points.vertices[j] - nearestOfEdge(points.vertices[j], begin, end);
+      const Vec2& p = points.vertices[j];
+      if (edges.count > 2 && outward.dot(p - begin) <= 0.0) {
+        all = false;
+        continue;
+      }
+      const Vec2 d = p - nearestOfEdge(p, begin, end);
       if (d.squaredNorm() >= least) continue;
       least = d.squaredNorm();
       way = sign * d;
     }
+    apart |= all;
   }
-}
-
-/// True when some face of `a` has all of `b` before it.
-bool hasSeparatingFace(const Core& a, const Core& b) {
-  for (std::size_t i = 0; i < a.count && a.count > 2; ++i) {
-    const Vec2 &begin = a.vertices[i], &end = a.vertices[(i + 1) % a.count];
-    const Vec2 outward = -perpendicular(end - begin);
-    const auto before = [&](const Vec2& p) { return outward.dot(p - begin) > 0.0; };
-    if (std::all_of(b.vertices.begin(), b.vertices.begin() + static_cast<std::ptrdiff_t>(b.count),
-                    before)) {
-      return true;
-    }
-  }
-  return false;
+  return apart;
 }
 
 }  // namespace
 
 Nearest nearest(const Collider& a, const Collider& b, const Pose& b_in_a) {
   const Core core_a(a, {}), core_b(b, b_in_a);
-  const bool points = core_a.count == 1 && core_b.count == 1;
-  if (!points && !hasSeparatingFace(core_a, core_b) && !hasSeparatingFace(core_b, core_a)) {
-    return {};
-  }
   double least = 1e300;
   Vec2 way = Vec2::Zero();
-  shortestWay(core_a, core_b, 1.0, least, way);
-  shortestWay(core_b, core_a, -1.0, least, way);
+  const bool before_a = shortestWay(core_a, core_b, 1.0, least, way);
+  const bool before_b = shortestWay(core_b, core_a, -1.0, least, way);
+  // The core of a disc is a point, which has no inside.
+  const bool round_a = core_a.count == 1, round_b = core_b.count == 1;
+  const bool apart = (round_a && round_b) || (before_a && !round_a) || (before_b && !round_b);
+  if (!apart) return {};
   const double length = std::sqrt(least);
   const double distance = length - a.radius() - b.radius();
   if (length == 0.0 || distance <= 0.0) return {};

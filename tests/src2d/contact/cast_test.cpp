@@ -30,7 +30,7 @@ Scene beside(double table_edge) {
 }
 
 TEST(NearMiss, ABallFallsPastATable) {
-  for (const double distance : {1e-3, 2e-3, 5e-3, 1e-2}) {
+  for (const double distance : {1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2}) {
     for (const double speed : {0.0, 10.0, 30.0}) {
       Scene scene = beside(0.0);
       add(scene, named("ball", moving(disc(0.1, {-0.1 - distance, 2}), {0, -speed})));

@@ -222,13 +222,14 @@ TEST(Hits, ABallMetByAFastBatGetsItsSpeed) {
   }
 }
 
-/// A steel ball of 1 cm falls 1 cm, at steps in which it does not fall by more than its size.
+/// A steel ball of 1 cm falls 1 cm: its first bounce is right to 3 %. At 1/60 s it takes five steps
+/// to rise and to fall back.
 TEST(Hits, ATinyBallBounces) {
   Scene scene = onGround();
   BodyDesc ball = named("ball", disc(0.005, {0, 0.015}));
   ball.restitution = 0.9;
   add(scene, ball);
-  for (const double h : {1.0 / 240.0, 1.0 / 1000.0}) {
+  for (const double h : {1.0 / 60.0, 1.0 / 100.0, 1.0 / 240.0, 1.0 / 1000.0}) {
     for (const Mode mode : kAllModes) {
       scene.step = h;
       World world(scene, inMode(mode));
@@ -240,7 +241,7 @@ TEST(Hits, ATinyBallBounces) {
         rose |= seen.v.y() > 0.0;
         if (rose) highest = std::max(highest, seen.x.y() - 0.005);
       }
-      EXPECT_NEAR(highest, 0.81 * 0.01, 2e-4) << "h = " << h;
+      EXPECT_NEAR(highest, 0.81 * 0.01, 0.03 * 0.81 * 0.01) << "h = " << h;
     }
   }
 }
