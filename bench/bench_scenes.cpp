@@ -118,6 +118,32 @@ BenchScene freeFall(int count) {
   return {scene, Expectation::Moves};
 }
 
+BenchScene stacks(int count) {
+  constexpr double kApart = 2.0;
+  constexpr int kHigh = 5;
+  Scene scene = emptyScene(fmt::format("stacks-{}x{}", count, kHigh));
+  scene.bodies.push_back(
+      pinnedBox("ground", {0.5 * kApart * count, -0.5}, kApart * (count + 2), 1.0));
+  for (int i = 0; i < count; ++i) {
+    for (int row = 0; row < kHigh; ++row) addBox(scene, {kApart * i, row + 0.5}, 1.0, 1.0);
+  }
+  return {scene, Expectation::Stands};
+}
+
+BenchScene wall(int count) {
+  constexpr int kHigh = 20;
+  const int columns = count / kHigh;
+  Scene scene = emptyScene(fmt::format("wall-{}", count));
+  scene.bodies.push_back(pinnedBox("ground", {0.0, -0.5}, kSpacing * columns + 20.0, 1.0));
+  for (int row = 0; row < kHigh; ++row) {
+    const double left = -0.5 * kSpacing * columns + (row % 2 == 1 ? 0.5 * kSpacing : 0.0);
+    for (int i = 0; i < columns; ++i) {
+      addBox(scene, {left + kSpacing * i, row + 0.5}, 1.0, 1.0);
+    }
+  }
+  return {scene, Expectation::Stands};
+}
+
 std::vector<BenchScene> benchScenes(bool quick) {
   std::vector<BenchScene> scenes = {tower(100), tower(326), tower(1000)};
   if (!quick) scenes.push_back(tower(5000));

@@ -36,6 +36,12 @@ BenchScene funnel(int count);
 /// `count` boxes of 1 m that fall and never touch.
 BenchScene freeFall(int count);
 
+/// `count` stacks of five boxes of 1 m, side by side on the ground.
+BenchScene stacks(int count);
+
+/// A running-bond wall of about `count` boxes of 1 m, 20 high, on the ground.
+BenchScene wall(int count);
+
 /// All scenes of the comparison; the quick ones only leave out the largest.
 std::vector<BenchScene> benchScenes(bool quick);
 

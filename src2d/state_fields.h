@@ -226,9 +226,10 @@ template <class Ar>
 void fields(Ar& ar, Some<State> auto& state) {
   auto& [settings, mode, h, gravity, colliders, collider_bounds, shape_collider, shape_body,
          first_sibling, siblings, step, time, bodies, rigids, present, extents, collections,
-         next_collection, contacts, joints, joined_pairs, broadphase, moved, ready_before] = state;
-  ar(step, time, bodies, rigids, present, extents, collections, next_collection, contacts, joints,
-     joined_pairs, broadphase.near, moved, ready_before);
+         next_collection, used_slots, contacts, joints, joined_pairs, broadphase, moved,
+         ready_before] = state;
+  ar(step, time, bodies, rigids, present.ids(), extents, collections, next_collection, contacts,
+     joints, joined_pairs, broadphase.near, moved, ready_before);
 }
 
 template <class Ar>

@@ -141,6 +141,7 @@ void clearBroadphase(State& state) {
 /// Trees with the boxes that they had: those of shapes follow from where these are.
 void buildTrees(State& state, const std::vector<Aabb>& boxes) {
   auto& broadphase = state.broadphase;
+  state.used_slots = 0;
   broadphase.shape_trees.resize(state.rigids.size());
   std::size_t box = 0;
   for (std::uint32_t i = 0; i < state.rigids.size(); ++i) {

@@ -245,13 +245,13 @@ void insertRigid(State& state, RigidId id) {
   Rigid& r = state[id];
   r.leaf = state.broadphase.tree.insert(worldBounds(state, r), static_cast<std::uint32_t>(id));
   r.resized = true;
-  state.present.insert(std::ranges::lower_bound(state.present, id), id);
+  state.present.insert(id);
 }
 
 void removeRigid(State& state, RigidId id) {
   state.broadphase.tree.remove(state[id].leaf);
   state[id].leaf = -1;
-  state.present.erase(std::ranges::lower_bound(state.present, id));
+  state.present.erase(id);
 }
 
 void addShapes(State& state, RigidId id, const std::vector<BodyId>& bodies) {

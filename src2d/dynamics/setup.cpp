@@ -166,7 +166,7 @@ class Builder {
     State& s = setup_.state;
     listJoinedPairs(s);
     s.broadphase.shape_trees.resize(s.rigids.size());
-    s.present.reserve(s.rigids.size());
+    s.present.ids().reserve(s.rigids.size());
     s.broadphase.shape_leaves.assign(s.shape_body.size(), -1);
     listSiblings(s);
     for (const Actions::Scripted& script : setup_.actions.scripts) {
@@ -221,7 +221,7 @@ BodyId appendBody(Setup& setup, const BodyDesc& desc) {
         static_cast<std::uint32_t>(rigid) + 1);
   };
   for (std::size_t i = 0; i < bodies; ++i) moveOn(s.bodies[i].rigid);
-  for (RigidId& r : s.present) moveOn(r);
+  for (RigidId& r : s.present.ids()) moveOn(r);
   for (NearPair& pair : s.broadphase.near) {
     moveOn(pair.a);
     moveOn(pair.b);

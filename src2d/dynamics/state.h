@@ -9,6 +9,7 @@
 
 #include "src2d/dynamics/collections.h"
 #include "src2d/dynamics/contact_table.h"
+#include "src2d/dynamics/present_list.h"
 #include "src2d/dynamics/rigid.h"
 #include "src2d/dynamics/scratch.h"
 #include "src2d/geometry/collide.h"
@@ -51,10 +52,11 @@ struct State {
   double time = 0.0;
   std::vector<Body> bodies;
   std::vector<Rigid> rigids;            ///< bodies, then collections
-  std::vector<RigidId> present;         ///< rigid things that are there: in B or asleep; ascending
+  PresentList present;                  ///< rigid things that are there: in B or asleep; ascending
   std::vector<Extent> extents;          ///< of the different bodies, then one per collection
   std::vector<Collection> collections;  ///< slot i is rigid bodies.size() + i
   std::int32_t next_collection = 0;
+  std::size_t used_slots = 0;  ///< of `collections`: at least this many at its start are in use
   ContactTable contacts;
   std::vector<Joint> joints;
   std::vector<std::pair<BodyId, BodyId>> joined_pairs;  ///< do not collide; ascending

@@ -110,7 +110,7 @@ void fix(State& state, RigidId id, FrameId frame, const Rigid& anchor) {
 }  // namespace
 
 RigidId newCollection(State& state) {
-  std::size_t slot = 0;
+  std::size_t slot = state.used_slots;
   while (slot < state.collections.size() && state.collections[slot].id != kNoCollection) ++slot;
   if (slot == state.collections.size()) {
     appendTightly(state.collections);
@@ -118,6 +118,7 @@ RigidId newCollection(State& state) {
     appendTightly(state.extents);
     appendTightly(state.broadphase.shape_trees);
   }
+  state.used_slots = slot + 1;
   const RigidId id{static_cast<std::uint32_t>(state.bodies.size() + slot)};
   Collection& c = state.collections[slot];
   c = {};
@@ -132,6 +133,7 @@ RigidId newCollection(State& state) {
 
 void freeCollection(State& state, RigidId id) {
   state.collection(id) = {};
+  state.used_slots = std::min(state.used_slots, index(id) - state.bodies.size());
   dropShapeTree(state, id);
 }
 
@@ -145,6 +147,7 @@ void dropFreeSlots(State& state) {
     if (slots.capacity() - slots.size() > slots.size() / 32) slots.shrink_to_fit();
   };
   shorten(state.collections);
+  state.used_slots = std::min(state.used_slots, used);
   shorten(state.rigids);
   shorten(state.extents);
   shorten(state.broadphase.shape_trees);

@@ -182,22 +182,27 @@ void orderContacts(State& state, Scratch& scratch) {
 }
 
 void spreadDisturbance(const State& state, Scratch& scratch) {
-  const auto slotOf = [&](std::uint32_t b) -> std::uint8_t* {
-    if (b >= state.bodies.size()) return nullptr;  // the world
+  constexpr std::uint32_t kOutside = ~0U;
+  const auto slotOf = [&](std::uint32_t b) {
+    if (b >= state.bodies.size()) return kOutside;  // the world
     const RigidId id = state.bodies[b].rigid;
-    return state.isCollection(id) ? &scratch.disturbed[index(id) - state.bodies.size()] : nullptr;
+    return state.isCollection(id) ? static_cast<std::uint32_t>(index(id) - state.bodies.size())
+                                  : kOutside;
   };
-  bool spread = true;
-  while (spread) {
-    spread = false;
-    const auto pass = [&](std::uint32_t body_a, std::uint32_t body_b) {
-      std::uint8_t *a = slotOf(body_a), *b = slotOf(body_b);
-      if (!a || !b || *a == *b) return;
-      *a = *b = 1;
-      spread = true;
-    };
-    for (const SweepContact& outer : scratch.sweep_contacts) pass(outer.block.a, outer.block.b);
-    for (const JointBlock& k : scratch.sweep_joints) pass(k.a, k.b);
+  DisjointSets together;
+  together.reset(state.collections.size());
+  const auto unite = [&](std::uint32_t body_a, std::uint32_t body_b) {
+    const std::uint32_t a = slotOf(body_a), b = slotOf(body_b);
+    if (a != kOutside && b != kOutside) together.unite(a, b);
+  };
+  for (const SweepContact& outer : scratch.sweep_contacts) unite(outer.block.a, outer.block.b);
+  for (const JointBlock& k : scratch.sweep_joints) unite(k.a, k.b);
+  auto& disturbed = scratch.disturbed;
+  for (std::uint32_t slot = 0; slot < disturbed.size(); ++slot) {
+    if (disturbed[slot]) disturbed[together.find(slot)] = 1;
+  }
+  for (std::uint32_t slot = 0; slot < disturbed.size(); ++slot) {
+    disturbed[slot] = disturbed[together.find(slot)];
   }
 }
 

@@ -30,8 +30,9 @@ std::size_t bytesOfProofs(const Collection& c) {
 std::size_t bytesOfState(const State& s) {
   std::size_t total =
       bytesOf(s.colliders, s.collider_bounds, s.shape_collider, s.shape_body, s.first_sibling,
-              s.siblings, s.bodies, s.rigids, s.present, s.extents, s.collections, s.joints,
-              s.joined_pairs, s.ready_before) +
+              s.siblings, s.bodies, s.rigids, s.extents, s.collections, s.joints, s.joined_pairs,
+              s.ready_before) +
+      s.present.memoryBytes() +
       bytesOf(s.contacts.slots, s.contacts.free_slots, s.contacts.order, s.contacts.idle) +
       bytesOfBroadphase(s.broadphase);
   for (const Collection& c : s.collections) {
@@ -53,9 +54,9 @@ std::size_t bytesOfParts(const RigidParts& p) {
 
 std::size_t bytesOfScratch(const Scratch& s) {
   return bytesOf(s.loads, s.kicks, s.springs, s.stretches, s.spring_gain, s.pairs, s.events,
-                 s.moved, s.moved_flag, s.candidates, s.touching, s.seams, s.casts,
-                 s.near_candidates, s.near_refined, s.paired_with, s.meetings, s.seeds, s.stirred,
-                 s.restless, s.island_awake) +
+                 s.moved, s.moved_flag, s.candidates, s.touching, s.seams, s.casts, s.kick_order,
+                 s.load_order, s.near_candidates, s.near_refined, s.paired_with, s.meetings,
+                 s.seeds, s.stirred, s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
                  s.outer_loads, s.load_place, s.doubts, s.trial_u, s.push_stale, s.others,
                  s.doubted, s.overloaded_joints, s.leant, s.ready, s.restless_bodies, s.shaken) +

@@ -1,0 +1,144 @@
+/// The cost of a step against the number of bodies, in situations that a careless step would make
+/// grow faster than linearly. Fails where it grows faster than N^1.15.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "bench/bench_scenes.h"
+#include "src2d/world.h"
+
+namespace merge2d::bench {
+namespace {
+
+constexpr double kLimit = 1.15;  ///< largest exponent
+constexpr int kRepeats = 3;      ///< of which the fastest counts
+
+double secondsOf(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double slowestStep(World& world, int steps) {
+  double slowest = 0.0;
+  for (int i = 0; i < steps; ++i) slowest = std::max(slowest, secondsOf([&] { world.step(); }));
+  return slowest;
+}
+
+double meanStep(World& world, int steps) {
+  return secondsOf([&] {
+           for (int i = 0; i < steps; ++i) world.step();
+         }) /
+         steps;
+}
+
+void run(World& world, int steps) {
+  for (int i = 0; i < steps; ++i) world.step();
+}
+
+/// Gives the seconds of a step with `n` bodies, or so.
+struct Situation {
+  const char* name;
+  std::vector<int> sizes;
+  std::function<double(int n)> seconds;
+};
+
+World worldOf(const BenchScene& of, Mode mode) {
+  return World(of.scene, {.mode = mode, .timings = false});
+}
+
+double allStacksMerge(int n) {
+  World world = worldOf(stacks(n / 5), Mode::Merge);
+  return slowestStep(world, 12);
+}
+
+double allAreKicked(int n) {
+  World world = worldOf(freeFall(n), Mode::Reference);
+  run(world, 5);
+  for (int i = 0; i < n; ++i) {
+    const BodyId body{static_cast<std::uint32_t>(i)};
+    world.applyImpulse(body, world.scene().bodies[static_cast<std::size_t>(i)].at, {1.0, 0.5});
+  }
+  return secondsOf([&] { world.step(); });
+}
+
+double allSleep(int n) {
+  World world = worldOf(stacks(n / 5), Mode::MergeSleep);
+  run(world, 200);
+  return meanStep(world, 200);
+}
+
+double allFall(int n) {
+  World world = worldOf(freeFall(n), Mode::Merge);
+  run(world, 20);
+  return meanStep(world, 20);
+}
+
+double aWallIsStruck(int n) {
+  World world = worldOf(wall(n), Mode::Merge);
+  run(world, 300);
+  world.applyImpulse(BodyId{1}, world.scene().bodies[1].at, {1.0, 0.0});
+  return slowestStep(world, 20);
+}
+
+const std::vector<Situation> kSituations = {
+    {"stacks of 5 merge at once: slowest step", {5000, 10'000, 20'000, 40'000}, allStacksMerge},
+    {"every body is kicked: that step", {1000, 2000, 4000, 8000}, allAreKicked},
+    {"stacks of 5 sleep: mean step", {5000, 10'000, 20'000, 40'000}, allSleep},
+    {"boxes fall freely: mean step", {2500, 5000, 10'000, 20'000}, allFall},
+    {"a merged wall is struck: slowest step", {1000, 2000, 4000, 8000}, aWallIsStruck},
+};
+
+/// The slope of the best line through the logarithms.
+double exponentOf(const std::vector<int>& sizes, const std::vector<double>& seconds) {
+  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  const auto n = static_cast<double>(sizes.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double a = std::log(sizes[i]), b = std::log(seconds[i]);
+    x += a, y += b, xx += a * a, xy += a * b;
+  }
+  return (n * xy - x * y) / (n * xx - x * x);
+}
+
+/// Prints a row; true when the cost grows as it may.
+bool report(const Situation& situation) {
+  std::vector<double> seconds;
+  for (const int n : situation.sizes) {
+    double least = 1e300;
+    for (int i = 0; i < kRepeats; ++i) least = std::min(least, situation.seconds(n));
+    seconds.push_back(least);
+  }
+  const double exponent = exponentOf(situation.sizes, seconds);
+  fmt::print("| {} |", situation.name);
+  for (std::size_t i = 0; i < seconds.size(); ++i) {
+    fmt::print(" {}: {:.3g} |", situation.sizes[i], 1e3 * seconds[i]);
+  }
+  fmt::print(" {:.2f} |\n", exponent);
+  return exponent <= kLimit;
+}
+
+}  // namespace
+}  // namespace merge2d::bench
+
+int main(int argc, char** argv) {
+  using namespace merge2d::bench;
+  CLI::App app("Prints what a step costs against the number of bodies");
+  std::string only;
+  app.add_option("--only", only, "Only the situations whose name contains this");
+  CLI11_PARSE(app, argc, argv);
+  bool linear = true;
+  fmt::print("Bodies: milliseconds; and the exponent of the growth.\n\n");
+  fmt::print("| situation | | | | | exponent |\n|---|--:|--:|--:|--:|--:|\n");
+  for (const Situation& situation : kSituations) {
+    if (std::string(situation.name).find(only) == std::string::npos) continue;
+    linear &= report(situation);
+  }
+  if (!linear) fmt::print(stderr, "growth: some cost grows faster than N^{}\n", kLimit);
+  return linear ? 0 : 1;
+}
