@@ -23,6 +23,7 @@
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/unmerge.h"
 #include "src2d/merging/warm_start.h"
+#include "src2d/rest.h"
 #include "src2d/scene/check.h"
 #include "src2d/state_file.h"
 #include "src2d/trace/capture.h"
@@ -47,8 +48,16 @@ struct World::Impl {
   Notes notes;
   std::vector<BodyInfo> bodies;  ///< described when somebody asks
   Clock::time_point lap_began;
+  Rest rest;
 
   void step();
+  void runStages();
+
+  /// For changes from outside.
+  Setup& changing() {
+    rest.forget();
+    return setup;
+  }
 
   const std::vector<BodyInfo>& describedBodies() {
     if (bodies.size() != setup.state.bodies.size()) bodies = describeBodies(*scene, setup);
@@ -105,15 +114,31 @@ struct World::Impl {
   }
 };
 
-/// Algorithm 1.
 void World::Impl::step() {
   State& state = setup.state;
-  Scratch& s = scratch;
   notes.clear();
-  s.notes = options.decisions ? &notes : nullptr;
+  scratch.notes = options.decisions ? &notes : nullptr;
   if (options.timings) lap();
-  beginStep(state, setup.actions, s);
+  beginStep(state, setup.actions, scratch);
+  const bool watched = observer || options.decisions;
+  const bool rests = !watched && rest.holdsFor(setup, scratch);
+  if (rests) {
+    scratch.stats.seconds = {};  // the first stage is given the time of the look at what acts
+    if (options.timings) scratch.stats.seconds.front() = lap();
+  } else {
+    runStages();
+  }
+  state.step += 1;
+  state.time = static_cast<double>(state.step) * state.h;
+  if (rests) return;
+  countBodies(state, scratch);
+  if (!watched) rest.lookAt(setup, scratch);
+}
 
+/// Algorithm 1.
+void World::Impl::runStages() {
+  State& state = setup.state;
+  Scratch& s = scratch;
   run(Stage::ContactDetection, [&] { detectContacts(state, s); });
   run(Stage::ContactOrdering, [&] { orderContacts(state, s); });
   run(Stage::SleepAndWake, [&] { sleepAndWake(state, s); });
@@ -125,10 +150,6 @@ void World::Impl::step() {
   run(Stage::AccumulateRelativeMotion, [&] { accumulateRelativeMotion(state, s); });
   run(Stage::AdvancePositions, [&] { advancePositions(state, s); });
   run(Stage::Merge, [&] { merge(state, s); });
-
-  state.step += 1;
-  state.time = static_cast<double>(state.step) * state.h;
-  countBodies(state, s);
 }
 
 World::World(const Scene& scene, const WorldOptions& options)
@@ -154,7 +175,7 @@ void World::observe(Observer* observer) { impl_->observer = observer; }
 std::string World::save() const { return saveState(*impl_->scene, impl_->setup); }
 
 void World::restore(std::string_view bytes, const std::string& source, SavedUnder under) {
-  Setup& setup = impl_->setup;
+  Setup& setup = impl_->changing();
   const Mode mode = setup.state.mode;
   setup.state.mode = restoreState(bytes, source, *impl_->scene, setup, under);
   impl_->scratch = {};
@@ -206,7 +227,7 @@ void World::applyForce(BodyId body, const Vec2& at, const Vec2& force) {
 
 void World::setPose(BodyId body, const Vec2& x, double angle) {
   checkNumbers("a pose", {x.x(), x.y(), angle});
-  merge2d::setPose(impl_->setup, impl_->scratch, impl_->unscripted(body), x, angle);
+  merge2d::setPose(impl_->changing(), impl_->scratch, impl_->unscripted(body), x, angle);
 }
 
 void World::setVelocity(BodyId body, const Vec2& v, double omega) {
@@ -214,28 +235,28 @@ void World::setVelocity(BodyId body, const Vec2& v, double omega) {
   if (!impl_->setup.state.responds(impl_->unscripted(body))) {
     throw InputError(fmt::format("body '{}' is pinned: it has no velocity", impl_->nameOf(body)));
   }
-  merge2d::setVelocity(impl_->setup, impl_->scratch, body, v, omega);
+  merge2d::setVelocity(impl_->changing(), impl_->scratch, body, v, omega);
 }
 
 void World::pin(BodyId body) {
-  merge2d::pin(impl_->setup, impl_->scratch, impl_->unscripted(body));
+  merge2d::pin(impl_->changing(), impl_->scratch, impl_->unscripted(body));
 }
 void World::unpin(BodyId body) {
-  merge2d::unpin(impl_->setup, impl_->scratch, impl_->unscripted(body));
+  merge2d::unpin(impl_->changing(), impl_->scratch, impl_->unscripted(body));
 }
 void World::release(BodyId body) {
-  merge2d::release(impl_->setup, impl_->scratch, impl_->checked(body));
+  merge2d::release(impl_->changing(), impl_->scratch, impl_->checked(body));
 }
 void World::setFriction(BodyId body, double friction) {
   checkNumbers("friction", {friction});
   if (friction < 0.0) throw InputError("friction must be 0 or more");
-  merge2d::setFriction(impl_->setup, impl_->checked(body), friction);
+  merge2d::setFriction(impl_->changing(), impl_->checked(body), friction);
 }
-void World::wake(BodyId body) { merge2d::wake(impl_->setup, impl_->checked(body)); }
+void World::wake(BodyId body) { merge2d::wake(impl_->changing(), impl_->checked(body)); }
 
 BodyId World::addBody(const BodyDesc& desc) {
   checkBody(desc);
-  const BodyId body = merge2d::addBody(impl_->setup, desc);
+  const BodyId body = merge2d::addBody(impl_->changing(), desc);
   // What is kept of the last step is numbered as the bodies were.
   std::vector<Event> events = std::move(impl_->scratch.events);
   impl_->scratch = {};
@@ -245,7 +266,7 @@ BodyId World::addBody(const BodyDesc& desc) {
 }
 
 void World::removeBody(BodyId body) {
-  merge2d::removeBody(impl_->setup, impl_->scratch, impl_->checked(body));
+  merge2d::removeBody(impl_->changing(), impl_->scratch, impl_->checked(body));
   countBodies(impl_->setup.state, impl_->scratch);
 }
 
@@ -253,7 +274,7 @@ std::uint32_t World::addSpring(const SpringDesc& desc) {
   const Vec2 center = impl_->centerOf(impl_->checked(desc.body));
   const Vec2 other = desc.to_body ? impl_->centerOf(impl_->checked(*desc.to_body)) : Vec2::Zero();
   merge2d::checkSpring(desc);
-  return merge2d::addSpring(impl_->setup, desc, center, other);
+  return merge2d::addSpring(impl_->changing(), desc, center, other);
 }
 
 void World::moveSpring(std::uint32_t spring, const Vec2& to) {
@@ -262,12 +283,12 @@ void World::moveSpring(std::uint32_t spring, const Vec2& to) {
   if (impl_->setup.actions.springs[spring].to_body >= 0) {
     throw InputError(fmt::format("spring {} holds to a body: its end cannot be moved", spring));
   }
-  merge2d::moveSpring(impl_->setup, spring, to);
+  merge2d::moveSpring(impl_->changing(), spring, to);
 }
 
 void World::removeSpring(std::uint32_t spring) {
   checkSpring(spring);
-  merge2d::removeSpring(impl_->setup, spring);
+  merge2d::removeSpring(impl_->changing(), spring);
 }
 
 void World::checkSpring(std::uint32_t spring) const {
@@ -280,31 +301,31 @@ std::uint32_t World::addJoint(const JointDesc& desc) {
   impl_->checked(desc.a);
   if (desc.b) impl_->checked(*desc.b);
   checkJoint(desc);
-  return merge2d::addJoint(impl_->setup, impl_->scratch, desc);
+  return merge2d::addJoint(impl_->changing(), impl_->scratch, desc);
 }
 
 void World::removeJoint(std::uint32_t joint) {
   if (joint >= impl_->setup.state.joints.size()) {
     throw InputError(fmt::format("there is no joint {}", joint));
   }
-  merge2d::removeJoint(impl_->setup, impl_->scratch, joint);
+  merge2d::removeJoint(impl_->changing(), impl_->scratch, joint);
 }
 
 const Settings& World::settings() const { return impl_->setup.state.settings; }
 void World::setSettings(const Settings& settings) {
   checkSettings(settings);
-  impl_->setup.state.settings = settings;
+  impl_->changing().state.settings = settings;
 }
 Vec2 World::gravity() const { return impl_->setup.state.gravity; }
 
 void World::setGravity(const Vec2& gravity) {
   checkNumbers("gravity", {gravity.x(), gravity.y()});
   if (gravity == impl_->setup.state.gravity) return;
-  impl_->setup.state.gravity = gravity;
+  impl_->changing().state.gravity = gravity;
   wakeAll(impl_->setup);
 }
 
-void World::setMode(Mode mode) { merge2d::setMode(impl_->setup, impl_->scratch, mode); }
+void World::setMode(Mode mode) { merge2d::setMode(impl_->changing(), impl_->scratch, mode); }
 
 Vec2 World::toBodyFrame(BodyId body, const Vec2& at) const {
   const Pose pose = impl_->setup.state.pose(impl_->checked(body));

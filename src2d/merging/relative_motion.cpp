@@ -7,6 +7,7 @@
 #include "src2d/merging/merge.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/pair_readiness.h"
+#include "src2d/merging/sleep.h"
 
 namespace merge2d {
 namespace {
@@ -147,7 +148,7 @@ void countQuietRigids(State& state, Scratch& scratch) {
   const std::vector<Ties>& all_ties = listTies(state, scratch);
   for (const RigidId id : state.present) {
     Rigid& r = state[id];
-    if (r.asleep) continue;
+    if (r.asleep || !canSleep(state, id)) continue;
     const OrientedBox box = worldBox(state, r);
     const double motion = fastestCorner(box, fieldOf(r), still);
     const double velocity = sleeping.velocity * thresholdScale(2.0 * box.half.minCoeff());
@@ -166,7 +167,7 @@ void countQuietRigids(State& state, Scratch& scratch) {
         ties.held ? lasts || (balanced && !ties.loaded) : balanced && (lasts || !ties.loaded);
     const int before = r.quiet_steps;
     r.quiet_steps = slow && at_rest ? r.quiet_steps + 1 : 0;
-    if (!scratch.notes || !(r.floating() || state.isCollection(id))) continue;
+    if (!scratch.notes) continue;
     const auto note = [&](std::string_view criterion, double value, double threshold, bool below) {
       const BodyId body = state.firstBody(id);
       scratch.notes->decisions.push_back({.a = body,
