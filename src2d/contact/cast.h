@@ -7,8 +7,8 @@
 /// shortest way between them, v the velocities of the centres of mass and max|r| the distance from
 /// there to the farthest point of a shape, no two points approach faster than
 /// −n·(v_b − v_a) + |ω_a| max|r_a| + |ω_b| max|r_b|, so the distance over this bound is a time in
-/// which they cannot meet. Where a corner slides along a face, it is short; seen from the body of the
-/// face, whose plane stands still there, the times at which the corners of the other can come
+/// which they cannot meet. Where a corner slides along a face, it is short; seen from the body of
+/// the face, whose plane stands still there, the times at which the corners of the other can come
 /// through that plane are a better bound.
 ///
 /// Where they meet, or else where they are nearest, the manifold is found anew, and its gaps are
