@@ -193,7 +193,8 @@ void dropHiddenSides(State& state, Scratch& scratch) {
     for (auto s = first; s != last; ++s) {
       Contact& contact = contactOf(state, *s);
       if (contact.count == 0 || bears(contact)) continue;
-      const bool hidden = isHiddenByAny(state, scratch, {first, last}, *s);
+      const std::span all(&*first, static_cast<std::size_t>(last - first));
+      const bool hidden = isHiddenByAny(state, scratch, all, *s);
       if (hidden) contact.count = 0, contact.quiet_steps = 0;
     }
     first = last;

@@ -143,9 +143,9 @@ template <class R, class I, class C = std::ranges::less, class P = std::identity
 void inplace_merge(R&& r, I middle, C c = {}, P p = {}) {
   std::inplace_merge(std::begin(r), middle, std::end(r), shim::comparing(c, p));
 }
-template <class A, class B>
-bool equal(A&& a, B&& b) {
-  return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b));
+template <class A, class B, class C = std::ranges::equal_to>
+bool equal(A&& a, B&& b, C c = {}) {
+  return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b), c);
 }
 template <class R>
 auto unique(R&& r) {
