@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "src2d/scene/names.h"
 #include "src2d/world.h"
 
 namespace merge2d {
@@ -186,6 +187,16 @@ void warnOfWhatDoesNothing(Scene& scene) {
        [](const SpringDesc& spring) { return spring.stiffness == 0.0 && spring.damping == 0.0; });
   look(scene.impulses, "impulse", [](const ImpulseDesc& i) { return i.impulse == Vec2::Zero(); });
   look(scene.forces, "force", [](const ForceDesc& f) { return f.force == Vec2::Zero(); });
+}
+
+void warnOfMixedRules(Scene& scene) {
+  const MergingRule merging = scene.settings.merging.rule;
+  const UnmergingRule unmerging = scene.settings.unmerging.rule;
+  if ((merging == MergingRule::Paper) == (unmerging == UnmergingRule::Paper)) return;
+  scene.warnings.push_back(fmt::format(
+      "merging.rule is \"{}\" and unmerging.rule is \"{}\": one welds what the other cuts, so that "
+      "pairs merge and come apart in turn; set both to \"paper\", or neither",
+      nameOf(merging), nameOf(unmerging)));
 }
 
 void warnOfStrainedJoints(Scene& scene) {

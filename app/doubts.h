@@ -19,6 +19,10 @@ void warnOfHaste(Scene& scene);
 /// forces and impulses of zero.
 void warnOfWhatDoesNothing(Scene& scene);
 
+/// The paper's rule for merging beside another one for unmerging, or the other way round: one welds
+/// what the other cuts.
+void warnOfMixedRules(Scene& scene);
+
 /// Joints that begin outside their limits, or with another length than their own: they pull at
 /// once.
 void warnOfStrainedJoints(Scene& scene);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "app/doubts.h"
 #include "app/interrupt.h"
 #include "app/lesson_source.h"
 #include "src2d/core/error.h"
@@ -49,6 +50,7 @@ double processorSeconds() {
 
 Scene loadScene(const SceneOptions& options, const Console& console) {
   Scene scene = sceneOrLesson(options);
+  warnOfMixedRules(scene);
   for (const std::string& warning : scene.warnings) console.warn(warning);
   warnOfIdleSeed(options, scene, console);
   if (options.steps) scene.duration = static_cast<double>(*options.steps) * scene.step;

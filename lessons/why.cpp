@@ -19,6 +19,8 @@ constexpr Measure kMeasures[] = {
     {"sliding", "slip", "m/s"},
     {"breathing", "change of overlap", "m"},
     {"opening", "opening", "m/s"},
+    {"footing", "motion of its parts on their foot", "m/s"},
+    {"motion", "relative motion", "m/s"},
     {"carried-off", "motion against the whole", "m/s"},
     {"rest", "motion in the world", "m/s"},
 };

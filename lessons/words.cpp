@@ -119,7 +119,9 @@ std::string sleeping(const Decision& d) {
     return "a kick, another load or a moving neighbour disturbs it (Section 7)";
   }
   if (d.criterion == "neighbours") return "something that it touches is awake (Section 7)";
-  if (d.criterion == "inner-forces") return "the forces inside it still change (Section 7)";
+  if (d.criterion == "inner-forces") {
+    return fmt::format("the forces inside it still change ({})", equationName(d.equation));
+  }
   return fmt::format("it has been at rest for {} of {} steps (Section 7)", d.count, d.needed);
 }
 
@@ -192,6 +194,8 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
     return compared(gathered ? summed("relative motion", d.count) : "relative motion", d, "/s");
   }
   if (c == "breathing") return compared("the change of overlap", d, " per step");
+  if (c == "footing") return compared("the motion of its parts on their foot", d, "/s");
+  if (c == "motion") return compared("relative motion", d, "/s");
   if (c == "carried-off") return compared("the motion of one of them against the whole", d, "/s");
   if (c == "rest") return compared("its motion in the world", d, "/s");
   if (c == "balance") return compared("what it gained in this step", d, "/s");

@@ -145,7 +145,7 @@ Decision decide(const Weld& weld, double speed, double threshold) {
           .b = weld.b,
           .stage = "Unmerge",
           .criterion = "motion",
-          .equation = "",
+          .equation = kOwnDecided,
           .value = speed,
           .threshold = threshold,
           .count = speed > threshold ? 1 : 0,

@@ -54,7 +54,7 @@ void notePatience(Notes* notes, const BodyPair& pair, int count) {
                               .b = pair.b,
                               .stage = "AccumulateRelativeMotion",
                               .criterion = "patience",
-                              .equation = "Section 5.1",
+                              .equation = kOwnMerging,
                               .value = static_cast<double>(-count),
                               .threshold = 0.0,
                               .verdict = "wait"});
@@ -168,13 +168,14 @@ void countQuietRigids(State& state, Scratch& scratch) {
     const int before = r.quiet_steps;
     r.quiet_steps = slow && at_rest ? r.quiet_steps + 1 : 0;
     if (!scratch.notes) continue;
-    const auto note = [&](std::string_view criterion, double value, double threshold, bool below) {
+    const auto note = [&](std::string_view criterion, std::string_view equation, double value,
+                          double threshold, bool below) {
       const BodyId body = state.firstBody(id);
       scratch.notes->decisions.push_back({.a = body,
                                           .b = body,
                                           .stage = "AccumulateRelativeMotion",
                                           .criterion = criterion,
-                                          .equation = "Section 7",
+                                          .equation = equation,
                                           .value = value,
                                           .threshold = threshold,
                                           .count = r.quiet_steps,
@@ -182,8 +183,8 @@ void countQuietRigids(State& state, Scratch& scratch) {
                                           .verdict = below ? "below" : "awake",
                                           .before = before});
     };
-    note("rest", motion, velocity, slow);
-    if (slow && sleeping.time > 0.0) note("balance", gain, largest, at_rest);
+    note("rest", "Section 7", motion, velocity, slow);
+    if (slow && sleeping.time > 0.0) note("balance", kOwnSleeping, gain, largest, at_rest);
   }
 }
 

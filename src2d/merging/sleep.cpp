@@ -99,7 +99,9 @@ void noteSleep(const State& state, const Scratch& scratch, RigidId id, bool stay
   } else if (r.asleep) {
     because("neighbours");
   } else if (r.quiet_steps >= needed && stays_awake) {
-    because(c && !c->settled ? "inner-forces" : "neighbours");
+    const bool settles = c && !c->settled;
+    if (settles) d.equation = kOwnSleeping;
+    because(settles ? "inner-forces" : "neighbours");
   }
   notes->decisions.push_back(d);
 }

@@ -119,7 +119,7 @@ bool WeldTest::testBroken(std::uint32_t weld, Drift& opening, double w_n) {
   const Evidence found = weigh(opening, std::max(0.0, w_n), threshold);
   note(c_.welds[weld], [&] {
     return Decision{.criterion = "opening",
-                    .equation = "Section 6.3",
+                    .equation = kOwnUnmerging,
                     .value = found.sum,
                     .threshold = threshold,
                     .count = found.steps,
@@ -153,7 +153,7 @@ void WeldTest::testSliding(std::uint32_t weld, Drift& slip, double w_t) {
   const Evidence found = weigh(slip, w_t, threshold);
   note(c_.welds[weld], [&] {
     return Decision{.criterion = "sliding",
-                    .equation = "(19)",
+                    .equation = kOwnUnmerging,
                     .value = found.sum,
                     .threshold = threshold,
                     .count = found.steps,
@@ -184,7 +184,7 @@ void WeldTest::testMotion(Weld& weld) {
   const bool cut = turns(weld, now, limits);
   note(weld, [&] {
     return Decision{.criterion = "relative-motion",
-                    .equation = "(17)",
+                    .equation = kOwnUnmerging,
                     .value = std::abs(weld.turning.sum),
                     .threshold = settings.velocity * caution(weld),
                     .count = weld.turning.steps,

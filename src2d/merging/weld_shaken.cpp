@@ -43,7 +43,7 @@ void WeldTest::testShake(Weld& weld, const VelocityField& whole) {
   if (!parts && sway <= most) return;
   note(weld, [&] {
     return Decision{.criterion = parts ? "relative-motion" : "carried-off",
-                    .equation = "(17)",
+                    .equation = parts ? "(17)" : kOwnUnmerging,
                     .value = parts ? motion : sway,
                     .threshold = parts ? threshold : most,
                     .count = 1,

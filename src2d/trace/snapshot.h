@@ -112,13 +112,19 @@ struct Event {
   EventReason reason = EventReason::None;
 };
 
+/// The source of a criterion that is not the paper's: a page, and its section.
+inline constexpr std::string_view kOwnMerging = "docs/decisions/cures.md#when-to-merge",
+                                  kOwnUnmerging = "docs/decisions/cures.md#when-to-unmerge",
+                                  kOwnSleeping = "docs/decisions/cures.md#when-to-sleep",
+                                  kOwnDecided = "docs/decisions/decided.md#decision";
+
 /// One test of one criterion about a pair: the number, the threshold, and what followed. The words
 /// for it are in docs/records.md.
 struct Decision {
   BodyId a{}, b{};           ///< the pair; in SleepAndWake both are the first body of what sleeps
   std::string_view stage{};  ///< as in Algorithm 1: "Merge", "Unmerge", …
   std::string_view criterion{};  ///< "relative-motion", "sliding", "breathing", …
-  std::string_view equation{};   ///< "(17)"
+  std::string_view equation{};   ///< "(17)", "Section 5.1", or kOwnMerging and its like
   double value = 0.0;
   double threshold = 0.0;
   int count = 0;  ///< consecutive steps, this one included; 0: starts anew

@@ -298,6 +298,20 @@ TEST_F(Run, WarnsOnStderrUnlessQuiet) {
   EXPECT_THAT(run({"run", "empty.toml", "--quiet"}).err, IsEmpty());
 }
 
+TEST_F(Run, RulesThatContradictEachOtherAreWarnedOf) {
+  const auto warnings = [&](const std::string& merging, const std::string& unmerging) {
+    return run({"run", "books", "--steps", "1", "--set", "merging.rule=" + merging, "--set",
+                "unmerging.rule=" + unmerging})
+        .err;
+  };
+  for (const char* unmerging : {"default", "decided"}) {
+    EXPECT_THAT(warnings("paper", unmerging), HasSubstr("one welds what the other cuts"));
+    EXPECT_EQ(warnings("default", unmerging), "");
+  }
+  EXPECT_THAT(warnings("default", "paper"), HasSubstr("set both to \"paper\", or neither"));
+  EXPECT_EQ(warnings("paper", "paper"), "");
+}
+
 TEST_F(Run, ContinuesFromASnapshotWithTheSameBytes) {
   run({"run", "pile", "--steps", "120", "--trace", "whole.jsonl", "--no-timings"});
   EXPECT_EQ(run({"run", "pile", "--steps", "70", "--snapshot", "70.state"}).code, 0);

@@ -7,6 +7,8 @@ import type { DecisionTrack } from './tracks';
 
 const kNames: Record<string, [string, string]> = {
   'relative-motion': ['Fastest relative motion', 'm/s'],
+  footing: ['Motion of its parts on their foot', 'm/s'],
+  motion: ['Fastest relative motion', 'm/s'],
   'carried-off': ['Motion against the whole', 'm/s'],
   sliding: ['Slip', 'm/s'],
   breathing: ['Breathing: change of overlap', 'm'],
