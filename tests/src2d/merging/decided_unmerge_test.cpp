@@ -208,7 +208,7 @@ TEST(DecidedUnmerge, TheFrictionBelowASwingingWallIsThatOfItsMotion) {
   EXPECT_LT(off, 0.06 * largest);
 }
 
-TEST(DecidedUnmerge, SaysWhichMotionItDecidedFromAndCitesNoEquation) {
+TEST(DecidedUnmerge, SaysWhichMotionItDecidedFromAndCitesItsPage) {
   Simulation run(heavyTop(5, 11.448, 20.0), Mode::Merge, kDecidedRule, true);
   bool found = false;
   while (run.world().time() < 5.0 && !found) {
@@ -217,7 +217,7 @@ TEST(DecidedUnmerge, SaysWhichMotionItDecidedFromAndCitesNoEquation) {
       if (d.criterion != "motion" || d.verdict != "unmerge") continue;
       found = true;
       EXPECT_GT(d.value, d.threshold);
-      EXPECT_EQ(d.equation, "");
+      EXPECT_EQ(d.equation, kOwnDecided);
       EXPECT_EQ(d.stage, "Unmerge");
     }
   }
