@@ -71,7 +71,8 @@ TEST(Errors, WordsMustBeOfTheirList) {
        "2:10: 'cycles' in [merging] must be one of \"off\", \"triangle\", \"rigid\", but is "
        "\"triangel\" (did you mean 'triangle'?)"},
       {"[solver]\nmethod = \"gauss\"",
-       "2:10: 'method' in [solver] must be one of \"nncg\", \"block\", \"pgs\", \"newton\", but is \"gauss\""},
+       "2:10: 'method' in [solver] must be one of \"nncg\", \"block\", \"pgs\", \"newton\", but is "
+       "\"gauss\""},
       {body("motion = \"Pinned\""),
        "3:10: 'motion' in [[body]] must be one of \"dynamic\", \"pinned\", \"scripted\", but is "
        "\"Pinned\" (did you mean 'pinned'?)"},
