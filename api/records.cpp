@@ -115,7 +115,8 @@ void hand(const std::vector<T>& list, const T** first, size_t* count) {
 void requireNotes(const m2_world& world) {
   if (world.noted) return;
   throw InputError(
-      "the last step did not note its decisions: m2_world_note_decisions(world, true) before it");
+      "the last step did not note its decisions; before it, call m2_world_note_decisions (C) or "
+      "noteDecisions (C++), or make the world with decisions=True (Python)");
 }
 
 void requireBody(const m2_world& world, m2_body body) {
