@@ -160,8 +160,8 @@ std::string heatMapsSvg(const StudyData& data, const Measure& measure, const Stu
     maps[i].high = spread.high;
     maps[i].logarithmic = spread.logarithmic;
     const float width = static_cast<float>(kPageWidth) / static_cast<float>(columns);
-    const auto column = static_cast<float>(static_cast<int>(i) % columns);
-    const auto row = static_cast<float>(static_cast<int>(i) / columns);
+    const int place = static_cast<int>(i), line = place / columns;
+    const auto column = static_cast<float>(place % columns), row = static_cast<float>(line);
     drawHeatMap(
         painter, maps[i], lightTheme(),
         {column * width, row * static_cast<float>(height), width, static_cast<float>(height)},

@@ -69,8 +69,9 @@ std::vector<Pixel> coreOf(const ShapeInstance& shape, const std::vector<Edge>& e
   const auto placed = [&](float x, float y) { return shape.center + u * x + v * y; };
   if (shape.edge_count > 0) {
     std::vector<Pixel> corners;
-    for (std::int32_t i = 0; i < shape.edge_count; ++i) {
-      const Pixel from = edges[static_cast<std::size_t>(shape.first_edge + i)].from;
+    const auto first = static_cast<std::size_t>(shape.first_edge);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(shape.edge_count); ++i) {
+      const Pixel from = edges[first + i].from;
       corners.push_back(placed(from.x, from.y));
     }
     return corners;

@@ -218,12 +218,12 @@ PngSummary inspectPng(std::span<const std::uint8_t> bytes) {
 }
 
 bool isOurPng(const std::filesystem::path& file) {
-  constexpr std::size_t kHead = 2048;  // bytes in which the text begins, behind a palette
+  constexpr std::size_t kHeader = 2048;  // bytes in which the text begins, behind a palette
   // After the key two zeros say that the text is not compressed.
   const std::string text =
       fmt::format("iTXt{0}{1}{1}{1}{2}{1}{0}{1}", kTextKey, '\0', kTextLanguage);
   std::ifstream in(file, std::ios::binary);
-  std::string head(kHead, '\0');
+  std::string head(kHeader, '\0');
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));
   return std::ranges::equal(head.substr(0, kPngSignature.size()), kPngSignature, {},
