@@ -110,8 +110,7 @@ std::string firstError(const ProcessEnd& end) {
 class Runs {
  public:
   explicit Runs(const StudyOptions& options)
-      : options_(options),
-        folder_(options.folderOrDefault()),
+      : folder_(options.folderOrDefault()),
         study_(readStudy(options.file)),
         runs_(runsOf(study_)),
         keys_(study_) {}
@@ -156,7 +155,6 @@ class Runs {
   }
 
  private:
-  const StudyOptions& options_;
   fs::path folder_;
   Study study_;
   std::vector<StudyRun> runs_;
