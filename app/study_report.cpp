@@ -6,6 +6,7 @@
 
 #include "app/statistics.h"
 #include "app/study_charts.h"
+#include "lessons/page.h"
 
 namespace merge2d {
 namespace {
@@ -24,29 +25,6 @@ p.scale span.ramp { width: 12em; height: 0.9em; display: inline-block;
   background: linear-gradient(to right, #f2f6fb, #bcd4ea, #74a9d3, #2f78b3, #0b3d73); }
 )";
 
-std::string html(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string joined(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
@@ -64,9 +42,10 @@ std::string introduction(const StudyData& data) {
   std::string out = fmt::format("<p>{} runs, {} of them failed; {:.3g} s of processor time.</p>\n",
                                 data.rows(), failed, seconds);
   const auto programs = data.valuesOf("program"), states = data.valuesOf("git");
-  out += fmt::format(
-      "<p>Made by {}{}. Every number is in <a href=\"study.csv\">study.csv</a>.</p>\n",
-      html(joined(programs)), states.empty() ? "" : ", sources " + html(joined(states)));
+  out +=
+      fmt::format("<p>Made by {}{}. Every number is in <a href=\"study.csv\">study.csv</a>.</p>\n",
+                  escapedHtml(joined(programs)),
+                  states.empty() ? "" : ", sources " + escapedHtml(joined(states)));
   if (programs.size() > 1 || states.size() > 1) {
     out += "<p><strong>Not all runs are of one version of the program.</strong></p>\n";
   }
@@ -80,12 +59,12 @@ std::string summaryTable(const StudyData& data, const std::vector<Measure>& meas
       "<th scope=\"col\" class=\"text\">scene</th>"
       "<th scope=\"col\" class=\"text\">mode</th><th scope=\"col\">runs</th>";
   for (const Measure& measure : measures) {
-    out += fmt::format("<th scope=\"col\">{}</th>", html(measure.title));
+    out += fmt::format("<th scope=\"col\">{}</th>", escapedHtml(measure.title));
   }
   out += "</tr></thead>\n<tbody>\n";
   for (const StudyGroup& group : groupsOf(data)) {
     out += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td>{}</td>",
-                       html(group.scene), html(group.mode), group.rows.size());
+                       escapedHtml(group.scene), escapedHtml(group.mode), group.rows.size());
     for (const Measure& measure : measures) {
       std::vector<double> values;
       for (const std::size_t row : group.rows) {
@@ -109,8 +88,9 @@ std::string failures(const StudyData& data) {
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td class=\"text\">{}</td>"
         "<td>{}</td><td class=\"text\">{}</td></tr>\n",
-        html(data.text(row, "run")), html(data.text(row, "scene")), html(data.text(row, "mode")),
-        html(data.text(row, "exit_code")), html(data.text(row, "message")));
+        escapedHtml(data.text(row, "run")), escapedHtml(data.text(row, "scene")),
+        escapedHtml(data.text(row, "mode")), escapedHtml(data.text(row, "exit_code")),
+        escapedHtml(data.text(row, "message")));
   }
   if (count == 0) return "";
   std::string out =
@@ -136,17 +116,18 @@ std::vector<std::pair<std::size_t, std::size_t>> pairsOf(std::size_t axes) {
 }
 
 std::string chartsOf(const StudyData& data, const Measure& measure, std::size_t number) {
-  std::string out = fmt::format("<h2>{}</h2>\n", html(measure.title));
+  std::string out = fmt::format("<h2>{}</h2>\n", escapedHtml(measure.title));
   int charts = 0;
   const auto id = [&] { return fmt::format("m{}c{}", number, charts++); };
   const auto& axes = data.axes();
   for (const auto& [x, y] : pairsOf(axes.size())) {
-    out += fmt::format("<h3>Over {} and {}, means</h3>\n", html(axes[x].key), html(axes[y].key));
+    out += fmt::format("<h3>Over {} and {}, means</h3>\n", escapedHtml(axes[x].key),
+                       escapedHtml(axes[y].key));
     out += "<p class=\"scale\">less <span class=\"ramp\"></span> more</p>\n";
     out += heatMapsSvg(data, measure, axes[x], axes[y], id());
   }
   for (const StudyPlaces& axis : axes) {
-    out += fmt::format("<h3>Over {}, means</h3>\n", html(axis.key));
+    out += fmt::format("<h3>Over {}, means</h3>\n", escapedHtml(axis.key));
     out += linesSvg(data, measure, axis, id());
   }
   out += "<h3>Distribution</h3>\n";
@@ -162,7 +143,7 @@ std::string studyReport(const StudyData& data) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"generator\" content=\"merge2d study\">\n"
       "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
-      html(data.title()), kStyle);
+      escapedHtml(data.title()), kStyle);
   out += introduction(data);
   out += summaryTable(data, measures);
   for (std::size_t i = 0; i < measures.size(); ++i) out += chartsOf(data, measures[i], i);

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <utility>
 
+#include "lessons/page.h"
+
 namespace merge2d {
 namespace {
 
@@ -30,26 +32,6 @@ constexpr std::array<Command, 37> kCommands = {{
     {"sin", "sin", true},      {"cos", "cos", true},   {"tan", "tan", true},
     {"quad", "\u2003", false},
 }};
-
-std::string escapedXml(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool isLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
@@ -109,7 +91,7 @@ class MathReader {
     if (first == '-') return "<mo>−</mo>";
     // Beyond ASCII only letters, as λ; all else is an operator.
     const bool letter = isLetter(first) || one.size() > 1;
-    return fmt::format("<{0}>{1}</{0}>", letter ? "mi" : "mo", escapedXml(one));
+    return fmt::format("<{0}>{1}</{0}>", letter ? "mi" : "mo", escapedHtml(one));
   }
 
   std::string group() {
@@ -157,7 +139,7 @@ class MathReader {
     const std::size_t end = std::min(text_.find('}'), text_.size());
     const std::string_view inside = text_.substr(1, end - 1);
     text_.remove_prefix(std::min(end + 1, text_.size()));
-    return fmt::format("<mtext>{}</mtext>", escapedXml(inside));
+    return fmt::format("<mtext>{}</mtext>", escapedHtml(inside));
   }
 
   void skipSpaces() {

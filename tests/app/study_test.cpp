@@ -233,7 +233,7 @@ TEST_F(StudyCommand, AReportNamesTheRunsThatFailed) {
   EXPECT_EQ(run({"study", "--report", "out"}).code, 0);
   EXPECT_THAT(read("out/report.html"),
               AllOf(HasSubstr("<h1>A &lt;b&gt; &amp; c</h1>"), HasSubstr("Runs that failed"),
-                    HasSubstr("'iterations' in [solver] must be")));
+                    HasSubstr("&#39;iterations&#39; in [solver] must be")));
 }
 
 TEST_F(StudyCommand, NoReportOfWhatIsNoStudy) {
