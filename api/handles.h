@@ -27,7 +27,7 @@ struct WatchedArrays {
   std::unique_ptr<std::int32_t[]> collections;
 };
 
-/// What the last step did, as the public interface shows it.
+/// The results of the last step, as the public interface shows it.
 struct WorldRecords {
   bool captured = false;  ///< `snapshot` and the arrays below are of now
   merge2d::Snapshot snapshot;
@@ -53,10 +53,10 @@ struct m2_world {
   std::string saved;
 
   std::unique_ptr<merge2d::FrameDrawer> drawer;
-  std::string drawn_as;  ///< what the drawer was made for
+  std::string drawn_as;  ///< the drawing for which the drawer was made
   std::thread::id drawn_by;
 
-  /// To be called after each change: what was seen of the world is of the past.
+  /// To be called after each change: views of the world are stale then.
   void changed();
   /// The records of now.
   const WorldRecords& seen();
@@ -65,7 +65,7 @@ struct m2_world {
 
 namespace merge2d {
 
-/// Keeps the message of what is being handled, for m2_error.
+/// Keeps the message of the current exception, for m2_error.
 m2_status failed(m2_status status, const char* message) noexcept;
 /// The status of the exception that is being handled.
 m2_status failure() noexcept;
@@ -106,7 +106,7 @@ char* copyOf(std::string_view text);
 inline Vec2 toVec(m2_vec v) { return {v.x, v.y}; }
 inline m2_vec fromVec(const Vec2& v) { return {v.x(), v.y()}; }
 
-/// Throw InputError for what makes no sense.
+/// Throw InputError for values without meaning.
 BodyDesc toDesc(const m2_body_def& def);
 SpringDesc toDesc(const m2_spring_def& def);
 JointDesc toDesc(const m2_joint_def& def);

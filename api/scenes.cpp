@@ -25,7 +25,7 @@ Overrides overridesOf(const char* const* changes, std::size_t count) {
   return overrides;
 }
 
-/// The number of what was added last.
+/// The number of the last entry.
 void tellLast(std::size_t count, std::uint32_t* number) {
   if (number != nullptr) *number = static_cast<std::uint32_t>(count - 1);
 }

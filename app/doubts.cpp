@@ -193,10 +193,11 @@ void warnOfMixedRules(Scene& scene) {
   const MergingRule merging = scene.settings.merging.rule;
   const UnmergingRule unmerging = scene.settings.unmerging.rule;
   if ((merging == MergingRule::Paper) == (unmerging == UnmergingRule::Paper)) return;
-  scene.warnings.push_back(fmt::format(
-      "merging.rule is \"{}\" and unmerging.rule is \"{}\": one welds what the other cuts, so that "
-      "pairs merge and come apart in turn; set both to \"paper\", or neither",
-      nameOf(merging), nameOf(unmerging)));
+  scene.warnings.push_back(
+      fmt::format("merging.rule is \"{}\" and unmerging.rule is \"{}\": one cuts the welds of the "
+                  "other, so that "
+                  "pairs merge and come apart in turn; set both to \"paper\", or neither",
+                  nameOf(merging), nameOf(unmerging)));
 }
 
 void warnOfStrainedJoints(Scene& scene) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a scene may say, but is seldom meant: each adds to the warnings of the scene.
+/// Settings that are allowed but seldom meant: each adds to the warnings of the scene.
 
 #include "src2d/scene/scene.h"
 
@@ -15,12 +15,12 @@ void warnOfWhatComesTooLate(Scene& scene);
 /// an emitter.
 void warnOfHaste(Scene& scene);
 
-/// What does nothing: scripts that never move their body, the mass of a pinned body, and springs,
-/// forces and impulses of zero.
+/// Entries without effect: scripts that never move their body, the mass of a pinned body, and
+/// springs, forces and impulses of zero.
 void warnOfWhatDoesNothing(Scene& scene);
 
-/// The paper's rule for merging beside another one for unmerging, or the other way round: one welds
-/// what the other cuts.
+/// The paper's rule for merging beside another one for unmerging, or the other way round: one cuts
+/// the welds of the other.
 void warnOfMixedRules(Scene& scene);
 
 /// Joints that begin outside their limits, or with another length than their own: they pull at

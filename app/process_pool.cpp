@@ -34,7 +34,7 @@ int fileInMemory() {
   return file;
 }
 
-/// The beginning of what was written to a file, which is empty afterwards.
+/// The beginning of a file, which is empty afterwards.
 std::string takeText(int file) {
   std::string text(kMostOutput, '\0');
   const ssize_t got = pread(file, text.data(), text.size(), 0);

@@ -19,7 +19,7 @@ struct ProcessEnd {
   double wall_seconds = 0.0;      ///< from its start to its end
   double cpu_seconds = 0.0;       ///< of all its threads
   std::int64_t memory_bytes = 0;  ///< the most that it held
-  std::string out{}, err{};       ///< the beginnings of what it wrote
+  std::string out{}, err{};       ///< the beginnings of its output
 };
 
 /// Up to so many processes at once. They are killed with this object and with this program, however

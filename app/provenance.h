@@ -10,7 +10,7 @@
 
 namespace merge2d {
 
-/// What identifies a scene with all its changes: 16 hexadecimal digits over its text.
+/// The digest of a scene with all its changes: 16 hexadecimal digits over its text.
 std::string digestOfScene(const Scene& scene);
 
 /// Gravity, step, duration, seed and every table of settings, defaults included.

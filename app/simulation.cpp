@@ -39,7 +39,7 @@ Scene sceneOrLesson(const SceneOptions& options) {
   return loadScene(options.scene, options.overrides);
 }
 
-/// What this process has taken of processors so far, in all threads.
+/// Processor time of this process so far, in all threads [s].
 double processorSeconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);

@@ -46,7 +46,7 @@ class Simulation {
 
   /// Of each step so far [ms].
   const std::vector<double>& milliseconds() const { return milliseconds_; }
-  /// What the steps so far took of processors, in all threads [s].
+  /// Processor time of the steps so far, in all threads [s].
   double cpuSeconds() const { return cpu_seconds_; }
 
  private:

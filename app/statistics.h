@@ -1,5 +1,5 @@
 #pragma once
-/// Means and medians of what was measured.
+/// Means and medians of measured values.
 
 #include <vector>
 

@@ -96,7 +96,7 @@ std::string shellCommand(const std::vector<std::string>& words) {
   return line;
 }
 
-/// The first line of what a process complained about.
+/// The first line of a process's error messages.
 std::string firstError(const ProcessEnd& end) {
   if (end.timed_out) return "it took longer than its time limit";
   const std::size_t at = end.err.find("error: ");
@@ -106,7 +106,7 @@ std::string firstError(const ProcessEnd& end) {
   return end.err.substr(at + 7, end.err.find('\n', at) - at - 7);
 }
 
-/// A study with its runs and what is known of them.
+/// A study with its runs and their rows.
 class Runs {
  public:
   explicit Runs(const StudyOptions& options)
@@ -128,7 +128,7 @@ class Runs {
     }
   }
 
-  /// What a process of a run is started with.
+  /// The arguments of the process of a run.
   std::vector<std::string> processArguments(std::size_t run) const {
     std::vector<std::string> words = argumentsOf(study_, runs_[run]);
     if (study_.reference_error) {
@@ -212,7 +212,7 @@ void runAll(const StudyOptions& options, Runs& runs, const std::vector<std::size
   }
 }
 
-/// What is said when it is over.
+/// The summary at the end.
 void report(const StudyOptions& options, Runs& runs, std::size_t ran, const Console& console) {
   std::size_t finished = 0, failed = 0;
   for (std::size_t i = 0; i < runs.rows().size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// A study: what its file asks for, and the runs that follow from it.
+/// A study: the content of its file, and the runs that follow from it.
 
 #include <cstdint>
 #include <filesystem>
@@ -68,7 +68,7 @@ std::vector<StudyRun> runsOf(const Study& study);
 /// The changes of the scene that a run makes.
 Overrides overridesOf(const Study& study, const StudyRun& run);
 
-/// What `merge2d` is called with for a run, without the program's name: "run", "pile", "--mode", …
+/// The arguments of `merge2d` for a run, without the program's name: "run", "pile", "--mode", …
 std::vector<std::string> argumentsOf(const Study& study, const StudyRun& run);
 
 }  // namespace merge2d

@@ -163,7 +163,7 @@ std::vector<std::string> readTexts(const Value& value) {
   return texts;
 }
 
-/// A file is looked for beside the study; what is no file there may be a built-in name.
+/// A file is looked for beside the study; a name without a file there may be a built-in one.
 std::string sceneFromHere(const std::string& scene, const fs::path& study) {
   const fs::path beside = study.parent_path() / scene;
   std::error_code ignored;
@@ -209,7 +209,7 @@ void readLength(TableReader& root, Study& study) {
   }
 }
 
-/// What a grid multiplies to; a wrong file must not fill the memory.
+/// The number of runs of a grid; a wrong file must not fill the memory.
 void requireFewRuns(TableReader& root, const Study& study) {
   double runs = study.crossed || study.design == StudyDesign::Grid
                     ? static_cast<double>(study.scenes.size() * study.modes.size())

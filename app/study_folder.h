@@ -1,7 +1,7 @@
 #pragma once
 /// The folder of a study:
-///   study.json   what the study varies
-///   rows/        a file for each run, which appears complete or not at all: what counts
+///   study.json   the parameters that vary
+///   rows/        a file for each run, which appears complete or not at all: they count
 ///   ends/        where the reference runs end
 ///   study.csv    all rows as one table; always of whole lines, and made anew from `rows`
 

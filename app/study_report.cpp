@@ -31,7 +31,7 @@ std::string joined(const std::vector<std::string>& words) {
   return out;
 }
 
-/// What there is, and where it comes from.
+/// The number of runs, and their program.
 std::string introduction(const StudyData& data) {
   std::size_t failed = 0;
   double seconds = 0.0;

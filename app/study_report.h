@@ -1,5 +1,5 @@
 #pragma once
-/// A study as one page: what its runs gave, in charts.
+/// A study as one page: the results of its runs, in charts.
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What is kept of a run of a study: a small file each, which appears complete or not at all.
+/// The record of a run of a study: a small file each, which appears complete or not at all.
 
 #include <filesystem>
 #include <optional>

@@ -55,7 +55,7 @@ M2_API const char* m2_version(void);
 
 /** How a call ended. */
 typedef enum m2_status {
-  M2_OK = 0,               /**< it has done what was asked */
+  M2_OK = 0,               /**< success */
   M2_INPUT_ERROR = 1,      /**< a scene, a value or a saved state that cannot be used */
   M2_IO_ERROR = 2,         /**< reading, writing or drawing failed */
   M2_SIMULATION_ERROR = 3, /**< a number stopped being finite; the world cannot go on */
@@ -93,7 +93,7 @@ typedef int32_t m2_collection_id;
 /** A free body has no collection. */
 #define M2_NO_COLLECTION (-1)
 
-/** What a shape is. */
+/** Kinds of shapes. */
 typedef enum m2_shape_kind { M2_CIRCLE = 0, M2_BOX = 1, M2_POLYGON = 2 } m2_shape_kind;
 
 /** A piece of a body, in the body's frame. */
@@ -148,7 +148,7 @@ typedef struct m2_script {
   double spin;         /**< of a steady motion [rad/s] */
 } m2_script;
 
-/** What a body is made from. Start from `m2_body_def_default()`. */
+/** The definition of a body. Start from `m2_body_def_default()`. */
 typedef struct m2_body_def {
   const char* name; /**< null: none */
   m2_motion motion; /**< how it moves */
@@ -184,7 +184,7 @@ typedef struct m2_spring_def {
 /** A spring to the world, without stiffness. */
 M2_API m2_spring_def m2_spring_def_default(void);
 
-/** What a joint leaves free. */
+/** Kinds of joints, by their free motion. */
 typedef enum m2_joint_kind {
   M2_REVOLUTE = 0, /**< the bodies share a point and turn about it */
   M2_WELD = 1,     /**< they do not move against each other */
@@ -194,7 +194,7 @@ typedef enum m2_joint_kind {
 
 /** Holds two bodies together, or one to the world, as they stand when it is made. */
 typedef struct m2_joint_def {
-  m2_joint_kind kind;    /**< what it leaves free */
+  m2_joint_kind kind;    /**< its free motion */
   m2_body a;             /**< the first body */
   m2_body b;             /**< M2_NO_BODY: the world */
   m2_vec at;             /**< world point [m]; of a distance joint its end on `a` */
@@ -217,7 +217,7 @@ typedef struct m2_joint_def {
 /** A revolute joint to the world at the origin, which never breaks. */
 M2_API m2_joint_def m2_joint_def_default(void);
 
-/** Bodies, springs, joints and settings: what a world begins with. */
+/** Bodies, springs, joints and settings: the beginning of a world. */
 typedef struct m2_scene m2_scene;
 
 /** An empty scene: gravity (0, -9.81) m/s^2, time step 0.01 s. Null when memory lacks. */
@@ -261,7 +261,7 @@ M2_API m2_status m2_scene_add_magnet(m2_scene* scene, m2_body body, double from,
  * says. They are numbered behind all other bodies and named "name[k]". */
 M2_API m2_status m2_scene_add_emitter(m2_scene* scene, const m2_body_def* def, double every,
                                       double start, uint32_t count, m2_vec spread, uint64_t seed);
-/** What pictures show: `height` metres about `center` [m]. Else all bodies over the whole run. */
+/** The view of pictures: `height` metres about `center` [m]. Else all bodies over the whole run. */
 M2_API m2_status m2_scene_set_camera(m2_scene* scene, m2_vec center, double height);
 
 /** How many bodies have been added. */
@@ -280,8 +280,8 @@ M2_API m2_status m2_scene_list(char** text);
 /** Which of the two savings are on. */
 typedef enum m2_mode {
   M2_REFERENCE = 0,  /**< every body on its own */
-  M2_SLEEP = 1,      /**< what rests sleeps */
-  M2_MERGE = 2,      /**< what moves as one is simulated as one */
+  M2_SLEEP = 1,      /**< bodies at rest sleep */
+  M2_MERGE = 2,      /**< bodies that move as one are simulated as one */
   M2_MERGE_SLEEP = 3 /**< both: the usual one */
 } m2_mode;
 
@@ -417,11 +417,11 @@ M2_API const double* m2_world_watch_velocities(m2_world* world);
 M2_API const int32_t* m2_world_watch_collections(m2_world* world);
 
 /* ------------------------------------------------------------------------------------------------
- * Worlds: what the last step did. The arrays belong to the world and are valid until it is stepped,
- * changed or freed.
+ * Worlds: the results of the last step. The arrays belong to the world and are valid until it is
+ * stepped, changed or freed.
  */
 
-/** What a contact does in this step: nothing, hold, or slide. */
+/** The state of a contact in this step: nothing, hold, or slide. */
 typedef enum m2_contact_state { M2_BROKEN = 0, M2_STICKING = 1, M2_SLIDING = 2 } m2_contact_state;
 
 /** A contact point. */
@@ -484,7 +484,7 @@ typedef struct m2_joint_state {
 /** All joints, by their numbers. */
 M2_API m2_status m2_world_joints(m2_world* world, const m2_joint_state** joints, size_t* count);
 
-/** What happened. */
+/** Kinds of events. */
 typedef enum m2_event_type {
   M2_EVENT_MERGE = 0,   /**< of two things one was made */
   M2_EVENT_UNMERGE = 1, /**< the end of a weld; `reason` says why */
@@ -503,7 +503,7 @@ typedef enum m2_reason {
   M2_REASON_CYCLE = 4,
   M2_REASON_USER = 5
 } m2_reason;
-/** What happened in a step. */
+/** An event of a step. */
 typedef struct m2_event {
   int32_t type;                /**< m2_event_type */
   int32_t reason;              /**< m2_reason */

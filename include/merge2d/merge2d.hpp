@@ -4,7 +4,7 @@
  * The C++ interface: classes over the functions of merge2d.h, which are documented there. Include
  * <merge2d/merge2d.h>.
  *
- * A Scene or a World owns what it stands for and can be moved. A moved-from one may only be
+ * A Scene or a World owns its object and can be moved. A moved-from one may only be
  * assigned or destroyed. Spans into a world are valid until it is stepped, changed or destroyed,
  * but for the watched ones, which live as long as the world. Failures are exceptions below; they
  * are thrown in your code, so that the library and your program may come from different compilers.
@@ -65,7 +65,7 @@ inline void check(m2_status status) {
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/** Owns what `free` frees. */
+/** Owns an object that `free` frees. */
 template <class T, void (*free)(T*)>
 class Owner {
  public:
@@ -185,7 +185,7 @@ class Shape {
   std::vector<Vec2> vertices_;
 };
 
-/** What a body is made from; units as in m2_body_def. */
+/** The definition of a body; units as in m2_body_def. */
 struct BodyDef {
   std::string name{};                               ///< see m2_body_def
   Motion motion = Motion::Dynamic;                  ///< see m2_body_def
@@ -233,7 +233,7 @@ struct PlainBodyDef {
 
 }  // namespace detail
 
-/** Bodies, springs, joints and settings: what a world begins with. */
+/** Bodies, springs, joints and settings: the beginning of a world. */
 class Scene {
  public:
   Scene() : scene_(m2_scene_new()) {
@@ -247,7 +247,7 @@ class Scene {
   Scene(Scene&&) noexcept = default;
   /** See m2_scene_copy(). */
   Scene& operator=(const Scene& other) { return *this = Scene(other); }
-  /** What this one held is freed with the other. */
+  /** The object of this one is freed with the other. */
   Scene& operator=(Scene&&) noexcept = default;
   ~Scene() = default;
 

@@ -305,7 +305,7 @@ TEST_F(Run, RulesThatContradictEachOtherAreWarnedOf) {
         .err;
   };
   for (const char* unmerging : {"default", "decided"}) {
-    EXPECT_THAT(warnings("paper", unmerging), HasSubstr("one welds what the other cuts"));
+    EXPECT_THAT(warnings("paper", unmerging), HasSubstr("one cuts the welds of the other"));
     EXPECT_EQ(warnings("default", unmerging), "");
   }
   EXPECT_THAT(warnings("default", "paper"), HasSubstr("set both to \"paper\", or neither"));
