@@ -74,6 +74,36 @@ double allSleep(int n) {
   return meanStep(world, 200);
 }
 
+/// Beside the stacks a box swings on a spring for ever.
+double allButOneSleep(int n) {
+  BenchScene of = stacks(n / 5);
+  BodyDesc lamp = of.scene.bodies.back();
+  lamp.name = "lamp";
+  lamp.at = {-30.0, 10.0};
+  of.scene.bodies.push_back(lamp);
+  SpringDesc spring;
+  spring.body = of.scene.bodies.size() - 1;
+  spring.to = {-28.0, 14.0};
+  spring.stiffness = 1e4;
+  of.scene.springs.push_back(spring);
+  World world = worldOf(of, Mode::MergeSleep);
+  run(world, 200);
+  return meanStep(world, 200);
+}
+
+/// The detection of contacts between a heap, merged into one, and the platform that it rides on.
+double aHeapRides(int n) {
+  World world(tower(n).scene, {.mode = Mode::Merge, .timings = true});
+  run(world, 300);
+  constexpr int kSteps = 100;
+  double seconds = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    world.step();
+    seconds += world.stats().seconds[static_cast<std::size_t>(Stage::ContactDetection)];
+  }
+  return seconds / kSteps;
+}
+
 double allFall(int n) {
   World world = worldOf(freeFall(n), Mode::Merge);
   run(world, 20);
@@ -91,6 +121,8 @@ const std::vector<Situation> kSituations = {
     {"stacks of 5 merge at once: slowest step", {5000, 10'000, 20'000, 40'000}, allStacksMerge},
     {"every body is kicked: that step", {1000, 2000, 4000, 8000}, allAreKicked},
     {"stacks of 5 sleep: mean step", {5000, 10'000, 20'000, 40'000}, allSleep},
+    {"all but one sleep: mean step", {5000, 10'000, 20'000, 40'000}, allButOneSleep},
+    {"a merged heap rides: its detection", {500, 1000, 2000, 4000}, aHeapRides},
     {"boxes fall freely: mean step", {2500, 5000, 10'000, 20'000}, allFall},
     {"a merged wall is struck: slowest step", {1000, 2000, 4000, 8000}, aWallIsStruck},
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src2d/contact/parking.h"
 #include "src2d/dynamics/setup.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/sleep.h"
@@ -42,6 +43,7 @@ void letGo(State& state, Actions& actions, Scratch& scratch) {
   for (Actions::Launch& launch : actions.launches) {
     if (launch.done || !reached(state, launch.time)) continue;
     launch.done = true;
+    bringAllBack(state, scratch);
     wakeAround(state, scratch, launch.body);
     state[rigidOf(launch.body)].anchor = kFloating;
     releaseBody(state, scratch, launch.body);
@@ -63,6 +65,7 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
     Body& body = state[id];
     if (body.magnet_on == on) continue;
     body.magnet_on = on;
+    bringAllBack(state, scratch);
     wakeAround(state, scratch, id);
     // Contacts inside collections turn bilateral, or back.
     for (Collection& c : state.collections) {
@@ -112,6 +115,7 @@ void beginStep(State& state, Actions& actions, Scratch& scratch) {
   for (const Kick& kick : scratch.kicks) {
     if (state.rigid(kick.body).asleep) wakeUp(state, scratch, state[kick.body].rigid);
   }
+  bringBackActedOn(state, scratch);
 }
 
 }  // namespace merge2d

@@ -30,7 +30,7 @@ class StateSum : public StateWalk<StateSum> {
 /// Changes with everything that influences the steps to come, but for the time.
 std::uint64_t sumOf(const State& state) {
   StateSum walk;
-  walk(state.bodies, state.rigids, state.present.ids(), state.extents, state.collections,
+  walk(state.bodies, state.rigids, state.present.ids(), state.extents, state.collections.all(),
        state.next_collection, state.contacts, state.joints, state.joined_pairs,
        state.broadphase.near, state.moved, state.ready_before);
   return walk.sum;

@@ -97,7 +97,7 @@ void fields(Ar& ar, Some<IdlePair> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<ContactTable> auto& t) {
-  auto& [slots, free_slots, order, idle] = t;
+  auto& [slots, free_slots, order, idle, parked, parked_idle] = t;  // nothing is parked
   ar(slots, free_slots, order, idle);
 }
 template <class Ar>
@@ -221,15 +221,16 @@ void fields(Ar& ar, Some<ReadyPair> auto& r) {
   ar(pair, node_a, node_b, contacts, joint_at);
 }
 
-/// What moves of a state; constants come from the scene, trees are built anew.
+/// What moves of a state in which nothing is parked; constants come from the scene, trees are
+/// built anew.
 template <class Ar>
 void fields(Ar& ar, Some<State> auto& state) {
   auto& [settings, mode, h, gravity, colliders, collider_bounds, shape_collider, shape_body,
          first_sibling, siblings, step, time, bodies, rigids, present, extents, collections,
          next_collection, used_slots, contacts, joints, joined_pairs, broadphase, moved,
-         ready_before] = state;
-  ar(step, time, bodies, rigids, present.ids(), extents, collections, next_collection, contacts,
-     joints, joined_pairs, broadphase.near, moved, ready_before);
+         ready_before, parked] = state;
+  ar(step, time, bodies, rigids, present.ids(), extents, collections.all(), next_collection,
+     contacts, joints, joined_pairs, broadphase.near, moved, ready_before);
 }
 
 template <class Ar>

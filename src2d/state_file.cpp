@@ -170,6 +170,7 @@ void readSetup(StateReader& read, const std::string& source, const Scene& scene,
   std::vector<Aabb> boxes;
   read(setup.state, setup.actions, boxes);
   if (read.rest() > 0) read.fail("the snapshot is damaged: it goes on after its end");
+  setup.state.collections.relist();
   checkRestored({setup, bodies, extents, launches, boxes}, source);
   buildTrees(setup.state, boxes);
 }

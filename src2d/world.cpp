@@ -10,6 +10,7 @@
 
 #include "src2d/begin_step.h"
 #include "src2d/contact/detection.h"
+#include "src2d/contact/parking.h"
 #include "src2d/core/error.h"
 #include "src2d/dynamics/finite.h"
 #include "src2d/dynamics/integrate.h"
@@ -55,8 +56,20 @@ struct World::Impl {
 
   /// For changes from outside.
   Setup& changing() {
+    wholeState();
     rest.forget();
     return setup;
+  }
+  /// The same for those that do no more than wake a body.
+  Setup& waking(BodyId body) {
+    bringBackAround(setup.state, scratch, body);
+    rest.forget();
+    return setup;
+  }
+  /// Lists everything again that is parked, for whoever looks at it.
+  State& wholeState() {
+    bringAllBack(setup.state, scratch);
+    return setup.state;
   }
 
   const std::vector<BodyInfo>& describedBodies() {
@@ -119,8 +132,9 @@ void World::Impl::step() {
   notes.clear();
   scratch.notes = options.decisions ? &notes : nullptr;
   if (options.timings) lap();
-  beginStep(state, setup.actions, scratch);
   const bool watched = observer || options.decisions;
+  if (watched) wholeState();
+  beginStep(state, setup.actions, scratch);
   const bool rests = !watched && rest.holdsFor(setup, scratch);
   if (rests) {
     scratch.stats.seconds = {};  // the first stage is given the time of the look at what acts
@@ -132,7 +146,9 @@ void World::Impl::step() {
   state.time = static_cast<double>(state.step) * state.h;
   if (rests) return;
   countBodies(state, scratch);
-  if (!watched) rest.lookAt(setup, scratch);
+  if (watched) return;
+  rest.lookAt(setup, scratch);
+  parkSleepers(state, scratch);
 }
 
 /// Algorithm 1.
@@ -172,7 +188,10 @@ void World::takeNotes(bool on) { impl_->options.decisions = on; }
 const Notes& World::notes() const { return impl_->notes; }
 void World::observe(Observer* observer) { impl_->observer = observer; }
 
-std::string World::save() const { return saveState(*impl_->scene, impl_->setup); }
+std::string World::save() const {
+  settleContacts(impl_->wholeState(), impl_->scratch);
+  return saveState(*impl_->scene, impl_->setup);
+}
 
 void World::restore(std::string_view bytes, const std::string& source, SavedUnder under) {
   Setup& setup = impl_->changing();
@@ -190,7 +209,7 @@ std::size_t World::memoryBytes() const {
 }
 
 void World::capture(Snapshot& out) const {
-  captureState(impl_->setup.state, impl_->setup.actions, impl_->scratch, out);
+  captureState(impl_->wholeState(), impl_->setup.actions, impl_->scratch, out);
   out.decisions = impl_->notes.decisions;
   out.groups = impl_->notes.groups;
 }
@@ -252,7 +271,7 @@ void World::setFriction(BodyId body, double friction) {
   if (friction < 0.0) throw InputError("friction must be 0 or more");
   merge2d::setFriction(impl_->changing(), impl_->checked(body), friction);
 }
-void World::wake(BodyId body) { merge2d::wake(impl_->changing(), impl_->checked(body)); }
+void World::wake(BodyId body) { merge2d::wake(impl_->waking(impl_->checked(body)), body); }
 
 BodyId World::addBody(const BodyDesc& desc) {
   checkBody(desc);
@@ -283,7 +302,8 @@ void World::moveSpring(std::uint32_t spring, const Vec2& to) {
   if (impl_->setup.actions.springs[spring].to_body >= 0) {
     throw InputError(fmt::format("spring {} holds to a body: its end cannot be moved", spring));
   }
-  merge2d::moveSpring(impl_->changing(), spring, to);
+  const BodyId body{static_cast<std::uint32_t>(impl_->setup.actions.springs[spring].body)};
+  merge2d::moveSpring(impl_->waking(body), spring, to);
 }
 
 void World::removeSpring(std::uint32_t spring) {

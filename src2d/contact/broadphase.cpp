@@ -5,6 +5,7 @@
 
 #include "src2d/contact/approach.h"
 #include "src2d/contact/table.h"
+#include "src2d/core/memory.h"
 
 namespace merge2d {
 namespace {
@@ -77,8 +78,11 @@ Aabb shapeBounds(const State& state, RigidId id, std::uint32_t shape) {
 
 /// Follows what moved; fills `moved`.
 void moveLeaves(State& state, Scratch& scratch) {
+  resizeTightly(scratch.moved_flag, state.rigids.size());
+  for (const RigidId id : scratch.moved) {
+    if (index(id) < state.rigids.size()) scratch.moved_flag[index(id)] = 0;
+  }
   scratch.moved.clear();
-  scratch.moved_flag.assign(state.rigids.size(), 0);
   for (const RigidId id : state.present) {
     Rigid& r = state[id];
     if (!moves(r) && !r.resized) continue;
@@ -174,10 +178,13 @@ void refineNearPairs(State& state, Scratch& scratch, double farthest) {
   constexpr double kRounding = 1e-6;  // of a sum in float
   auto& near = state.broadphase.near;
   scratch.near_refined.assign(near.size(), 0);
-  scratch.paired_with.assign(near.empty() ? 0 : state.rigids.size(), 0);
+  if (near.empty()) return;
+  resizeTightly(scratch.paired_with, std::max(scratch.paired_with.size(), state.rigids.size()));
+  for (const NearPair& p : near) scratch.paired_with[index(p.b)] = 0;
   for (std::size_t i = 0; i < near.size(); ++i) {
     NearPair& p = near[i];
-    p.way += static_cast<float>(2.0 * state.moved);
+    const bool still = !moves(state[p.a]) && !moves(state[p.b]);
+    if (!still) p.way += static_cast<float>(2.0 * state.moved);
     if (!p.fresh && farthest <= kNear && p.way < (1.0 - kRounding) * kNear) continue;
     if (!p.fresh && !canTouch(state, p.a, p.b)) continue;
     const bool a_hosts = hasShapeTree(state, p.a);
@@ -283,11 +290,14 @@ void compactTree(State& state) {
 void rebuildTree(State& state) {
   auto& tree = state.broadphase.tree;
   std::vector<Aabb> boxes;
-  for (const RigidId id : state.present) boxes.push_back(tree.fatBox(state[id].leaf));
+  for (const Rigid& r : state.rigids) {
+    if (r.present()) boxes.push_back(tree.fatBox(r.leaf));
+  }
   tree.clear();
   auto box = boxes.begin();
-  for (const RigidId id : state.present) {
-    state[id].leaf = tree.insertFat(*box++, static_cast<std::uint32_t>(id));
+  for (std::uint32_t i = 0; i < state.rigids.size(); ++i) {
+    Rigid& r = state.rigids[i];
+    if (r.present()) r.leaf = tree.insertFat(*box++, i);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "src2d/contact/cast.h"
 #include "src2d/contact/hidden_sides.h"
 #include "src2d/contact/internal_edges.h"
+#include "src2d/contact/parking.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
 
@@ -173,6 +174,12 @@ void collectPairs(const State& state, Scratch& scratch) {
   }
 }
 
+void settleContacts(State& state, Scratch& scratch) {
+  retireContacts(state.contacts, Upkeep::Now);
+  compactContacts(state.contacts, Upkeep::Now);
+  collectPairs(state, scratch);
+}
+
 void detectContacts(State& state, Scratch& scratch) {
   orderKicks(state, scratch);
   scratch.load_order.clear();
@@ -181,6 +188,7 @@ void detectContacts(State& state, Scratch& scratch) {
   updateBroadphase(state, scratch, farthest);
   followContacts(state, scratch, farthest);
   findTouching(state, scratch, farthest);
+  bringBackTouched(state);
   sortCasts(scratch);
   dropHiddenSides(state, scratch);
   retireContacts(state.contacts);

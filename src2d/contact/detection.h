@@ -17,6 +17,9 @@ void updateManifold(const State& state, Contact& contact, double ahead);
 /// Lists the body pairs that have a contact point, ascending.
 void collectPairs(const State& state, Scratch& scratch);
 
+/// Brings the contact table into the one form that its contents have, however they came to be.
+void settleContacts(State& state, Scratch& scratch);
+
 /// Two well-spread points per flat region of a pair of bodies: keeps the outermost two of each
 /// group of points with one normal and in one line, over all shape contacts of the pair, and what
 /// is nearer than these would let it. Guarded by Pruning.AToothThatIsALittleLongerBears.

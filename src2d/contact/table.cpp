@@ -88,10 +88,11 @@ void addIdlePairs(ContactTable& table, const std::vector<ContactKey>& keys) {
   if (table.idle.size() > known) mergeTail(table.idle, known, &IdlePair::key);
 }
 
-void retireContacts(ContactTable& table) {
+void retireContacts(ContactTable& table, Upkeep when) {
   const auto count = std::ranges::count_if(
       table.order, [&](ContactTable::Slot slot) { return retires(table[slot]); });
-  if (!many(static_cast<std::size_t>(count), table.order.size())) return;
+  const bool is_many = many(static_cast<std::size_t>(count), table.order.size());
+  if (count == 0 || (when == Upkeep::WhenMany && !is_many)) return;
   const std::size_t known = table.idle.size();
   reserveTightly(table.idle, known + static_cast<std::size_t>(count));
   dropContacts(table, [&](const Contact& contact) {
@@ -102,15 +103,17 @@ void retireContacts(ContactTable& table) {
   mergeTail(table.idle, known, &IdlePair::key);
 }
 
-void compactContacts(ContactTable& table) {
+void compactContacts(ContactTable& table, Upkeep when) {
   trim(table.idle);
-  if (!many(table.free_slots.size(), table.slots.size())) return;
+  if (when == Upkeep::WhenMany && !many(table.free_slots.size(), table.slots.size())) return;
   std::vector<Contact> slots;
-  slots.reserve(table.order.size());
-  for (ContactTable::Slot& slot : table.order) {
+  slots.reserve(table.slots.size() - table.free_slots.size());
+  const auto keep = [&](ContactTable::Slot& slot) {
     slots.push_back(table.slots[slot]);
     slot = static_cast<ContactTable::Slot>(slots.size() - 1);
-  }
+  };
+  for (ContactTable::Slot& slot : table.order) keep(slot);
+  table.parked.forEach(keep);
   table.slots = std::move(slots);
   table.free_slots.clear();
   trim(table.free_slots);

@@ -13,11 +13,14 @@ void addContacts(ContactTable& table, const std::vector<Contact>& contacts);
 /// Adds pairs (ascending, unique) that are near each other; those already there are left alone.
 void addIdlePairs(ContactTable& table, const std::vector<ContactKey>& keys);
 
-/// Makes contacts without points idle when they are many. Those that have more to remember stay.
-void retireContacts(ContactTable& table);
+/// When to do something that changes no step.
+enum class Upkeep : std::uint8_t { WhenMany, Now };
 
-/// Gives back the memory of dropped contacts when they are many; slots move.
-void compactContacts(ContactTable& table);
+/// Makes contacts without points idle. Those that have more to remember stay.
+void retireContacts(ContactTable& table, Upkeep when = Upkeep::WhenMany);
+
+/// Gives back the memory of dropped contacts; slots move.
+void compactContacts(ContactTable& table, Upkeep when = Upkeep::WhenMany);
 
 /// The slot of a contact in `order`, or nullptr.
 const ContactTable::Slot* findContact(const ContactTable& table, const ContactKey& key);

@@ -12,6 +12,13 @@ void reserveTightly(std::vector<T>& v, std::size_t n) {
   if (v.capacity() < n) v.reserve(n + n / 64);
 }
 
+/// Brings it to `n` elements, likewise; new ones are `value`.
+template <class T>
+void resizeTightly(std::vector<T>& v, std::size_t n, const T& value = {}) {
+  reserveTightly(v, n);
+  v.resize(n, value);
+}
+
 /// One more element at the end, likewise.
 template <class T>
 void appendTightly(std::vector<T>& v) {

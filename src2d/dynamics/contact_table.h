@@ -8,6 +8,7 @@
 
 #include "src2d/core/ids.h"
 #include "src2d/core/vec.h"
+#include "src2d/dynamics/parked.h"
 #include "src2d/dynamics/rigid.h"
 
 namespace merge2d {
@@ -70,6 +71,9 @@ struct ContactTable {
   std::vector<Slot> free_slots;
   std::vector<Slot> order;     ///< ascending by key
   std::vector<IdlePair> idle;  ///< likewise; no key is in both
+  /// Those of what is parked, which are in neither list.
+  ParkedPairs<Slot> parked;
+  ParkedPairs<IdlePair> parked_idle;
 
   Contact& operator[](Slot slot) { return slots[slot]; }
   const Contact& operator[](Slot slot) const { return slots[slot]; }

@@ -94,12 +94,17 @@ bool acts(const State& state, const TimedSpring& spring) {
 /// Where the ends of a spring are takes longer than all else about it, above all in collections.
 void addSprings(const State& state, const Actions& actions, Scratch& scratch) {
   if (actions.springs.empty()) return;
-  scratch.spring_gain.assign(state.bodies.size(), 0.0);
+  auto& gain = scratch.spring_gain;
+  gain.resize(state.bodies.size(), 0.0);
+  for (const TimedSpring& spring : actions.springs) {
+    gain[spring.body] = 0.0;
+    if (spring.to_body >= 0) gain[static_cast<std::size_t>(spring.to_body)] = 0.0;
+  }
   scratch.stretches.clear();
   for (const TimedSpring& spring : actions.springs) {
     if (!acts(state, spring)) continue;
     scratch.stretches.push_back(stretchOf(state, spring));
-    addGains(state, spring, scratch.stretches.back(), scratch.spring_gain);
+    addGains(state, spring, scratch.stretches.back(), gain);
   }
   auto stretch = scratch.stretches.begin();
   for (const TimedSpring& spring : actions.springs) {

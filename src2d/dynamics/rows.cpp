@@ -162,9 +162,20 @@ ContactBlock innerBlock(const State& state, const RowSource& source) {
   return k;
 }
 
+/// Takes back what the last step noted for the bodies of its islands, and for no others.
+void clearMarks(Scratch& scratch) {
+  const auto clear = [&](std::uint32_t r) {
+    if (r < scratch.colours.size()) scratch.colours[r] = 0;
+    if (r < scratch.island_of.size()) scratch.island_of[r] = -1;
+  };
+  for (const Island& island : scratch.islands) clear(island.root);
+  for (const std::uint32_t r : scratch.island_bodies) clear(r);
+}
+
 /// Orders the blocks by island and, inside it, by colour: blocks of one colour share no body, so
 /// that consecutive ones need not wait for each other's results.
 void orderBlocks(const State& state, Scratch& scratch) {
+  clearMarks(scratch);
   auto& sets = scratch.sets;
   sets.reset(state.rigids.size());
   const auto moves = [&](RigidId id) { return scratch.u[index(id)].inv_mass > 0.0; };
@@ -176,7 +187,7 @@ void orderBlocks(const State& state, Scratch& scratch) {
   }
   uniteJoints(state, scratch);
   // Greedy colours, in the order of the pairs.
-  scratch.colours.assign(state.rigids.size(), 0);
+  resizeTightly(scratch.colours, state.rigids.size());
   reserveTightly(scratch.block_order, scratch.row_sources.size());
   scratch.block_order.resize(scratch.row_sources.size());
   for (std::uint32_t i = 0; i < scratch.row_sources.size(); ++i) {
@@ -288,7 +299,7 @@ void forEachMover(const State& state, const Scratch& scratch, Visit&& visit) {
 
 void listIslandBodies(const State& state, Scratch& scratch) {
   auto& island_of = scratch.island_of;
-  island_of.assign(state.rigids.size(), -1);
+  resizeTightly(island_of, state.rigids.size(), -1);
   for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
     island_of[scratch.islands[i].root] = static_cast<std::int32_t>(i);
   }

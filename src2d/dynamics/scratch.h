@@ -195,7 +195,7 @@ struct Scratch {
   std::vector<Kick> kicks;
   std::vector<SpringView> springs;
   std::vector<SpringStretch> stretches;  ///< of those whose body is alive
-  std::vector<double> spring_gain;       ///< per body: what its springs together do to its velocity
+  std::vector<double> spring_gain;       ///< per body with springs: what these do to its velocity
   std::vector<BodyPair> pairs;           ///< body pairs in contact, ascending
   std::vector<Event> events;
   Notes* notes = nullptr;  ///< null: nobody asks
@@ -211,7 +211,7 @@ struct Scratch {
   std::vector<ActionOrder> kick_order, load_order;  ///< ascending; loads only where one is asked
   std::vector<NearPair> near_candidates;
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
-  /// Per rigid: with which other ones, by their index modulo 16.
+  /// Per rigid of `near`, for others out of date: with which other ones, by their index modulo 16.
   std::vector<std::uint16_t> paired_with;
 
   // ContactOrdering: where something new enters
@@ -223,7 +223,7 @@ struct Scratch {
   std::vector<BodyId> stirred;
 
   // SleepAndWake
-  std::vector<std::uint8_t> restless, island_awake;  ///< per rigid
+  std::vector<std::uint8_t> restless, island_awake;  ///< per rigid that is present
 
   // WarmStart
   std::vector<OuterLoad> outer_loads;     ///< ascending by slot, then by member

@@ -7,11 +7,12 @@
 #include <memory>
 #include <vector>
 
-#include "src2d/dynamics/collections.h"
+#include "src2d/dynamics/collection_table.h"
 #include "src2d/dynamics/contact_table.h"
-#include "src2d/dynamics/present_list.h"
+#include "src2d/dynamics/parked.h"
 #include "src2d/dynamics/rigid.h"
 #include "src2d/dynamics/scratch.h"
+#include "src2d/dynamics/sorted_list.h"
 #include "src2d/geometry/collide.h"
 #include "src2d/geometry/tree.h"
 
@@ -22,6 +23,7 @@ struct Broadphase {
   std::vector<std::unique_ptr<AabbTree>> shape_trees;  ///< per rigid, where it has several shapes
   std::vector<int> shape_leaves;                       ///< per shape, in its rigid's tree, or −1
   std::vector<NearPair> near;                          ///< ascending
+  ParkedPairs<NearPair> parked_near;                   ///< those of what is parked
 };
 
 struct TimedSpring {
@@ -51,10 +53,10 @@ struct State {
   std::int64_t step = 0;
   double time = 0.0;
   std::vector<Body> bodies;
-  std::vector<Rigid> rigids;            ///< bodies, then collections
-  PresentList present;                  ///< rigid things that are there: in B or asleep; ascending
-  std::vector<Extent> extents;          ///< of the different bodies, then one per collection
-  std::vector<Collection> collections;  ///< slot i is rigid bodies.size() + i
+  std::vector<Rigid> rigids;    ///< bodies, then collections
+  SortedList<RigidId> present;  ///< in B, or asleep but not parked; ascending
+  std::vector<Extent> extents;  ///< of the different bodies, then one per collection
+  CollectionTable collections;  ///< slot i is rigid bodies.size() + i
   std::int32_t next_collection = 0;
   std::size_t used_slots = 0;  ///< of `collections`: at least this many at its start are in use
   ContactTable contacts;
@@ -63,6 +65,7 @@ struct State {
   Broadphase broadphase;
   double moved = 0.0;  ///< by the fastest point of all in the last step, at most [m]
   std::vector<ReadyPair> ready_before;  ///< in the last step; those still there were not welded
+  Parked parked;
 
   const Collider& collider(std::uint32_t shape) const { return colliders[shape_collider[shape]]; }
   const Aabb& bounds(std::uint32_t shape) const { return collider_bounds[shape_collider[shape]]; }

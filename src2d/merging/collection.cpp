@@ -113,7 +113,7 @@ RigidId newCollection(State& state) {
   std::size_t slot = state.used_slots;
   while (slot < state.collections.size() && state.collections[slot].id != kNoCollection) ++slot;
   if (slot == state.collections.size()) {
-    appendTightly(state.collections);
+    state.collections.append();
     appendTightly(state.rigids);
     appendTightly(state.extents);
     appendTightly(state.broadphase.shape_trees);
@@ -146,7 +146,7 @@ void dropFreeSlots(State& state) {
     slots.resize(slots.size() - gone);
     if (slots.capacity() - slots.size() > slots.size() / 32) slots.shrink_to_fit();
   };
-  shorten(state.collections);
+  state.collections.dropLast(gone);
   state.used_slots = std::min(state.used_slots, used);
   shorten(state.rigids);
   shorten(state.extents);

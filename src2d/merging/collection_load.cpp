@@ -141,7 +141,7 @@ Twist gainOf(const State& state, const Collection& c, const CollectionLoad& load
 }
 
 CollectionLoad loadOn(const State& state, const Scratch& scratch, const Collection& c) {
-  const auto slot = static_cast<std::uint32_t>(&c - state.collections.data());
+  const auto slot = static_cast<std::uint32_t>(state.collections.slotOf(c));
   const auto& all = scratch.outer_loads;
   const auto first = std::ranges::lower_bound(all, slot, {}, &OuterLoad::slot);
   const auto last = std::ranges::upper_bound(all, slot, {}, &OuterLoad::slot);

@@ -63,7 +63,7 @@ void takeJointImpulses(const State& state, Collection& c) {
 }  // namespace
 
 Doubt doubtAbout(const State& state, const Scratch& scratch, const Collection& c) {
-  const auto slot = static_cast<std::size_t>(&c - state.collections.data());
+  const auto slot = state.collections.slotOf(c);
   return slot < scratch.doubts.size() && isSwept(state, c) ? scratch.doubts[slot] : Doubt::None;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "src2d/core/memory.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/metric.h"
@@ -105,10 +106,11 @@ struct Ties {
   bool loaded = false;  ///< loads
 };
 
-/// Per rigid.
+/// Per rigid thing that is present.
 const std::vector<Ties>& listTies(const State& state, const Scratch& scratch) {
   thread_local std::vector<Ties> ties;  // its memory is kept
-  ties.assign(state.rigids.size(), {});
+  resizeTightly(ties, state.rigids.size());
+  for (const RigidId id : state.present) ties[index(id)] = {};
   const auto tie = [&](BodyId b) -> Ties& { return ties[index(state[b].rigid)]; };
   for (const BodyPair& pair : scratch.pairs) {
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src2d/core/memory.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/rule.h"
 
@@ -34,7 +35,8 @@ bool canSleep(const State& state, RigidId id) {
 
 void markRestless(State& state, Scratch& scratch) {
   auto& restless = scratch.restless;
-  restless.assign(state.rigids.size(), 0);
+  resizeTightly(restless, state.rigids.size());
+  for (const RigidId id : state.present) restless[index(id)] = 0;
   const auto mark = [&](BodyId b) { restless[index(state[b].rigid)] = 1; };
   for (const Kick& kick : scratch.kicks) mark(kick.body);
   for (const BodyId b : scratch.stirred) mark(b);
@@ -165,7 +167,8 @@ void uniteIslands(const State& state, Scratch& scratch) {
 
 /// Per island the strongest reason of its members to stay awake.
 void findWhatStaysAwake(const State& state, Scratch& scratch) {
-  scratch.island_awake.assign(state.rigids.size(), kNothing);
+  resizeTightly(scratch.island_awake, state.rigids.size());
+  for (const RigidId id : state.present) scratch.island_awake[index(id)] = kNothing;
   for (const RigidId id : state.present) {
     if (!canSleep(state, id)) continue;
     std::uint8_t& island = reasonOfIsland(scratch, id);

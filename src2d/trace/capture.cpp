@@ -223,8 +223,9 @@ void captureState(const State& state, const Actions& actions, const Scratch& scr
 
 void countBodies(const State& state, Scratch& scratch) {
   Stats& stats = scratch.stats;
-  stats.bodies = stats.active_bodies = stats.collections = stats.asleep = 0;
-  stats.internal_contacts = 0;
+  stats.active_bodies = stats.internal_contacts = 0;
+  stats.bodies = stats.asleep = state.parked.bodies;
+  stats.collections = state.parked.collections;
   for (const RigidId id : state.present) {
     const Rigid& r = state[id];
     if (!state.isCollection(id)) {

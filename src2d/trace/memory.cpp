@@ -8,7 +8,8 @@ namespace merge2d {
 namespace {
 
 std::size_t bytesOfBroadphase(const Broadphase& b) {
-  std::size_t total = b.tree.memoryBytes() + bytesOf(b.shape_trees, b.shape_leaves, b.near);
+  std::size_t total = b.tree.memoryBytes() + bytesOf(b.shape_trees, b.shape_leaves, b.near) +
+                      b.parked_near.memoryBytes();
   for (const auto& tree : b.shape_trees) {
     if (tree) total += sizeof(AabbTree) + tree->memoryBytes();
   }
@@ -30,12 +31,13 @@ std::size_t bytesOfProofs(const Collection& c) {
 std::size_t bytesOfState(const State& s) {
   std::size_t total =
       bytesOf(s.colliders, s.collider_bounds, s.shape_collider, s.shape_body, s.first_sibling,
-              s.siblings, s.bodies, s.rigids, s.extents, s.collections, s.joints, s.joined_pairs,
-              s.ready_before) +
-      s.present.memoryBytes() +
+              s.siblings, s.bodies, s.rigids, s.extents, s.joints, s.joined_pairs, s.ready_before,
+              s.parked.slept) +
+      s.present.memoryBytes() + s.collections.memoryBytes() + s.contacts.parked.memoryBytes() +
+      s.contacts.parked_idle.memoryBytes() +
       bytesOf(s.contacts.slots, s.contacts.free_slots, s.contacts.order, s.contacts.idle) +
       bytesOfBroadphase(s.broadphase);
-  for (const Collection& c : s.collections) {
+  for (const Collection& c : s.collections.all()) {
     total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.watches, c.pivots,
                      c.leaning, c.cut_welds, c.spare, c.stood, c.loosened, c.welds, c.weld_at,
                      c.weld_of, c.joints, c.push) +

@@ -1,0 +1,29 @@
+#pragma once
+/// What has slept for a few steps is parked: it leaves all lists that the stages go through,
+/// so that the cost of a step does not depend on how many sleep.
+///
+/// Nothing that a stage does depends on it. A set of rigid things that touch is parked as a
+/// whole, and comes back as a whole before something acts on one of them; nothing in such a set is
+/// awake, moves by a script, carries a load or hangs on a joint. Parked things keep their leaves
+/// in the broadphase, where those that move find them.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Parks what has slept for long enough. To be called between two steps.
+void parkSleepers(State& state, Scratch& scratch);
+
+/// Brings back, still asleep, what a body belongs to and all that touches it.
+void bringBackAround(State& state, Scratch& scratch, BodyId body);
+
+/// Brings back all of them, for whoever looks at the lists.
+void bringAllBack(State& state, Scratch& scratch);
+
+/// Brings back what something acts on in this step: impulses, loads, or what the user has changed.
+void bringBackActedOn(State& state, const Scratch& scratch);
+
+/// Brings back what is touched by something that is not parked.
+void bringBackTouched(State& state);
+
+}  // namespace merge2d

@@ -1,0 +1,182 @@
+/// What sleeps for long is in no list of the stages, and nobody can tell.
+
+#include "src2d/contact/parking.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "src2d/world.h"
+#include "tests/src2d/world_edit_testing.h"
+
+namespace merge2d {
+namespace {
+
+/// In a world that is watched nothing is parked.
+class Onlooker : public Observer {
+ public:
+  void afterStage(Stage, const State&, const Scratch&) override {}
+};
+
+/// All that can be seen of a world without waking its lists.
+std::vector<double> seen(const World& world) {
+  const std::size_t bodies = world.bodies().size();
+  std::vector<double> numbers(6 * bodies);
+  world.poses(std::span(numbers).first(3 * bodies));
+  world.velocities(std::span(numbers).last(3 * bodies));
+  std::vector<std::int32_t> collections(bodies);
+  world.collections(collections);
+  numbers.insert(numbers.end(), collections.begin(), collections.end());
+  for (double& number : numbers) {
+    if (std::isnan(number)) number = -1e300;  // a body that is not there
+  }
+  const Stats& stats = world.stats();
+  for (const int count : {stats.bodies, stats.active_bodies, stats.asleep, stats.collections,
+                          stats.contacts, stats.internal_contacts}) {
+    numbers.push_back(count);
+  }
+  for (const Event& event : world.events()) {
+    numbers.push_back(static_cast<double>(event.type));
+    numbers.push_back(static_cast<double>(event.a));
+  }
+  return numbers;
+}
+
+/// Two worlds of one scene, of which the second is watched.
+struct Pair {
+  World one, watched;
+  Onlooker onlooker;
+
+  Pair(const Scene& scene, Mode mode) : one(scene, {.mode = mode}), watched(scene, {.mode = mode}) {
+    watched.observe(&onlooker);
+  }
+  void change(const std::function<void(World&)>& by) {
+    by(one);
+    by(watched);
+  }
+  void run(int steps) {
+    for (int i = 0; i < steps; ++i) {
+      one.step();
+      watched.step();
+      ASSERT_TRUE(seen(one) == seen(watched)) << "step " << one.steps();
+    }
+  }
+};
+
+constexpr Mode kSleeping[] = {Mode::Sleep, Mode::MergeSleep};
+
+/// Stacks and a wall beside a lamp that swings for ever, and a cart that goes after ten seconds.
+Scene manyAsleep() {
+  Scene scene = onGround();
+  for (int i = 0; i < 6; ++i) addColumn(scene, 3, {2.0 * i, 0});
+  addWall(scene, 3, 4, {-8, 0});
+  BodyDesc tee = box(0.2, 1, {-14, 0.5});
+  tee.shapes.emplace_back(makeBox(1, 0.2, Pose::at({0, 0.4}, 0)));
+  add(scene, named("tee", tee));
+  Keyframes way;
+  way.keys = {{10.0, {19, 0.5}, 0.0}, {12.0, {11.5, 0.5}, 0.0}};
+  add(scene, named("cart", scripted(box(2, 1, {19, 0.5}), way)));
+  addColumn(scene, 2, {19, 1});
+  add(scene, named("lamp", disc(0.3, {-20, 6})));
+  scene.springs.push_back(springOf(scene.bodies.size() - 1, {-19, 9}, 200, 0));
+  return scene;
+}
+
+TEST(Parking, WhatActsOnASleeperWakesAllThatItMoves) {
+  const BodyId box{2};  // in the middle of the first stack
+  const std::vector<std::function<void(World&)>> changes = {
+      [&](World& w) {
+        w.applyImpulse(box, {0, 1.5}, {1, 0});
+      },
+      [&](World& w) {
+        w.applyForce(box, {0, 1.5}, {400, 0});
+      },
+      [&](World& w) {
+        w.setPose(box, {0, 8}, 0.2);
+      },
+      [&](World& w) { w.removeBody(BodyId{1}); },
+      [&](World& w) { w.wake(box); },
+      [&](World& w) {
+        w.addBody(disc(0.3, {0.3, 7}));
+      },
+      [&](World& w) {
+        w.addSpring(springOf(2, {3, 9}, 50, 1));
+      },
+      [&](World& w) {
+        w.addJoint(jointOf(JointKind::Revolute, 3, std::nullopt, {0, 5}));
+      },
+      [&](World& w) {
+        w.setGravity({1, -9});
+      },
+      [&](World& w) {
+        w.moveSpring(0, {-14, 5});  // the lamp comes to the tee
+      },
+  };
+  for (const Mode mode : kSleeping) {
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      SCOPED_TRACE("change " + std::to_string(i));
+      Pair pair(manyAsleep(), mode);
+      pair.run(300);
+      ASSERT_GT(pair.one.stats().asleep, 20);
+      pair.change(changes[i]);
+      pair.run(300);
+      EXPECT_TRUE(pair.one.save() == pair.watched.save());
+    }
+  }
+}
+
+TEST(Parking, AFrameThatMovesAgainTakesWhatStandsOnIt) {
+  for (const Mode mode : kSleeping) {
+    Pair pair(manyAsleep(), mode);
+    pair.run(1500);
+  }
+}
+
+TEST(Parking, ADiscThatRollsAlongMeetsOneStackAfterTheOther) {
+  for (const Mode mode : kSleeping) {
+    Scene scene = manyAsleep();
+    BodyDesc ball = disc(0.4, {-1.2, 9});
+    ball.velocity = {2, 0};
+    ball.restitution = 0.7;
+    EmitterDesc throws{.body = named("ball", ball)};
+    throws.start = 3.0;
+    throws.every = 1.5;
+    throws.count = 3;
+    scene.emitters.push_back(throws);
+    Pair pair(scene, mode);
+    pair.run(1200);
+    EXPECT_TRUE(pair.one.save() == pair.watched.save());
+  }
+}
+
+TEST(Parking, APinnedBodyThatIsLetGoTakesAlongWhatLeansOnIt) {
+  Scene scene = manyAsleep();
+  BodyDesc shelf = box(4, 0.5, {-26, 4});
+  shelf.pinned_until = 6.0;
+  add(scene, named("shelf", shelf));
+  addColumn(scene, 2, {-26, 4.25});
+  for (const Mode mode : kSleeping) {
+    Pair pair(scene, mode);
+    pair.run(900);
+  }
+}
+
+TEST(Parking, ASavedWorldGoesOnAsIfNothingHadBeenDormant) {
+  World one(manyAsleep(), {.mode = Mode::MergeSleep});
+  runSteps(one, 300);
+  World other(manyAsleep(), {.mode = Mode::MergeSleep});
+  other.restore(one.save(), "memory");
+  for (int i = 0; i < 200; ++i) {
+    if (i == 50) {
+      for (World* w : {&one, &other}) w->applyImpulse(BodyId{3}, {0, 2.5}, {2, 0});
+    }
+    one.step();
+    other.step();
+    ASSERT_TRUE(seen(one) == seen(other)) << "step " << one.steps();
+  }
+}
+
+}  // namespace
+}  // namespace merge2d
