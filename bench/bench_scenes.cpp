@@ -43,18 +43,31 @@ void addBox(Scene& scene, Vec2 at, double width, double height) {
   scene.bodies.push_back(box(fmt::format("box[{}]", scene.bodies.size()), at, width, height));
 }
 
-}  // namespace
-
-BenchScene tower(int count) {
-  Scene scene = emptyScene(fmt::format("tower-{}", count));
-  const int columns = static_cast<int>(std::lround(std::sqrt(count / 2.0)));
-
-  BodyDesc platform = box("platform", {0.0, -0.5}, columns + 4.0, 1.0);
+/// Its surface is y = 0.
+void addPlatform(Scene& scene, double width) {
+  BodyDesc platform = box("platform", {0.0, -0.5}, width, 1.0);
   platform.motion = Motion::Scripted;
   const double period = kSwingSteps * scene.step;
   const double angular = 2.0 * std::numbers::pi / period;
   platform.script = Sinusoid{Vec2::UnitX(), kSwing / (angular * angular), period};
   scene.bodies.push_back(platform);
+}
+
+void addPyramid(Scene& scene, int base, double center) {
+  for (int row = 0; row < base; ++row) {
+    const int boxes = base - row;
+    for (int i = 0; i < boxes; ++i) {
+      addBox(scene, {center + kSpacing * (i - 0.5 * (boxes - 1)), row + 0.5}, 1.0, 1.0);
+    }
+  }
+}
+
+}  // namespace
+
+BenchScene tower(int count) {
+  Scene scene = emptyScene(fmt::format("tower-{}", count));
+  const int columns = static_cast<int>(std::lround(std::sqrt(count / 2.0)));
+  addPlatform(scene, columns + 4.0);
 
   // Rows of `columns` boxes alternate with rows shifted by half the spacing; a prefix of a row is
   // as well supported as a whole one.
@@ -75,13 +88,40 @@ BenchScene tower(int count) {
 BenchScene pyramid(int base) {
   Scene scene = emptyScene(fmt::format("pyramid-{}", base));
   scene.bodies.push_back(pinnedBox("ground", {0.0, -0.5}, 2.0 * base, 1.0));
-  for (int row = 0; row < base; ++row) {
-    const int boxes = base - row;
-    for (int i = 0; i < boxes; ++i) {
-      addBox(scene, {kSpacing * (i - 0.5 * (boxes - 1)), row + 0.5}, 1.0, 1.0);
-    }
-  }
+  addPyramid(scene, base, 0.0);
   return {scene, Expectation::Stands};
+}
+
+BenchScene pyramids(int count) {
+  constexpr int kBase = 10;
+  constexpr double kApart = 1.5 * kBase;
+  Scene scene = emptyScene(fmt::format("pyramids-{}", count));
+  scene.bodies.push_back(pinnedBox("ground", {0.0, -0.5}, kApart * count, 1.0));
+  for (int i = 0; i < count; ++i) addPyramid(scene, kBase, kApart * (i - 0.5 * (count - 1)));
+  return {scene, Expectation::Stands};
+}
+
+BenchScene tumbler(int count) {
+  constexpr double kSize = 0.25, kGrid = 0.4, kInside = 20.0, kWall = 1.0;  // [m]
+  Scene scene = emptyScene(fmt::format("tumbler-{}", count));
+  BodyDesc drum = box("drum", Vec2::Zero(), kInside + 2.0 * kWall, kWall);
+  drum.shapes.clear();
+  const double from_middle = 0.5 * (kInside + kWall);
+  for (const double side : {-from_middle, from_middle}) {
+    drum.shapes.emplace_back(makeBox(kInside + 2.0 * kWall, kWall, Pose::at({0.0, side}, 0.0)));
+    drum.shapes.emplace_back(makeBox(kWall, kInside, Pose::at({side, 0.0}, 0.0)));
+  }
+  drum.motion = Motion::Scripted;
+  SteadyMotion turning;
+  turning.spin = 25.0 * std::numbers::pi / 180.0;
+  drum.script = turning;
+  scene.bodies.push_back(drum);
+  const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
+  const double first = -0.5 * kGrid * (columns - 1);
+  for (int i = 0; i < count; ++i) {
+    addBox(scene, {first + kGrid * (i % columns), first + kGrid * (i / columns)}, kSize, kSize);
+  }
+  return {scene, Expectation::Moves};
 }
 
 BenchScene funnel(int count) {
@@ -118,24 +158,38 @@ BenchScene freeFall(int count) {
   return {scene, Expectation::Moves};
 }
 
+namespace {
+
+constexpr double kStacksApart = 2.0;  // [m]
+constexpr int kHigh = 5;
+
+void addStack(Scene& scene, double x) {
+  for (int row = 0; row < kHigh; ++row) addBox(scene, {x, row + 0.5}, 1.0, 1.0);
+}
+
+}  // namespace
+
 BenchScene stacks(int count) {
-  constexpr double kApart = 2.0;
-  constexpr int kHigh = 5;
   Scene scene = emptyScene(fmt::format("stacks-{}x{}", count, kHigh));
   scene.bodies.push_back(
-      pinnedBox("ground", {0.5 * kApart * count, -0.5}, kApart * (count + 2), 1.0));
-  for (int i = 0; i < count; ++i) {
-    for (int row = 0; row < kHigh; ++row) addBox(scene, {kApart * i, row + 0.5}, 1.0, 1.0);
-  }
+      pinnedBox("ground", {0.5 * kStacksApart * count, -0.5}, kStacksApart * (count + 2), 1.0));
+  for (int i = 0; i < count; ++i) addStack(scene, kStacksApart * i);
+  return {scene, Expectation::Stands};
+}
+
+BenchScene swingingStacks(int count) {
+  Scene scene = emptyScene(fmt::format("swinging-stacks-{}x{}", count, kHigh));
+  addPlatform(scene, kStacksApart * (count + 2));
+  for (int i = 0; i < count; ++i) addStack(scene, kStacksApart * (i - 0.5 * (count - 1)));
   return {scene, Expectation::Stands};
 }
 
 BenchScene wall(int count) {
-  constexpr int kHigh = 20;
-  const int columns = count / kHigh;
+  constexpr int kRows = 20;
+  const int columns = count / kRows;
   Scene scene = emptyScene(fmt::format("wall-{}", count));
   scene.bodies.push_back(pinnedBox("ground", {0.0, -0.5}, kSpacing * columns + 20.0, 1.0));
-  for (int row = 0; row < kHigh; ++row) {
+  for (int row = 0; row < kRows; ++row) {
     const double left = -0.5 * kSpacing * columns + (row % 2 == 1 ? 0.5 * kSpacing : 0.0);
     for (int i = 0; i < columns; ++i) {
       addBox(scene, {left + kSpacing * i, row + 0.5}, 1.0, 1.0);
@@ -148,7 +202,13 @@ std::vector<BenchScene> benchScenes(bool quick) {
   std::vector<BenchScene> scenes = {tower(100), tower(326), tower(1000)};
   if (!quick) scenes.push_back(tower(5000));
   scenes.push_back(pyramid(50));
+  if (!quick) {
+    scenes.push_back(pyramid(100));
+    scenes.push_back(pyramids(400));
+    scenes.push_back(swingingStacks(10'000));
+  }
   scenes.push_back(funnel(1500));
+  scenes.push_back(tumbler(2025));
   scenes.push_back(freeFall(10'000));
   return scenes;
 }

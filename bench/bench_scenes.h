@@ -42,7 +42,16 @@ BenchScene stacks(int count);
 /// A running-bond wall of about `count` boxes of 1 m, 20 high, on the ground.
 BenchScene wall(int count);
 
-/// All scenes of the comparison; the quick ones only leave out the largest.
+/// As many pyramids with ten boxes in their lowest row, side by side on the ground.
+BenchScene pyramids(int count);
+
+/// `count` small boxes in a drum of 20 m that turns by 25 degrees a second for ever.
+BenchScene tumbler(int count);
+
+/// Stacks of five boxes, all on the platform of the towers.
+BenchScene swingingStacks(int count);
+
+/// All scenes of the comparison; the quick ones leave out the largest.
 std::vector<BenchScene> benchScenes(bool quick);
 
 }  // namespace merge2d::bench

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <thread>
 
 namespace merge2d::bench {
@@ -28,12 +29,18 @@ void loadAndWarmUp(Peer& peer, const Scene& scene, int steps, Positions& start) 
   }).join();
 }
 
-double millisecondsPerStep(Peer& peer, int steps) {
+/// Appends the milliseconds of each step; returns their mean.
+double timeSteps(Peer& peer, int steps, std::vector<double>& times) {
   peer.step();  // brings its data back into the caches
-  const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < steps; ++i) peer.step();
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-  return took.count() / steps;
+  double total = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    peer.step();
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    times.push_back(took.count());
+    total += took.count();
+  }
+  return total / steps;
 }
 
 /// How far body i went against body 0.
@@ -60,6 +67,15 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+StepTimes distributionOf(std::vector<double> times) {
+  std::ranges::sort(times);
+  const auto part = [&](double share) {
+    return times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
+  };
+  const double total = std::accumulate(times.begin(), times.end(), 0.0);
+  return {part(0.5), total / static_cast<double>(times.size()), part(0.99), times.back()};
+}
+
 Comparison compare(const BenchScene& bench, const Peers& peers, const Plan& plan) {
   Comparison result{bench.scene.name, bench.scene.bodies.size(), bench.expectation, {}};
   result.measurements.resize(peers.size());
@@ -79,17 +95,18 @@ Comparison compare(const BenchScene& bench, const Peers& peers, const Plan& plan
 
   // Take turns; each round begins with another engine.
   std::vector<std::vector<double>> ms(peers.size()), ratios(peers.size());
+  std::vector<double> mean(peers.size());
   for (int round = 0; round < plan.rounds; ++round) {
     for (std::size_t turn = 0; turn < peers.size(); ++turn) {
       const std::size_t p = (turn + static_cast<std::size_t>(round)) % peers.size();
-      ms[p].push_back(millisecondsPerStep(*peers[p], plan.steps));
+      mean[p] = timeSteps(*peers[p], plan.steps, ms[p]);
     }
-    for (std::size_t p = 0; p < peers.size(); ++p) ratios[p].push_back(ms[p].back() / ms[0].back());
+    for (std::size_t p = 0; p < peers.size(); ++p) ratios[p].push_back(mean[p] / mean[0]);
   }
 
   for (std::size_t p = 0; p < peers.size(); ++p) {
     Measurement& m = result.measurements[p];
-    m.ms_per_step = median(ms[p]);
+    m.ms = distributionOf(ms[p]);
     m.ratio = median(ratios[p]);
     judge(m, start[p], warm[p], peers[p]->positions());
   }

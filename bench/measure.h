@@ -18,13 +18,19 @@ struct Plan {
   int steps = 24;    ///< timed steps per turn, after one that is not
 };
 
+/// How the cost of a step is distributed: a median alone hides the steps in which much happens.
+struct StepTimes {
+  double median = 0.0, mean = 0.0, p99 = 0.0, slowest = 0.0;  ///< p99: of the 99th percentile
+};
+StepTimes distributionOf(std::vector<double> times);
+
 /// One engine on one scene.
 struct Measurement {
   std::string peer;
-  double ms_per_step = 0.0;  ///< median over the rounds
-  double ratio = 1.0;        ///< median over the rounds of its time by the first engine's
-  double drift = 0.0;        ///< how far a body moved against body 0 after the warm-up, at most [m]
-  int lost = 0;  ///< bodies that went more than half a box sideways, left out of `drift`
+  StepTimes ms;        ///< of all steps that were timed
+  double ratio = 1.0;  ///< median over the rounds of its time by the first engine's
+  double drift = 0.0;  ///< how far a body moved against body 0 after the warm-up, at most [m]
+  int lost = 0;        ///< bodies that went more than half a box sideways, left out of `drift`
   std::size_t heap_bytes = 0;  ///< more on the heap than before loading
   std::size_t own_bytes = 0;   ///< by its own account; 0 when it gives none
 };

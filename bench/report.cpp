@@ -34,7 +34,11 @@ bool always(const Comparison&) { return true; }
 bool shouldStand(const Comparison& c) { return c.expectation == Expectation::Stands; }
 
 std::string timeCell(const Comparison&, const Measurement& m) {
-  return fmt::format("{:.3g} ({:.3g}×)", m.ms_per_step, m.ratio);
+  return fmt::format("{:.3g} ({:.3g}×)", m.ms.median, m.ratio);
+}
+
+std::string rareCell(const Comparison&, const Measurement& m) {
+  return fmt::format("{:.3g} / {:.3g} / {:.3g}", m.ms.mean, m.ms.p99, m.ms.slowest);
 }
 
 std::string driftCell(const Comparison&, const Measurement& m) {
@@ -52,8 +56,11 @@ std::string memoryCell(const Comparison& c, const Measurement& m) {
 
 std::string markdown(const std::vector<Comparison>& comparisons) {
   if (comparisons.empty()) return "";
-  std::string text = "## Time\nMilliseconds per step, and how many times as long as the first.\n\n";
+  std::string text =
+      "## Time\nMilliseconds per step (median), and how many times as long as the first.\n\n";
   text += table(comparisons, always, timeCell);
+  text += "\nThe mean, the 99th percentile and the slowest step, in milliseconds.\n\n";
+  text += table(comparisons, always, rareCell);
   text +=
       "\n## What the boxes did meanwhile\nThe farthest that any moved against what it stands on, "
       "and how many were lost (went more than half a box sideways).\n\n";
@@ -69,7 +76,10 @@ std::string json(const std::vector<Comparison>& comparisons) {
     nlohmann::ordered_json engines = nlohmann::ordered_json::array();
     for (const Measurement& m : c.measurements) {
       engines.push_back({{"engine", m.peer},
-                         {"ms_per_step", m.ms_per_step},
+                         {"ms_per_step", m.ms.median},
+                         {"mean_ms", m.ms.mean},
+                         {"p99_ms", m.ms.p99},
+                         {"slowest_ms", m.ms.slowest},
                          {"ratio", m.ratio},
                          {"drift", m.drift},
                          {"lost", m.lost},

@@ -68,14 +68,16 @@ void Box2dPeer::load(const Scene& scene) {
     for (const ConvexShape& shape : desc.shapes) {
       std::visit([&](const auto& s) { addShape(*body, desc, s); }, shape);
     }
-    if (desc.script) scripted_.push_back({body, std::get<Sinusoid>(*desc.script)});
+    if (desc.script) scripted_.push_back({body, &*desc.script});
     bodies_.push_back(body);
   }
 }
 
 void Box2dPeer::step() {
   for (const Scripted& s : scripted_) {
-    s.body->SetLinearVelocity(single(scriptedVelocity(s.script, time_, step_)));
+    const ScriptedVelocity velocity = scriptedVelocity(*s.script, time_, step_);
+    s.body->SetLinearVelocity(single(velocity.v));
+    s.body->SetAngularVelocity(static_cast<float>(velocity.omega));
   }
   world_->Step(static_cast<float>(step_), iterations_, kPositionIterations);
   time_ += step_;

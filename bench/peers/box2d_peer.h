@@ -18,7 +18,7 @@ class Box2dPeer final : public Peer {
  private:
   struct Scripted {
     b2Body* body;
-    Sinusoid script;
+    const Script* script;  ///< of the scene, which outlives the peer
   };
 
   double step_ = 0.01;  // [s]

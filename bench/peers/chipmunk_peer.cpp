@@ -61,14 +61,16 @@ void ChipmunkPeer::load(const Scene& scene) {
       cpBodySetVelocity(body, vect(desc.velocity));
       cpBodySetAngularVelocity(body, desc.spin);
     }
-    if (desc.script) scripted_.push_back({body, std::get<Sinusoid>(*desc.script)});
+    if (desc.script) scripted_.push_back({body, &*desc.script});
   }
   cpSpaceReindexStatic(space_.get());
 }
 
 void ChipmunkPeer::step() {
   for (const Scripted& s : scripted_) {
-    cpBodySetVelocity(s.body, vect(scriptedVelocity(s.script, time_, step_)));
+    const ScriptedVelocity velocity = scriptedVelocity(*s.script, time_, step_);
+    cpBodySetVelocity(s.body, vect(velocity.v));
+    cpBodySetAngularVelocity(s.body, velocity.omega);
   }
   cpSpaceStep(space_.get(), step_);
   time_ += step_;

@@ -25,7 +25,7 @@ class ChipmunkPeer final : public Peer {
 
   struct Scripted {
     cpBody* body;
-    Sinusoid script;
+    const Script* script;  ///< of the scene, which outlives the peer
   };
 
   void addShape(cpBody* body, const BodyDesc& desc, const ConvexShape& shape);

@@ -24,11 +24,21 @@ class Peer {
   virtual std::size_t ownBytes() const { return 0; }
 };
 
+struct ScriptedVelocity {
+  Vec2 v = Vec2::Zero();  ///< [m/s]
+  double omega = 0.0;     ///< [rad/s]
+};
+
 /// The velocity that takes a scripted body from where it is at `t` to where it should be at `t +
-/// h`.
-inline Vec2 scriptedVelocity(const Sinusoid& script, double t, double h) {
-  const double angular = 2.0 * std::numbers::pi / script.period;
-  return script.axis * script.amplitude * (std::cos(angular * t) - std::cos(angular * (t + h))) / h;
+/// h`; of the scripts that the scenes of the comparison use.
+inline ScriptedVelocity scriptedVelocity(const Script& script, double t, double h) {
+  if (const auto* steady = std::get_if<SteadyMotion>(&script)) {
+    return {steady->velocity, steady->spin};
+  }
+  const auto& swing = std::get<Sinusoid>(script);
+  const double angular = 2.0 * std::numbers::pi / swing.period;
+  const double way = swing.amplitude * (std::cos(angular * t) - std::cos(angular * (t + h)));
+  return {swing.axis * way / h, 0.0};
 }
 
 }  // namespace merge2d::bench
