@@ -160,12 +160,19 @@ std::string settingText(const Settings& settings, std::string_view wanted) {
   return text;
 }
 
+/// A value that a change of `key` would replace.
+std::string inForce(const World& world, std::string_view key) {
+  if (key == "gravity") return written(world.gravity());
+  if (key == "step") return fmt::format("{} s", world.timeStep());
+  return settingText(world.settings(), key);
+}
+
 /// Settings that are read in every step. The material of a body is not among them.
 bool isChangeable(std::string_view key) {
   for (const char* table : {"solver.", "merging.", "unmerging.", "sleeping."}) {
     if (key.starts_with(table)) return true;
   }
-  return key == "gravity";
+  return key == "gravity" || key == "step";
 }
 
 /// Reads a value as a scene file would.
@@ -173,6 +180,7 @@ Scene withSetting(const World& world, const std::string& key, const std::string&
   Scene scene;
   scene.settings = world.settings();
   scene.gravity = world.gravity();
+  scene.step = world.timeStep();
   scene.bodies.emplace_back().shapes.emplace_back(Circle{.center = Vec2::Zero(), .radius = 1.0});
   try {
     return parseScene(toToml(scene), "settings", {{key, value}});
@@ -210,19 +218,17 @@ std::string set(Live& live, const Arguments& words) {
   if (key == "friction") return setFriction(live, value);
   if (!isChangeable(key)) {
     throw Refusal(fmt::format(
-        "'{}' cannot be changed while it runs; one can set mode, friction, gravity and what stands "
-        "in solver, merging, unmerging and sleeping",
+        "'{}' cannot be changed while it runs; one can set mode, friction, gravity, step and all "
+        "that stands in solver, merging, unmerging and sleeping",
         key));
   }
   World& world = live.world();
   const Scene changed = withSetting(world, key, value);
-  const std::string before =
-      key == "gravity" ? written(world.gravity()) : settingText(world.settings(), key);
+  const std::string before = inForce(world, key);
   world.setGravity(changed.gravity);
+  world.setTimeStep(changed.step);
   world.setSettings(changed.settings);
-  return fmt::format(
-      "{}: {} → {}", key, before,
-      key == "gravity" ? written(world.gravity()) : settingText(world.settings(), key));
+  return fmt::format("{}: {} → {}", key, before, inForce(world, key));
 }
 
 struct Known {
@@ -241,7 +247,9 @@ const std::vector<Known>& known() {
       {{"throw", "BODY VX VY", "give it a velocity [m/s]"}, {4}, toss},
       {{"pin", "BODY", "hold it where it is"}, {2}, pin},
       {{"unpin", "BODY", "let a pinned body go"}, {2}, unpin},
-      {{"set", "key=value", "a threshold, gravity=[X, Y], friction, mode"}, {2, 3}, set},
+      {{"set", "key=value", "a threshold, gravity=[X, Y], step=SECONDS, friction, mode"},
+       {2, 3},
+       set},
       {{"add", "box|disc X Y [SIZE]", "a new body; a box has a width and a height"},
        {4, 5, 6},
        add},

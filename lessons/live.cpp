@@ -25,7 +25,7 @@ Vec2 Live::force(BodyId body) const {
   const Snapshot seen = world().capture();
   const BodyState* b = find(seen, body);
   if (b == nullptr || b->pinned) return Vec2::Zero();
-  const double mass = world().bodies()[index(body)].mass, h = world().scene().step;
+  const double mass = world().bodies()[index(body)].mass, h = world().timeStep();
   const Vec2 arm = b->pose().rotation * held->second.grip;
   const Vec2 velocity = b->v + cross(b->omega, arm);
   // Implicit in the spring and its damper: stable for every step.
@@ -47,7 +47,7 @@ void Live::pull() {
     if (pull.isZero()) continue;
     const Snapshot seen = world().capture();
     const Vec2 grip = find(seen, body)->pose() * held.grip;
-    world().applyImpulse(body, grip, world().scene().step * pull);
+    world().applyImpulse(body, grip, world().timeStep() * pull);
   }
 }
 
@@ -73,6 +73,7 @@ Live::Saved Live::save() const {
   return {.bytes = w.save(),
           .settings = w.settings(),
           .gravity = w.gravity(),
+          .h = w.timeStep(),
           .mode = w.mode(),
           .drags = drags_,
           .chosen = chosen_,
@@ -84,6 +85,7 @@ void Live::restore(const Saved& saved) {
   w.setMode(saved.mode);
   w.setSettings(saved.settings);
   w.setGravity(saved.gravity);
+  w.setTimeStep(saved.h);
   w.restore(saved.bytes, "a saved state", SavedUnder::AnySettings);
   drags_ = saved.drags;
   chosen_ = saved.chosen;

@@ -44,6 +44,7 @@ class Live {
     std::string bytes;
     Settings settings;
     Vec2 gravity = Vec2::Zero();
+    double h = 0.01;  ///< [s]
     Mode mode = Mode::MergeSleep;
     std::map<BodyId, Drag> drags;
     CollectionColors chosen;

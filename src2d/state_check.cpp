@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src2d/core/error.h"
+#include "src2d/scene/range.h"
 
 namespace merge2d {
 namespace {
@@ -30,6 +31,9 @@ class StateCheck {
     require(state_.extents.size() == of_.extents + state_.collections.size(), "extents");
     require(state_.joints.size() <= SceneLimits::kJoints, "joints");
     require(state_.step >= 0 && state_.step <= kMostSteps && state_.time >= 0.0, "steps");
+    require(kStep.lower <= state_.h && state_.h <= kStep.upper, "the time step");
+    require(state_.paced_step >= 0 && state_.paced_step <= state_.step, "the time step");
+    require(state_.paced_time >= 0.0 && state_.paced_time <= state_.time, "the time step");
     require(std::isfinite(state_.time) && std::isfinite(state_.moved), "times");
   }
 
@@ -134,7 +138,7 @@ class StateCheck {
     for (std::size_t slot = 0; slot < state_.collections.size(); ++slot) {
       const Collection& c = state_.collections[slot];
       if (c.id == kNoCollection) continue;
-      const bool known = value(c.id) >= 0 && value(c.id) < state_.next_collection;
+      const bool known = value(c.id) > 0 && value(c.id) < state_.next_collection;
       require(known && ids.insert(value(c.id)).second, "collections");
       require(index(c.rigid) == n_ + slot && !c.members.empty(), "collections");
       for (const BodyId body : c.members) {

@@ -105,11 +105,13 @@ void startOver(const Scene& scene, const std::vector<BodyDesc>& added, Setup& se
   const Mode mode = setup.state.mode;
   const Settings settings = setup.state.settings;
   const Vec2 gravity = setup.state.gravity;
+  const double h = setup.state.h;
   std::destroy_at(&setup);  // its tree cannot be assigned
   std::construct_at(&setup);
   setUp(scene, mode, setup);
   setup.state.settings = settings;
   setup.state.gravity = gravity;
+  setup.state.h = h;
   for (const BodyDesc& desc : added) {
     checkBody(desc);
     appendBody(setup, desc);
@@ -194,9 +196,11 @@ Mode restoreState(std::string_view bytes, const std::string& source, const Scene
                   Setup& setup, SavedUnder under) {
   StateReader read(checkedPayload(bytes, source), source);
   const Header header = readHeader(read, scene, setup.state, under);
+  const double h = setup.state.h;
   try {
     readSetup(read, source, scene, setup);
   } catch (...) {  // half of it would be no state at all
+    setup.state.h = h;
     startOver(scene, {}, setup);
     throw;
   }

@@ -27,6 +27,7 @@
 #include "src2d/rest.h"
 #include "src2d/scene/check.h"
 #include "src2d/state_file.h"
+#include "src2d/time_step.h"
 #include "src2d/trace/capture.h"
 
 namespace merge2d {
@@ -143,7 +144,7 @@ void World::Impl::step() {
     runStages();
   }
   state.step += 1;
-  state.time = static_cast<double>(state.step) * state.h;
+  state.time = timeOf(state);
   if (rests) return;
   countBodies(state, scratch);
   if (watched) return;
@@ -196,10 +197,12 @@ std::string World::save() const {
 void World::restore(std::string_view bytes, const std::string& source, SavedUnder under) {
   Setup& setup = impl_->changing();
   const Mode mode = setup.state.mode;
+  const double h = setup.state.h;
   setup.state.mode = restoreState(bytes, source, *impl_->scene, setup, under);
   impl_->scratch = {};
   impl_->bodies.clear();
   merge2d::setMode(setup, impl_->scratch, mode);
+  merge2d::setTimeStep(setup, h);
   impl_->scratch.events.clear();
   countBodies(impl_->setup.state, impl_->scratch);
 }
@@ -343,6 +346,12 @@ void World::setGravity(const Vec2& gravity) {
   if (gravity == impl_->setup.state.gravity) return;
   impl_->changing().state.gravity = gravity;
   wakeAll(impl_->setup);
+}
+
+double World::timeStep() const { return impl_->setup.state.h; }
+void World::setTimeStep(double h) {
+  checkTimeStep(h);
+  merge2d::setTimeStep(impl_->changing(), h);
 }
 
 void World::setMode(Mode mode) { merge2d::setMode(impl_->changing(), impl_->scratch, mode); }

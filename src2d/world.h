@@ -59,9 +59,9 @@ class World {
   /// that takes them over continues bit for bit as this one does, also where bodies, joints or
   /// springs were added.
   std::string save() const;
-  /// Takes over what `save` gave. `source` names the bytes in messages. Settings, gravity and mode
-  /// stay those of this world; with AnySettings the bytes may come from others. Throws InputError
-  /// when they are damaged, or of another version, scene, settings or mode.
+  /// Takes over what `save` gave. `source` names the bytes in messages. Settings, gravity, time
+  /// step and mode stay those of this world; with AnySettings the bytes may come from others.
+  /// Throws InputError when they are damaged, or of another version, scene, settings or mode.
   void restore(std::string_view bytes, const std::string& source,
                SavedUnder under = SavedUnder::SameSettings);
 
@@ -123,6 +123,10 @@ class World {
   void setSettings(const Settings& settings);
   Vec2 gravity() const;
   void setGravity(const Vec2& gravity);
+  /// The length h of the steps to come [s].
+  double timeStep() const;
+  /// 1e-6 to 1 s. Wakes all bodies; forces at rest, and collections, stay as they are.
+  void setTimeStep(double h);
   /// Where the new mode does not merge, all collections are taken apart.
   void setMode(Mode mode);
 

@@ -40,7 +40,7 @@ struct State {
   // constant
   Settings settings;
   Mode mode = Mode::MergeSleep;
-  double h = 0.01;
+  double h = 0.01;  ///< [s]
   Vec2 gravity{0.0, -9.81};
   std::vector<Collider> colliders;            ///< the different shapes, in the body frame
   std::vector<Aabb> collider_bounds;          ///< in the body frame
@@ -52,12 +52,14 @@ struct State {
   // what moves
   std::int64_t step = 0;
   double time = 0.0;
+  std::int64_t paced_step = 0;  ///< after which h last changed
+  double paced_time = 0.0;      ///< of that step [s]
   std::vector<Body> bodies;
-  std::vector<Rigid> rigids;    ///< bodies, then collections
-  SortedList<RigidId> present;  ///< in B, or asleep but not parked; ascending
-  std::vector<Extent> extents;  ///< of the different bodies, then one per collection
-  CollectionTable collections;  ///< slot i is rigid bodies.size() + i
-  std::int32_t next_collection = 0;
+  std::vector<Rigid> rigids;         ///< bodies, then collections
+  SortedList<RigidId> present;       ///< in B, or asleep but not parked; ascending
+  std::vector<Extent> extents;       ///< of the different bodies, then one per collection
+  CollectionTable collections;       ///< slot i is rigid bodies.size() + i
+  std::int32_t next_collection = 1;  ///< people read it as a name: C1 is the first of a run
   std::size_t used_slots = 0;  ///< of `collections`: at least this many at its start are in use
   ContactTable contacts;
   std::vector<Joint> joints;

@@ -342,6 +342,10 @@ void checkJoint(const JointDesc& joint) {
   checkJointIn(joint, [] { return std::string("the joint"); });
 }
 
+void checkTimeStep(double h) {
+  Numbers([] { return std::string("the world"); }).number("step", h, kStep);
+}
+
 void checkSettings(const Settings& settings) {
   forEachSetting(settings, [](std::string_view table, std::string_view key, const auto& value,
                               const Range& range) {

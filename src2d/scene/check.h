@@ -18,5 +18,7 @@ void checkBody(const BodyDesc& body);
 void checkSpring(const SpringDesc& spring);
 void checkJoint(const JointDesc& joint);
 void checkSettings(const Settings& settings);
+/// Of a world that runs [s].
+void checkTimeStep(double h);
 
 }  // namespace merge2d

@@ -40,7 +40,7 @@ TEST(Explain, SaysForHowLongAMergedPairWasStill) {
   World world(column(1), kAsking);
   const std::string text = textOf(firstStepWith(world, Outcome::Merged), Outcome::Merged);
   EXPECT_THAT(text, HasSubstr("ground and body1 merged at step " + std::to_string(world.steps()) +
-                              " into C0: they passed every test for 3 of 3 steps."));
+                              " into C1: they passed every test for 3 of 3 steps."));
   EXPECT_THAT(text, HasSubstr("Eq. 17"));
 }
 

@@ -72,6 +72,35 @@ TEST(Hand, SetChangesAThresholdFromTheNextStepOn) {
   EXPECT_EQ(live.world().stats().collections, 0);
 }
 
+TEST(Hand, SetChangesTheTimeStepAndTimeGoesOnFromThere) {
+  Live live = stack();
+  live.skipTo(50);
+  EXPECT_EQ(say(live, "set step=0.004"), "step: 0.01 s → 0.004 s");
+  live.skipTo(75);
+  EXPECT_NEAR(live.world().time(), 0.5 + 0.1, 1e-12);
+  const Live::Saved saved = live.save();
+  say(live, "set step=0.02");
+  live.skipTo(80);
+  live.restore(saved);
+  EXPECT_EQ(live.world().timeStep(), 0.004);
+  live.skipTo(100);
+  EXPECT_NEAR(live.world().time(), 0.5 + 0.2, 1e-12);
+}
+
+TEST(Hand, AHandHoldsABodyUpWhateverTheTimeStepIs) {
+  for (const char* h : {"0.001", "0.01", "0.05"}) {
+    Live live = stack();
+    live.skipTo(20);
+    say(live, std::string("set step=") + h);
+    say(live, "drag high to 0 4");
+    live.skipTo(20 + static_cast<int>(3.0 / live.world().timeStep()));
+    // A spring that would swing with 12 rad/s, critically damped, implicit in the step.
+    const double way = 12.0 * live.world().timeStep();
+    const double sag = 9.81 / (12.0 * 12.0) * (1.0 + 2.0 * way + way * way);
+    EXPECT_NEAR(stateOf(live, 2).x.y(), 4.0 - sag, 1e-3) << h;
+  }
+}
+
 TEST(Hand, WithoutFrictionAPushedBodySlidesOff) {
   Live rough = stack(), icy = stack();
   for (Live* live : {&rough, &icy}) live->skipTo(50);
@@ -103,7 +132,9 @@ TEST(Hand, ARefusalSaysWhatWouldBeRightAndChangesNothing) {
   EXPECT_THAT(refusal(live, "set merging.velocty=1"), HasSubstr("did you mean 'velocity'?"));
   EXPECT_THAT(refusal(live, "set merging.velocity=-1"), HasSubstr("merging.velocity"));
   EXPECT_THAT(refusal(live, "set mode=merg"), HasSubstr("did you mean 'merge'?"));
-  EXPECT_THAT(refusal(live, "set step=0.1"), HasSubstr("cannot be changed while it runs"));
+  EXPECT_THAT(refusal(live, "set duration=3"), HasSubstr("cannot be changed while it runs"));
+  EXPECT_THAT(refusal(live, "set step=0"), HasSubstr("between 1e-6 and 1 s"));
+  EXPECT_THAT(refusal(live, "set step=2"), HasSubstr("between 1e-6 and 1 s"));
   EXPECT_THAT(refusal(live, "add cone 0 0"), HasSubstr("a box or a disc"));
   EXPECT_THAT(refusal(live, "add disc 0 0 -1"), HasSubstr("not a length"));
   EXPECT_THAT(refusal(live, "push @7 1 0"), HasSubstr("there is no body '@7'"));

@@ -1,0 +1,61 @@
+#include "src2d/time_step.h"
+
+#include <utility>
+
+#include "src2d/edit.h"
+#include "src2d/merging/collection.h"
+
+namespace merge2d {
+namespace {
+
+void scaleImpulses(State& state, double ratio) {
+  for (Contact& contact : state.contacts.slots) {
+    for (ContactPoint& point : contact.points) {
+      point.lambda_n *= ratio;
+      point.lambda_t *= ratio;  // of a second point that is none, the impulse against rolling
+    }
+  }
+  for (Joint& joint : state.joints) {
+    for (double& lambda : joint.lambda) lambda *= ratio;
+  }
+}
+
+/// Hands the impulses of all rows over to contacts and joints, and has the rows made anew.
+void dropRows(State& state, Collection& c, double ratio) {
+  for (const JointBlock& k : c.joints) state.joints[k.joint].lambda = k.lambda;
+  for (InternalContact& inner : c.contacts) {
+    dropBlock(c, inner);
+    for (InternalPoint& point : inner.points) {
+      point.lambda_n *= ratio;
+      point.lambda_t *= ratio;
+    }
+  }
+  c.frame_gain *= ratio;
+  c.stale = true;
+}
+
+}  // namespace
+
+double timeOf(const State& state) {
+  return state.paced_time + static_cast<double>(state.step - state.paced_step) * state.h;
+}
+
+void setTimeStep(Setup& setup, double h) {
+  State& state = setup.state;
+  if (h == state.h) return;
+  const double ratio = h / std::exchange(state.h, h);
+  state.paced_step = state.step;
+  state.paced_time = state.time;
+  for (Collection& c : state.collections) {
+    if (c.id != kNoCollection) dropRows(state, c, ratio);
+  }
+  scaleImpulses(state, ratio);
+  layOutCollections(state);
+  for (Rigid& r : state.rigids) {
+    r.slow_steps = static_cast<int>(r.slow_steps / ratio);
+    r.quiet_steps = static_cast<int>(r.quiet_steps / ratio);
+  }
+  wakeAll(setup);
+}
+
+}  // namespace merge2d
