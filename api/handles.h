@@ -35,6 +35,7 @@ struct WorldRecords {
   std::vector<m2_collection> collections;
   std::vector<m2_body> members;
   std::vector<m2_joint_state> joints;
+  std::vector<m2_spring_state> springs;
   std::vector<m2_event> events;
   std::vector<m2_decision> decisions;
 };

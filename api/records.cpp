@@ -65,6 +65,18 @@ m2_joint_state shown(const JointView& j) {
           .torque = j.torque};
 }
 
+m2_spring_state shown(const SpringView& s) {
+  return {.number = s.number,
+          .a = number(s.body),
+          .b = s.to_world ? M2_NO_BODY : number(s.other),
+          .reserved = 0,
+          .ax = s.from.x(),
+          .ay = s.from.y(),
+          .bx = s.to.x(),
+          .by = s.to.y(),
+          .force = s.force};
+}
+
 m2_event shown(const Event& e) {
   return {.type = static_cast<std::int32_t>(e.type),
           .reason = static_cast<std::int32_t>(e.reason),
@@ -135,6 +147,7 @@ const WorldRecords& m2_world::seen() {
   const merge2d::Snapshot& s = records.snapshot;
   merge2d::showAll(s.contacts, records.contacts);
   merge2d::showAll(s.joints, records.joints);
+  merge2d::showAll(s.springs, records.springs);
   merge2d::showAll(s.events, records.events);
   merge2d::showAll(s.decisions, records.decisions);
   records.collections.clear();
@@ -152,6 +165,10 @@ m2_status m2_world_contacts(m2_world* world, const m2_contact** contacts, size_t
 
 m2_status m2_world_joints(m2_world* world, const m2_joint_state** joints, size_t* count) {
   return guarded([&] { merge2d::hand(given(world, "world").seen().joints, joints, count); });
+}
+
+m2_status m2_world_springs(m2_world* world, const m2_spring_state** springs, size_t* count) {
+  return guarded([&] { merge2d::hand(given(world, "world").seen().springs, springs, count); });
 }
 
 m2_status m2_world_collections(m2_world* world, const m2_collection** collections, size_t* count,
@@ -207,7 +224,8 @@ m2_status m2_world_why(m2_world* world, m2_body a, m2_body b, char** text) {
         merge2d::reasonFor(merge2d::Words(w.world.bodies()), w.seen().snapshot, merge2d::BodyId{a},
                            merge2d::BodyId{b});
     std::string words = reason.heading + ": " + reason.text;
-    if (!reason.outlook.empty()) words += " " + reason.outlook;
+    const std::string outlook = merge2d::sentence(reason.condition);
+    if (!outlook.empty()) words += " " + outlook;
     given(text, "text") = merge2d::copyOf(words);
   });
 }

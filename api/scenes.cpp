@@ -166,6 +166,18 @@ m2_status m2_scene_set_camera(m2_scene* scene, m2_vec center, double height) {
   });
 }
 
+m2_status m2_scene_follow(m2_scene* scene, m2_body body) {
+  return guarded([&] {
+    merge2d::Scene& s = given(scene, "scene").scene;
+    if (body == M2_NO_BODY) return s.follow.reset();
+    if (body >= s.bodies.size()) {
+      throw merge2d::InputError(
+          fmt::format("there is no body {}: the scene has {}", body, s.bodies.size()));
+    }
+    s.follow = body;
+  });
+}
+
 size_t m2_scene_body_count(const m2_scene* scene) {
   return scene == nullptr ? 0 : scene->scene.bodies.size();
 }

@@ -38,8 +38,7 @@ void requireKey(const std::string& key, bool of_scene) {
   if (std::find(names.begin(), names.end(), key) == names.end()) refuseKey(key, names);
 }
 
-/// A scene file that says only what can be set, read again with the change: one place judges
-/// values.
+/// A scene file of settings alone, read again with the change: one place judges values.
 Scene changed(const Scene& scene, const std::string& key, const std::string& value) {
   Scene small;
   small.title = scene.title;

@@ -26,7 +26,11 @@ m2_status m2_world_step(m2_world* world, uint64_t count) {
 
 int64_t m2_world_steps(const m2_world* world) { return world->world.steps(); }
 double m2_world_time(const m2_world* world) { return world->world.time(); }
-double m2_world_time_step(const m2_world* world) { return world->world.scene().step; }
+double m2_world_time_step(const m2_world* world) { return world->world.timeStep(); }
+
+m2_status m2_world_set_time_step(m2_world* world, double h) {
+  return change(world, [&](m2_world& w) { w.world.setTimeStep(h); });
+}
 
 m2_mode m2_world_mode(const m2_world* world) { return static_cast<m2_mode>(world->world.mode()); }
 

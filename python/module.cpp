@@ -121,24 +121,15 @@ py::array copy(std::span<const T> list) {
   return py::array_t<T>(static_cast<py::ssize_t>(list.size()), list.data());
 }
 
-py::list collections(PyWorld& self) {
+/// The collections, and the bodies of all of them.
+py::tuple collectionArray(PyWorld& self) {
   const Use world(self);
-  py::list out;
-  for (const merge2d::Collection& c : world->collections()) {
-    py::dict one;
-    one["id"] = c.id;
-    one["bodies"] = copy(c.bodies);
-    one["anchor"] =
-        c.anchor == M2_NO_BODY ? py::object(py::none()) : py::object(py::int_(c.anchor));
-    one["asleep"] = c.asleep != 0;
-    one["mass"] = c.mass;
-    one["inertia"] = c.inertia;
-    one["position"] = py::make_tuple(c.x, c.y);
-    one["velocity"] = py::make_tuple(c.vx, c.vy);
-    one["spin"] = c.omega;
-    out.append(one);
-  }
-  return out;
+  const m2_collection* first = nullptr;
+  const Body* members = nullptr;
+  std::size_t count = 0;
+  merge2d::detail::check(m2_world_collections(world->get(), &first, &count, &members));
+  const std::size_t bodies = count == 0 ? 0 : first[count - 1].first + first[count - 1].count;
+  return py::make_tuple(copy(std::span(first, count)), copy(std::span(members, bodies)));
 }
 
 py::dict counts(PyWorld& self) {
@@ -392,7 +383,10 @@ void bindScene(py::module_& m) {
           "set_camera",
           [](Scene& s, const Pair& center, double height) { s.setCamera(vec(center), height); },
           py::arg("center"), py::arg("height"),
-          "What pictures show: `height` metres about `center` [m].")
+          "The view of pictures: `height` metres about `center` [m].")
+      .def(
+          "follow", [](Scene& s, std::optional<Body> body) { s.follow(body.value_or(M2_NO_BODY)); },
+          py::arg("body"), "The view moves with a body, by its number; None stops that.")
       .def("body_count", &Scene::bodyCount)
       .def("to_toml", &Scene::toToml)
       .def("warnings", &Scene::warnings)
@@ -413,6 +407,7 @@ void bindTime(py::class_<PyWorld>& c) {
       .def("steps", [](PyWorld& w) { return Use(w)->steps(); })
       .def("time", [](PyWorld& w) { return Use(w)->time(); })
       .def("time_step", [](PyWorld& w) { return Use(w)->timeStep(); })
+      .def("set_time_step", [](PyWorld& w, double h) { Use(w)->setTimeStep(h); })
       .def("mode", [](PyWorld& w) { return m2_mode_name(static_cast<m2_mode>(Use(w)->mode())); })
       .def("set_mode", [](PyWorld& w, const std::string& mode) { Use(w)->setMode(modeOf(mode)); })
       .def("gravity",
@@ -576,6 +571,8 @@ void bindViews(py::class_<PyWorld>& c) {
 void bindRecords(py::class_<PyWorld>& c) {
   c.def("contacts", [](PyWorld& w) { return copy(Use(w)->contacts()); })
       .def("joints", [](PyWorld& w) { return copy(Use(w)->joints()); })
+      .def("springs", [](PyWorld& w) { return copy(Use(w)->springs()); })
+      .def("collection_array", &collectionArray)
       .def("events", [](PyWorld& w) { return copy(Use(w)->events()); })
       .def("note_decisions", [](PyWorld& w, bool on) { Use(w)->noteDecisions(on); })
       .def("decisions", [](PyWorld& w) { return copy(Use(w)->decisions()); })
@@ -584,8 +581,6 @@ void bindRecords(py::class_<PyWorld>& c) {
              const Use world(w);
              return world->why(bodyOf(*world, a), bodyOf(*world, b));
            })
-      .def("collections", &collections,
-           "id, bodies, anchor, asleep, mass, inertia, position, velocity and spin of each.")
       .def("counts", &counts)
       .def("sums", &sums)
       .def(
@@ -629,6 +624,9 @@ PYBIND11_MODULE(_merge2d, m) {
                        lambda_n, lambda_t, w_n, w_t);
   PYBIND11_NUMPY_DTYPE(m2_joint_state, kind, a, b, broken, internal, ax, ay, bx, by, fx, fy,
                        torque);
+  PYBIND11_NUMPY_DTYPE(m2_spring_state, number, a, b, reserved, ax, ay, bx, by, force);
+  PYBIND11_NUMPY_DTYPE(m2_collection, id, first, count, anchor, asleep, mass, inertia, x, y, vx, vy,
+                       omega);
   PYBIND11_NUMPY_DTYPE(m2_event, type, reason, a, b, collection);
   PYBIND11_NUMPY_DTYPE(m2_decision, a, b, value, threshold, count, needed, before, stage, criterion,
                        equation, verdict);

@@ -263,6 +263,9 @@ M2_API m2_status m2_scene_add_emitter(m2_scene* scene, const m2_body_def* def, d
                                       double start, uint32_t count, m2_vec spread, uint64_t seed);
 /** The view of pictures: `height` metres about `center` [m]. Else all bodies over the whole run. */
 M2_API m2_status m2_scene_set_camera(m2_scene* scene, m2_vec center, double height);
+/** The view moves with a body; without a camera it begins with all bodies in it. M2_NO_BODY stops
+ * that. */
+M2_API m2_status m2_scene_follow(m2_scene* scene, m2_body body);
 
 /** How many bodies have been added. */
 M2_API size_t m2_scene_body_count(const m2_scene* scene);
@@ -298,11 +301,14 @@ M2_API m2_status m2_world_new(const m2_scene* scene, m2_mode mode, m2_world** wo
 /** Frees a world. Null is fine. */
 M2_API void m2_world_free(m2_world* world);
 
-/** Takes `count` time steps. On an error those before it are done. */
+/** Takes `count` time steps (Algorithm 1 of the paper). On an error those before it are done. */
 M2_API m2_status m2_world_step(m2_world* world, uint64_t count);
 M2_API int64_t m2_world_steps(const m2_world* world);    /**< taken so far */
 M2_API double m2_world_time(const m2_world* world);      /**< [s] */
-M2_API double m2_world_time_step(const m2_world* world); /**< [s] */
+M2_API double m2_world_time_step(const m2_world* world); /**< h [s] */
+/** The length of the steps to come, 1e-6 to 1 s. Wakes all bodies; collections stay, and forces at
+ * rest last: impulses of the last step, which start the next solve, are scaled with it. */
+M2_API m2_status m2_world_set_time_step(m2_world* world, double h);
 
 /** The mode in force. */
 M2_API m2_mode m2_world_mode(const m2_world* world);
@@ -319,7 +325,7 @@ M2_API m2_status m2_world_get(const m2_world* world, const char* key, char** val
 /** Everything that influences the steps to come, as bytes that belong to the world: valid until
  * the next save. A world of the same scene continues from them bit for bit. */
 M2_API m2_status m2_world_save(m2_world* world, const void** bytes, size_t* size);
-/** Takes saved bytes over. Settings, gravity and mode stay those of this world; unless
+/** Takes saved bytes over. Settings, gravity, time step and mode stay those of this world; unless
  * `other_settings`, they must be those that the bytes were saved under. Only the version of the
  * library that saved them reads them. */
 M2_API m2_status m2_world_restore(m2_world* world, const void* bytes, size_t size,
@@ -424,7 +430,8 @@ M2_API const int32_t* m2_world_watch_collections(m2_world* world);
 /** The state of a contact in this step: nothing, hold, or slide. */
 typedef enum m2_contact_state { M2_BROKEN = 0, M2_STICKING = 1, M2_SLIDING = 2 } m2_contact_state;
 
-/** A contact point. */
+/** A contact point: 0 <= w_n, lambda_n >= 0, one of them 0, and |lambda_t| <= mu lambda_n (Eqs. (4)
+ * to (7) of the paper; an impulse is h times the force that it calls lambda). */
 typedef struct m2_contact {
   m2_body a;        /**< the body with the lower number */
   m2_body b;        /**< the other one */
@@ -446,7 +453,8 @@ typedef struct m2_contact {
 /** By a, b and feature. */
 M2_API m2_status m2_world_contacts(m2_world* world, const m2_contact** contacts, size_t* count);
 
-/** Bodies that are simulated as one. */
+/** Bodies that are simulated as one: mass, velocity and inertia by Eqs. (10) to (14) of the paper.
+ */
 typedef struct m2_collection {
   m2_collection_id id; /**< never used again in a run */
   uint32_t first;      /**< of its members, in the array of members */
@@ -484,24 +492,39 @@ typedef struct m2_joint_state {
 /** All joints, by their numbers. */
 M2_API m2_status m2_world_joints(m2_world* world, const m2_joint_state** joints, size_t* count);
 
+/** A spring in the last step. */
+typedef struct m2_spring_state {
+  uint32_t number;   /**< as m2_world_add_spring() gives it; those of the scene come first */
+  m2_body a;         /**< its body */
+  m2_body b;         /**< the other, or M2_NO_BODY: the world */
+  uint32_t reserved; /**< 0 */
+  double ax;         /**< its end on `a`, in the world [m] */
+  double ay;         /**< its end on `a`, in the world [m] */
+  double bx;         /**< the other end, in the world [m] */
+  double by;         /**< the other end, in the world [m] */
+  double force;      /**< along itself, with its damping; above 0 it pulls [N] */
+} m2_spring_state;
+/** The springs that acted in the last step, by their numbers; none before the first step. */
+M2_API m2_status m2_world_springs(m2_world* world, const m2_spring_state** springs, size_t* count);
+
 /** Kinds of events. */
 typedef enum m2_event_type {
-  M2_EVENT_MERGE = 0,   /**< of two things one was made */
-  M2_EVENT_UNMERGE = 1, /**< the end of a weld; `reason` says why */
-  M2_EVENT_SLEEP = 2,
-  M2_EVENT_WAKE = 3,
-  M2_EVENT_IMPACT = 4, /**< a pair met faster than gravity could have made it */
-  M2_EVENT_EMIT = 5,   /**< a body came in */
-  M2_EVENT_BREAK = 6   /**< a joint bore too much */
+  M2_EVENT_MERGE = 0,   /**< of two things one was made (Section 5 of the paper) */
+  M2_EVENT_UNMERGE = 1, /**< the end of a weld; `reason` says why (Section 6) */
+  M2_EVENT_SLEEP = 2,   /**< at rest in the world (Section 7) */
+  M2_EVENT_WAKE = 3,    /**< the end of that */
+  M2_EVENT_IMPACT = 4,  /**< a pair met faster than gravity could have made it */
+  M2_EVENT_EMIT = 5,    /**< a body came in */
+  M2_EVENT_BREAK = 6    /**< a joint bore too much */
 } m2_event_type;
 /** Why a weld ended. */
 typedef enum m2_reason {
   M2_REASON_NONE = 0,
-  M2_REASON_BROKEN = 1,
-  M2_REASON_SLIDING = 2,
-  M2_REASON_RELATIVE_MOTION = 3,
-  M2_REASON_CYCLE = 4,
-  M2_REASON_USER = 5
+  M2_REASON_BROKEN = 1,          /**< no contact of it presses (Section 6.3) */
+  M2_REASON_SLIDING = 2,         /**< a contact slides, Eqs. (19) and (20) */
+  M2_REASON_RELATIVE_MOTION = 3, /**< the bodies move against each other, Eqs. (15) to (17) */
+  M2_REASON_CYCLE = 4,           /**< its rigid group came apart (Section 8.2) */
+  M2_REASON_USER = 5             /**< a change from outside */
 } m2_reason;
 /** An event of a step. */
 typedef struct m2_event {
@@ -516,7 +539,8 @@ M2_API m2_status m2_world_events(m2_world* world, const m2_event** events, size_
 M2_API const char* m2_event_type_name(m2_event_type type); /**< "merge", … */
 M2_API const char* m2_reason_name(m2_reason reason);       /**< "relative-motion", … */
 
-/** One test of one criterion about a pair (docs/records.md lists them). */
+/** One test of one criterion about a pair: Eqs. (15) to (20) of the paper, and those of our own
+ * (docs/records.md lists them all). */
 typedef struct m2_decision {
   m2_body a;          /**< of the pair the lower number */
   m2_body b;          /**< the other, or `a` where one thing is meant */
@@ -551,7 +575,8 @@ typedef struct m2_counts {
 /** Of the last step; costs nothing. */
 M2_API m2_status m2_world_counts(const m2_world* world, m2_counts* counts);
 
-/** Sums over all bodies that respond to forces, computed when they are asked for. */
+/** Sums over all bodies that respond to forces, computed
+ * when they are asked for. */
 typedef struct m2_sums {
   double residual;         /**< of the full solve */
   double max_penetration;  /**< [m] */

@@ -124,6 +124,7 @@ using Decision = m2_decision;
 using Counts = m2_counts;
 /** See m2_joint_state. */
 using JointState = m2_joint_state;
+using SpringState = m2_spring_state;
 /** See m2_sums. */
 using Sums = m2_sums;
 /** See m2_ray_hit. */
@@ -324,6 +325,8 @@ class Scene {
   void setCamera(Vec2 center, double height) {
     detail::check(m2_scene_set_camera(get(), center, height));
   }
+  /** See m2_scene_follow(). */
+  void follow(Body body) { detail::check(m2_scene_follow(get(), body)); }
 
   /** See m2_scene_body_count(). */
   std::size_t bodyCount() const { return m2_scene_body_count(get()); }
@@ -365,7 +368,9 @@ class World {
   /** See m2_world_steps(). */
   std::int64_t steps() const { return m2_world_steps(get()); }
   double time() const { return m2_world_time(get()); }           ///< [s]
-  double timeStep() const { return m2_world_time_step(get()); }  ///< [s]
+  double timeStep() const { return m2_world_time_step(get()); }  ///< h [s]
+  /** See m2_world_set_time_step(). */
+  void setTimeStep(double h) { detail::check(m2_world_set_time_step(get(), h)); }
 
   /** See m2_world_mode(). */
   Mode mode() const { return static_cast<Mode>(m2_world_mode(get())); }
@@ -501,6 +506,8 @@ class World {
   std::span<const Contact> contacts() { return list<Contact>(m2_world_contacts); }
   /** See m2_world_joints(). */
   std::span<const JointState> joints() { return list<JointState>(m2_world_joints); }
+  /** See m2_world_springs(). */
+  std::span<const SpringState> springs() { return list<SpringState>(m2_world_springs); }
   /** See m2_world_events(). */
   std::span<const Event> events() { return list<Event>(m2_world_events); }
   /** For these and why(), the steps have to note them. */

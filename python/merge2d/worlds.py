@@ -65,8 +65,21 @@ class World(_merge2d.World):
 
     @property
     def time_step(self):
-        """h [s]."""
+        """h [s]; it can be set between two steps, which wakes all bodies.
+
+        >>> import merge2d
+        >>> world = merge2d.World("books")
+        >>> world.step(10)
+        >>> world.time_step /= 2
+        >>> world.step(10)
+        >>> round(world.time, 9)
+        0.15
+        """
         return super().time_step()
+
+    @time_step.setter
+    def time_step(self, h):
+        super().set_time_step(h)
 
     @property
     def mode(self):
@@ -173,7 +186,7 @@ class World(_merge2d.World):
                                             limits, motor, compliance, break_force, break_torque,
                                             collide))
 
-    # What the last step did
+    # Records of the last step
 
     @property
     def counts(self):
@@ -189,7 +202,7 @@ class World(_merge2d.World):
     @property
     def contacts(self):
         """Contact points: a, b, feature, state (of CONTACT_STATES), internal, fresh, x, y, nx, ny,
-        gap [m], lambda_n, lambda_t [N s], w_n, w_t [m/s].
+        gap [m], lambda_n, lambda_t [N s], w_n, w_t [m/s]; Eqs. (4) to (7) of the paper hold.
 
         >>> import merge2d
         >>> world = merge2d.World("books")
@@ -207,8 +220,14 @@ class World(_merge2d.World):
         return super().joints()
 
     @property
+    def springs(self):
+        """Those that acted in the last step: number, a, b (4294967295: the world), the ends ax, ay,
+        bx, by [m], force [N] along it, above 0 where it pulls."""
+        return super().springs()
+
+    @property
     def events(self):
-        """Of the last step: type, reason, a, b, collection."""
+        """Of the last step: type, reason, a, b, collection (Sections 5 to 7 of the paper)."""
         raw = super().events()
         out = np.empty(raw.shape, _EVENT)
         out["type"] = np.take(EVENT_TYPES, raw["type"])
@@ -230,7 +249,8 @@ class World(_merge2d.World):
     @property
     def decisions(self):
         """Each test of a criterion in the last step: a, b, value, threshold, count, needed, before,
-        stage, criterion, equation, verdict. InputError when the step did not note them."""
+        stage, criterion, equation of the paper ("(17)") or section, verdict. InputError when the step
+        did not note them."""
         return super().decisions().astype(_DECISION)
 
     def why(self, a, b):
@@ -246,9 +266,23 @@ class World(_merge2d.World):
 
     @property
     def collections(self):
-        """Of each collection: id, bodies, anchor (a body or None), asleep, mass [kg], inertia
-        [kg m²], position [m], velocity [m/s] and spin [rad/s]; by id."""
-        return super().collections()
+        """Bodies that are simulated as one, by id (1, 2 …; never used again): id, first, count,
+        anchor (4294967295: none), asleep, mass [kg], inertia [kg m²], x, y [m], vx, vy [m/s], omega
+        [rad/s]. `members` has their bodies.
+
+        >>> import merge2d
+        >>> world = merge2d.World("books")
+        >>> world.step(200)
+        >>> int(world.collections["count"].sum()) == len(world.members)
+        True
+        """
+        return super().collection_array()[0]
+
+    @property
+    def members(self):
+        """The bodies of all collections, ascending in each: those of `c` are
+        `members[c["first"]:c["first"] + c["count"]]`."""
+        return super().collection_array()[1]
 
     # Pictures
 

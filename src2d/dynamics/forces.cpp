@@ -72,8 +72,8 @@ double stableShare(const SpringStretch& s, const std::vector<double>& gain) {
   return all <= 1.0 ? 1.0 : 1.0 / (1.0 + all);
 }
 
-void addSpring(const State& state, const TimedSpring& spring, const SpringStretch& s,
-               Scratch& scratch) {
+void addSpring(const State& state, const TimedSpring& spring, std::uint32_t number,
+               const SpringStretch& s, Scratch& scratch) {
   Vec2 velocity = -velocityAt(state, s.from.body, s.from.at);
   if (s.other) velocity += velocityAt(state, s.to.body, s.to.at);
   // A spring without length damps every motion of its end, a long one only along itself.
@@ -84,7 +84,13 @@ void addSpring(const State& state, const TimedSpring& spring, const SpringStretc
       (spring.stiffness * (s.length - spring.rest_length) * s.direction + spring.damping * damped);
   scratch.loads.push_back({s.from.body, force, cross(s.from.arm, force)});
   if (s.other) scratch.loads.push_back({s.to.body, -force, cross(s.to.arm, -force)});
-  scratch.springs.push_back({s.from.at, s.to.at, force.dot(s.direction)});
+  scratch.springs.push_back({.number = number,
+                             .body = s.from.body,
+                             .other = s.other ? s.to.body : BodyId{},
+                             .to_world = !s.other,
+                             .from = s.from.at,
+                             .to = s.to.at,
+                             .force = force.dot(s.direction)});
 }
 
 bool acts(const State& state, const TimedSpring& spring) {
@@ -107,8 +113,9 @@ void addSprings(const State& state, const Actions& actions, Scratch& scratch) {
     addGains(state, spring, scratch.stretches.back(), gain);
   }
   auto stretch = scratch.stretches.begin();
-  for (const TimedSpring& spring : actions.springs) {
-    if (acts(state, spring)) addSpring(state, spring, *stretch++, scratch);
+  for (std::uint32_t i = 0; i < actions.springs.size(); ++i) {
+    if (!acts(state, actions.springs[i])) continue;
+    addSpring(state, actions.springs[i], i, *stretch++, scratch);
   }
 }
 

@@ -74,6 +74,9 @@ struct CollectionView {
 };
 
 struct SpringView {
+  std::uint32_t number = 0;  ///< as the world counts them
+  BodyId body{}, other{};
+  bool to_world = true;      ///< there is no `other`
   Vec2 from = Vec2::Zero();  ///< world point on the body
   Vec2 to = Vec2::Zero();    ///< world point of the other end
   double force = 0.0;        ///< pulling positive [N]

@@ -224,6 +224,48 @@ TEST(PublicWorld, ARayMeetsACircleOnItsOutline) {
   EXPECT_NEAR(hit->normal.y, -0.8, 1e-9);
 }
 
+TEST(PublicWorld, TheTimeStepCanBeChangedBetweenTwoSteps) {
+  World world(towerOf(2));
+  world.step(100);
+  const double h = world.timeStep();
+  world.setTimeStep(h / 4);
+  EXPECT_EQ(world.timeStep(), h / 4);
+  const std::string state = world.save();
+  world.step(100);
+  EXPECT_NEAR(world.time(), 125 * h, 1e-9);
+  World other(towerOf(2));
+  EXPECT_THAT(refusal([&] { other.restore(state); }), HasSubstr("other parameters"));
+  other.setTimeStep(h / 4);
+  other.restore(state);
+  other.step(100);
+  EXPECT_EQ(other.save(), world.save());
+  for (const double wrong : {0.0, -h, 2.0}) {
+    EXPECT_THAT(refusal([&] { world.setTimeStep(wrong); }), HasSubstr("between 1e-6 and 1 s"));
+  }
+}
+
+TEST(PublicWorld, ASpringPullsByHooke) {
+  Scene scene;
+  scene.set("gravity", "[0, 0]");
+  const Body ball = scene.add({.shapes = {Shape::circle(0.5)}});
+  merge2d::SpringDef pull = merge2d::springDef();
+  pull.body = ball;
+  pull.to = {3.0, 4.0};
+  pull.stiffness = 2.0;
+  pull.rest_length = 1.0;
+  scene.add(pull);
+  World world(scene);
+  EXPECT_TRUE(world.springs().empty()) << "none has acted yet";
+  world.step();
+  ASSERT_EQ(world.springs().size(), 1U);
+  const merge2d::SpringState& spring = world.springs()[0];
+  EXPECT_EQ(spring.number, 0U);
+  EXPECT_EQ(spring.a, ball);
+  EXPECT_EQ(spring.b, M2_NO_BODY);
+  EXPECT_DOUBLE_EQ(spring.bx, 3.0);
+  EXPECT_NEAR(spring.force, 2.0 * (5.0 - 1.0), 1e-12);
+}
+
 TEST(PublicWorld, RefusesWhatMakesNoSense) {
   World world(towerOf(1));
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -62,6 +62,17 @@ def test_settings_are_keyword_arguments():
     assert scene.get("merging.velocity") == 0.01
 
 
+def test_the_time_step_can_be_changed_between_two_steps():
+    world = merge2d.World(tower())
+    world.step(50)
+    world.time_step = 0.002
+    world.step(50)
+    assert world.time == pytest.approx(0.6) and world.time_step == 0.002
+    with pytest.raises(merge2d.InputError, match="between 1e-6 and 1 s"):
+        world.time_step = 0
+    assert world.time_step == 0.002
+
+
 def test_a_text_is_a_scene_and_its_errors_have_their_place():
     world = merge2d.World("[[body]]\nname = 'ball'\ncircle = 0.5\n")
     assert world.names == ["ball"]
@@ -211,6 +222,40 @@ def test_two_threads_step_two_worlds():
     assert np.array_equal(worlds[0].positions, worlds[1].positions)
 
 
+def test_springs_pull_by_hooke():
+    scene = merge2d.Scene(gravity=(0, 0))
+    ball = scene.add_body(shapes=merge2d.circle(0.5), at=(0, 0))
+    scene.add_spring(ball, anchor=(0, 0), to=(3, 4), stiffness=2, rest_length=1)
+    world = merge2d.World(scene)
+    assert len(world.springs) == 0
+    world.step()
+    spring, = world.springs
+    assert spring["number"] == 0 and spring["a"] == ball and spring["b"] == 2**32 - 1
+    assert (spring["ax"], spring["ay"], spring["bx"], spring["by"]) == (0, 0, 3, 4)
+    assert spring["force"] == pytest.approx(2 * (5 - 1))
+
+
+def test_collections_are_a_structured_array():
+    world = merge2d.World(tower(), "merge")
+    world.step(100)
+    collection, = world.collections
+    assert collection["id"] == 1 and collection["count"] == 3
+    first = collection["first"]
+    bodies = world.members[first:first + collection["count"]]
+    assert bodies.tolist() == [i for i, c in enumerate(world.collection_ids) if c == 1]
+    assert collection["anchor"] == world.body("ground")
+
+
+def test_a_camera_follows_a_body():
+    scene = merge2d.Scene("ship-crane").copy()
+    scene.follow(0)
+    assert "follow" in scene.to_toml()
+    scene.follow(None)
+    assert "follow" not in scene.to_toml()
+    with pytest.raises(merge2d.InputError, match="there is no body 999"):
+        scene.follow(999)
+
+
 def test_pictures():
     world = merge2d.World(tower())
     picture = world.render(320, 180)
@@ -260,7 +305,7 @@ def test_the_type_stubs_name_what_there_is():
         names = {n.name for n in node.body if isinstance(n, ast.FunctionDef)}
         names |= {n.target.id for n in node.body if isinstance(n, ast.AnnAssign)}
         there = {n for n in dir(getattr(merge2d, node.name)) if not n.startswith("_")}
-        hidden = {"set_mode", "set_gravity", "note_decisions", "body_count", "load", "parse", "page"}
+        hidden = {"set_mode", "set_gravity", "set_time_step", "note_decisions", "collection_array", "body_count", "load", "parse", "page"}
         hidden |= {"args", "with_traceback", "add_note", "errno", "filename", "filename2", "strerror",
                    "characters_written"}
         assert there - names <= hidden, (node.name, there - names)

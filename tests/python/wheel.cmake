@@ -1,5 +1,5 @@
-# `pip wheel .` makes a wheel, from what this build tree has compiled already, and the tests pass
-# with it in an environment of its own.
+# `pip wheel .` makes a wheel, from the parts that the build tree BUILD has compiled already or, without
+# one, from the sources alone, and the tests pass with it in an environment of its own.
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
@@ -14,7 +14,9 @@ if(NOT status EQUAL 0)
   message(STATUS "skipped: pip, setuptools, venv or wheel is missing (scripts/install-packages package)")
   return()
 endif()
-set(ENV{MERGE2D_BUILD} ${BUILD})
+if(BUILD)
+  set(ENV{MERGE2D_BUILD} ${BUILD})
+endif()
 run(${PYTHON} -m pip wheel ${SOURCE} --no-deps --no-build-isolation --no-index -w ${WORK})
 file(GLOB wheel ${WORK}/merge2d-*.whl)
 run(${PYTHON} -m venv --system-site-packages ${WORK}/venv)

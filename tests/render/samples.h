@@ -176,7 +176,7 @@ inline Sample mixture() {
   s.snapshot.events = {
       {.type = EventType::Unmerge, .a = id(6), .b = id(5), .reason = EventReason::Broken}};
   s.snapshot.welds = {{id(1), id(2), 2}, {id(2), id(11), 1}, {id(4), id(5), 1}, {id(6), id(7), 1}};
-  s.snapshot.springs = {{{-2.5, 3.4}, {-2.5, 5.6}, 3.0}};
+  s.snapshot.springs = {{.from = {-2.5, 3.4}, .to = {-2.5, 5.6}, .force = 3.0}};
   s.snapshot.bodies[8].v = {3.0, -1.5};
   s.snapshot.bodies[9].v = {-1.0, 2.0};
   s.snapshot.step = 123;
