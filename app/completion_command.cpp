@@ -137,7 +137,7 @@ complete -o filenames -F _merge2d merge2d
                      names, values, cases, fmt::join(kShells, " "), kNames);
 }
 
-/// Text inside of single quotes of a shell, and without what `_arguments` reads as its own.
+/// Text inside of single quotes of a shell, without characters that `_arguments` takes as its own.
 std::string zshText(const std::string& text) {
   std::string out;
   for (const char c : text) {

@@ -125,7 +125,8 @@ PageContent contentOf(const Lesson& lesson, const Console& console) {
   PageContent content{
       .title = lesson.title, .lesson = lessonJson(lesson, recordings), .traces = {}};
   for (std::size_t i = 0; i < recordings.size(); ++i) {
-    content.traces.push_back({lesson.traces[i].label, std::move(recordings[i])});
+    content.traces.push_back(
+        {lesson.traces[i].label, std::move(recordings[i]), lesson.traces[i].world});
   }
   return content;
 }

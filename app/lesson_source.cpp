@@ -18,7 +18,7 @@ std::optional<DataFolder> lessonNamed(const std::string& name) {
 
 Scene sceneOfLesson(const DataFolder& lesson, const Overrides& overrides) {
   const Lesson whole = loadLesson(lesson);  // whose error names the fault
-  const std::string scene = whole.scene_name;
+  const std::string& scene = whole.traces.front().scene_name;
   Scene found =
       lesson.holds(scene) ? loadSceneFile(lesson, scene, overrides) : loadScene(scene, overrides);
   found.name = whole.name;

@@ -23,6 +23,7 @@
 #include "render/frame.h"
 #include "render/png.h"
 #include "render/sequence.h"
+#include "render/svg_sheet.h"
 #include "src2d/core/error.h"
 
 namespace merge2d {
@@ -38,7 +39,7 @@ constexpr const char* kRenderExamples = R"(Examples:
   merge2d render tower-platform --resume
   merge2d render pile --contact-sheet 4x3
   merge2d render books --seconds 3 -s --format svg -o figure
-  merge2d render tower-platform --stages --at 599
+  merge2d render tower-platform --stages --at 599 --format svg
 
 The pictures are called frame_000000.png, frame_000001.png, …; frame k shows the time k / fps, and
 the last one the end of the run. Beside them, run.json tells how they were made and captions.vtt
@@ -71,7 +72,10 @@ class Rendering {
  private:
   const World& world() const { return simulation_.world(); }
   const Scene& scene() const { return world().scene(); }
-  fs::path sheetFile() const { return folder_ / "contact_sheet.png"; }
+  bool vector() const { return style_.format == FrameFormat::Svg; }
+  fs::path sheetFile() const {
+    return folder_ / (vector() ? "contact_sheet.svg" : "contact_sheet.png");
+  }
   /// Frames drawn per second.
   double speed() const { return static_cast<double>(counts_.written) / std::max(seconds_, 1e-9); }
 
@@ -211,17 +215,28 @@ void Rendering::makeContactSheet() const {
   if (!options_.contact_sheet) return;
   const auto [columns, rows] = *options_.contact_sheet;
   const std::int64_t cells = std::min<std::int64_t>(columns * rows, film_.to - film_.from + 1);
-  std::vector<Picture> frames;
+  std::vector<fs::path> files;
   for (std::int64_t i = 0; i < cells; ++i) {
     const std::int64_t way =
         cells > 1 ? (2 * i * (film_.to - film_.from) + cells - 1) / (2 * (cells - 1)) : 0;
-    frames.push_back(shrunk(loadPng(folder_ / frameName(film_.from + way)), kSheetCell));
+    files.push_back(folder_ / frameName(film_.from + way, style_.format));
   }
-  savePng(sheetFile(), contactSheet(frames, columns, style_.theme.background),
-          {.alpha = style_.transparent,
-           .description = fmt::format("{} pictures from t = {:.2f} s to t = {:.2f} s. {}", cells,
-                                      static_cast<double>(film_.from) / film_.fps, snapshot_.time,
-                                      describe(snapshot_, style_))});
+  const std::string told = fmt::format("{} pictures from t = {:.2f} s to t = {:.2f} s. {}", cells,
+                                       static_cast<double>(film_.from) / film_.fps, snapshot_.time,
+                                       describe(snapshot_, style_));
+  if (vector()) {
+    std::vector<std::string> documents;
+    for (const fs::path& file : files) documents.push_back(readFileText(file));
+    writeFile(sheetFile().string(),
+              svgSheet(documents, columns, kSheetCell, style_.theme.background,
+                       {.title = scene().title, .description = told}),
+              {.everything = true});
+  } else {
+    std::vector<Picture> frames;
+    for (const fs::path& file : files) frames.push_back(shrunk(loadPng(file), kSheetCell));
+    savePng(sheetFile(), contactSheet(frames, columns, style_.theme.background),
+            {.alpha = style_.transparent, .description = told});
+  }
   console_.note(fmt::format("{} shows {} frames", sheetFile().string(), cells));
 }
 

@@ -213,17 +213,10 @@ void check(const RenderOptions& options) {
   }
   if (options.stages && (options.last_only || options.range || isAnimation(options.format))) {
     throw UsageError(
-        "--stages draws pictures of one step; --last-frame, --frames and --format are "
-        "about frames");
+        "--stages draws pictures of one step; --last-frame, --frames and films are about frames");
   }
   if (options.last_only && options.contact_sheet) {
     throw UsageError("--last-frame makes one picture, which needs no --contact-sheet");
-  }
-  if (options.contact_sheet && options.format == Format::Svg) {
-    throw UsageError("--contact-sheet is made of pixels; --format svg has none");
-  }
-  if (options.stages && options.format == Format::Svg) {
-    throw UsageError("--stages draws PNG pictures; --format svg is about frames");
   }
   if (options.transparent && options.format == Format::Mp4) {
     throw UsageError("an mp4 cannot be transparent; --format apng can");

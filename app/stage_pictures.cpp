@@ -1,9 +1,11 @@
 #include "app/stage_pictures.h"
 
+#include "app/output_file.h"
 #include "lessons/tables.h"
 #include "render/camera.h"
 #include "render/frame.h"
 #include "render/png.h"
+#include "render/svg.h"
 
 namespace merge2d {
 namespace {
@@ -15,6 +17,8 @@ FrameStyle adapted(FrameStyle style, const World& start) {
   adaptToScene(style, start.scene(), start.capture(), start.bodies());
   return style;
 }
+
+bool isSvg(const std::string& file) { return file.ends_with(".svg"); }
 
 }  // namespace
 
@@ -51,20 +55,37 @@ void StagePictures::note(const Snapshot& snapshot) {
 }
 
 std::string StagePictures::save(const StepRecord* record, Stage stage, const std::string& file) {
-  if (record == nullptr) {
-    Canvas canvas(style_.width, style_.height);
-    const Snapshot initial = start_.capture();
-    const std::string text = describe(initial, style_);
-    savePng(file, drawFrame(canvas, initial, start_.bodies(), style_),
-            {.alpha = style_.transparent, .description = text});
-    return text;
-  }
+  if (record == nullptr) return saveStart(file);
   if (!drawer_) drawer_.emplace(start_.bodies(), style_);
   drawer_->look(cameraFor(record->before));
   const bool compare = stage == Stage::AdvanceVelocities;
+  const Snapshot* other = compare ? reference(record->step) : nullptr;
   const StageCaption caption = captionOf(*record, stage);
   const std::string text = describeStage(*record, stage, caption, style_);
-  savePng(file, drawer_->draw(*record, stage, caption, compare ? reference(record->step) : nullptr),
+  if (isSvg(file)) {
+    writeFile(file, drawer_->drawSvg(*record, stage, caption, other), {.everything = true});
+  } else {
+    savePng(file, drawer_->draw(*record, stage, caption, other),
+            {.alpha = style_.transparent, .description = text});
+  }
+  return text;
+}
+
+std::string StagePictures::saveStart(const std::string& file) const {
+  const Snapshot initial = start_.capture();
+  const std::string text = describe(initial, style_);
+  if (isSvg(file)) {
+    Text letters;
+    const BodyLooks looks(start_.bodies());
+    const Drawing drawing = composeFrame(letters, initial, start_.bodies(), looks, style_,
+                                         CollectionColors().update(initial));
+    const SvgOptions options{
+        .width = style_.width, .height = style_.height, .title = style_.title, .description = text};
+    writeFile(file, toSvg(drawing, options), {.everything = true});
+    return text;
+  }
+  Canvas canvas(style_.width, style_.height);
+  savePng(file, drawFrame(canvas, initial, start_.bodies(), style_),
           {.alpha = style_.transparent, .description = text});
   return text;
 }

@@ -20,13 +20,14 @@ class StagePictures {
 
   /// A state before the step that is drawn, in which collections may have got their colours.
   void note(const Snapshot& snapshot);
-  /// Draws a stage, or without a record the state before the first step, into a file; returns what
-  /// it shows. Throws IoError.
+  /// Draws a stage, or without a record the state before the first step, into a file: vector
+  /// graphics where its name ends in .svg. Returns what it shows. Throws IoError.
   std::string save(const StepRecord* record, Stage stage, const std::string& file);
 
   const FrameStyle& style() const { return style_; }
 
  private:
+  std::string saveStart(const std::string& file) const;
   /// The scene's, or one that is nearer and shows all bodies.
   Camera cameraFor(const Snapshot& snapshot) const;
   /// The state of the unmerged run after a step; null when the run is that itself.

@@ -16,6 +16,7 @@
 #include "app/web_vtt.h"
 #include "render/contact_sheet.h"
 #include "render/png.h"
+#include "render/svg_sheet.h"
 
 namespace merge2d {
 namespace {
@@ -56,7 +57,7 @@ class StageFiles {
         vtt_(file(".vtt").string(), {.everything = options.force, .ours = WebVtt::kStart}),
         pictures_(scene, options.mode, style_) {
     for (std::size_t i = 0; i < kStages; ++i) requirePictureMayAppear(picture(i), options.force);
-    if (options.contact_sheet) requirePictureMayAppear(file(".png"), options.force);
+    if (options.contact_sheet) requirePictureMayAppear(file(ending()), options.force);
     record_ = recordStep(scene, options, pictures_);
   }
 
@@ -76,21 +77,35 @@ class StageFiles {
     return folder_ / fmt::format("step_{:06}{}", *options_.at, rest);
   }
   fs::path picture(std::size_t i) const {
-    return file(fmt::format("_{:02}_{}.png", i + 1, name(static_cast<Stage>(i))));
+    return file(fmt::format("_{:02}_{}{}", i + 1, name(static_cast<Stage>(i)), ending()));
   }
+  bool vector() const { return options_.format == Format::Svg; }
+  const char* ending() const { return vector() ? ".svg" : ".png"; }
 
   void drawStage(std::size_t i) {
     const std::string text = pictures_.save(&*record_, static_cast<Stage>(i), picture(i).string());
     captions_.add(static_cast<std::int64_t>(i), text);
     console_.detail(text);
-    if (options_.contact_sheet) cells_.push_back(shrunk(loadPng(picture(i)), kSheetCell));
+    if (!options_.contact_sheet) return;
+    if (vector()) {
+      documents_.push_back(readFileText(picture(i)));
+    } else {
+      cells_.push_back(shrunk(loadPng(picture(i)), kSheetCell));
+    }
   }
 
   void writeContactSheet() const {
-    const fs::path sheet = file(".png");
-    savePng(sheet, contactSheet(cells_, options_.contact_sheet->first, style_.theme.background),
-            {.alpha = style_.transparent,
-             .description = fmt::format("The eleven stages of step {}.", record_->step)});
+    const fs::path sheet = file(ending());
+    const int columns = options_.contact_sheet->first;
+    const std::string told = fmt::format("The eleven stages of step {}.", record_->step);
+    if (vector()) {
+      writeFile(sheet.string(),
+                svgSheet(documents_, columns, kSheetCell, style_.theme.background, {.title = told}),
+                {.everything = true});
+    } else {
+      savePng(sheet, contactSheet(cells_, columns, style_.theme.background),
+              {.alpha = style_.transparent, .description = told});
+    }
     console_.note(fmt::format("{} shows them all", sheet.string()));
   }
 
@@ -105,6 +120,7 @@ class StageFiles {
   StagePictures pictures_;
   WebVtt captions_;  ///< a second for each picture
   std::vector<Picture> cells_;
+  std::vector<std::string> documents_;  ///< the same as vector graphics
 };
 
 }  // namespace

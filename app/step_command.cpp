@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/json.h"
 #include "app/line_editor.h"
 #include "app/picture_file.h"
 #include "app/render_options.h"
@@ -25,15 +26,28 @@ constexpr const char* kStepExamples = R"(Examples:
 
 'help' lists the commands: by step, by stage of the algorithm, or to the next event, and back; tables, reasons, pictures.
 In a terminal the line can be edited, Tab completes, the arrow keys recall. From a pipe each line is a command, and is
-repeated in the output; the exit code is 2 when one was not understood.)";
+repeated in the output; the exit code is 2 when one was not understood. With --json each command is answered by an
+object in a line: where the walk is then, whether the command could be done, and the text.)";
+
+/// An answer for programs, in a line.
+std::string asJson(Player& player, const std::string& command, const Answer& answer) {
+  const Json out{{"command", command},
+                 {"ok", answer.ok},
+                 {"step", player.step()},
+                 {"time", player.time()},
+                 {"stage", name(player.stage())},
+                 {"text", answer.text}};
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 /// Lines from a pipe.
-int followScript(Player& player) {
+int followScript(Player& player, bool json) {
   int failed = 0;
   for (std::string line; !player.done() && std::getline(std::cin, line);) {
-    print(player.prompt() + line + "\n");
+    if (!json) print(player.prompt() + line + "\n");
     const Answer answer = player.run(line);
-    print(answer.text);
+    print(json ? asJson(player, line, answer) : answer.text);
+    if (json) flushOutput();  // a program may wait for it before it asks on
     failed += answer.ok ? 0 : 1;
   }
   return failed;
@@ -69,9 +83,14 @@ void step(const SceneOptions& options) {
                   requireMayAppear(file, options.force);
                   return pictures.save(record, stage, file);
                 });
-  print(player.greeting());
-  if (isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1) return talk(player);
-  const int failed = followScript(player);
+  if (options.json) {
+    print(asJson(player, "", {.text = player.greeting()}));
+    flushOutput();
+  } else {
+    print(player.greeting());
+    if (isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1) return talk(player);
+  }
+  const int failed = followScript(player, options.json);
   if (failed > 0) {
     throw UsageError(fmt::format("{} could not be done",
                                  failed == 1 ? "a command" : fmt::format("{} commands", failed)));

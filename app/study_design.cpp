@@ -13,7 +13,7 @@
 namespace merge2d {
 namespace {
 
-/// Random numbers that depend on nothing but what they are for, so that one more axis or sample
+/// Random numbers that depend on their axis and sample alone, so that one more axis or sample
 /// leaves the others as they are. Source of the mixing: SplitMix64 (Steele, Lea, Flood 2014).
 class Draw {
  public:

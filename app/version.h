@@ -3,8 +3,8 @@
 
 namespace merge2d {
 
-/// What `git describe --always --dirty --tags` said when the program was built; empty where it was
-/// built without a repository. Defined in a source that the build writes (cmake/version.cmake).
+/// The answer of `git describe --always --dirty --tags` when the program was built; empty where it
+/// was built without a repository. Defined in a source that the build writes (cmake/version.cmake).
 extern const char* const kGitDescribe;
 
 }  // namespace merge2d

@@ -34,7 +34,8 @@ const std::vector<Player::Command>& Player::commands() {
       {"body", "", "NAME", "a body's numbers and contacts", &Player::body, 1, false},
       {"pair", "", "A B", "the contacts and tests of a pair", &Player::pair, 2, false},
       {"events", "e", "", "what happened in this step", &Player::events, 0, false},
-      {"picture", "p", "FILE.png", "draw the stage", &Player::picture, 1, false},
+      {"picture", "p", "FILE.png", "draw the stage, or as vector graphics into FILE.svg",
+       &Player::picture, 1, false},
       {"changes", "", "", "what was changed by hand", &Player::changed, 0, false},
       {"undo", "u", "[N]", "take back the last N changes", &Player::undo, 1, false},
       {"help", "?", "", "this list", &Player::help, 0, false},
@@ -69,6 +70,11 @@ std::string Player::greeting() const {
 std::string Player::prompt() const {
   if (step_ == 0) return "start > ";
   return fmt::format("step {} {} > ", step_, name(stage_));
+}
+
+double Player::time() {
+  // A stage is seen inside its step; at the end of the last one the step is over.
+  return step_ > 0 && stage_ == Stage::Merge ? timeline_.step(step_).after.time : now().time;
 }
 
 Answer Player::run(std::string_view line) {
@@ -122,7 +128,9 @@ std::vector<std::string> Player::completions(std::string_view line) const {
 
 std::string Player::picture(const Arguments& arguments) {
   if (arguments.empty()) throw Refusal("picture needs a file: picture FILE.png");
-  if (!arguments[0].ends_with(".png")) throw Refusal("pictures are PNG files: picture FILE.png");
+  if (!arguments[0].ends_with(".png") && !arguments[0].ends_with(".svg")) {
+    throw Refusal("pictures are PNG or SVG files: picture FILE.png");
+  }
   const StepRecord* record = step_ == 0 ? nullptr : &timeline_.step(step_);
   return fmt::format("{}: {}\n", arguments[0], draw_(record, stage_, arguments[0]));
 }

@@ -41,6 +41,7 @@ class Player {
 
   std::int64_t step() const { return step_; }
   Stage stage() const { return stage_; }
+  double time();  ///< of the state that is shown [s]
 
  private:
   using Arguments = std::vector<std::string>;

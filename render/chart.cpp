@@ -8,30 +8,15 @@
 #include <optional>
 #include <utility>
 
+#include "render/chart_axes.h"
 #include "render/chart_marks.h"
 #include "render/painter.h"
-#include "render/ticks.h"
 #include "src2d/core/assert.h"
 
 namespace merge2d {
 namespace {
 
-struct Range {
-  double low = 1e300, high = -1e300;
-
-  void include(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  /// Never empty, never of no extent.
-  Range orElse(double from, double to) const {
-    if (low > high) return {from, to};
-    if (low == high) return {low, low + (low == 0.0 ? 1.0 : std::abs(low))};
-    return *this;
-  }
-};
-
-/// What stands beside a chart: the numbers at its axis, and the names of its series.
+/// The room beside a chart for the numbers at its axis and the names of its series [px].
 struct Margins {
   float numbers = 0.0F, names = 0.0F;
 
@@ -47,9 +32,8 @@ class ChartPainter {
   /// `unit`: design pixels to pixels.
   ChartPainter(Painter& painter, const Chart& chart, const Theme& theme, const PixelBox& panel,
                float unit)
-      : painter_(painter), chart_(chart), theme_(theme), panel_(panel), unit_(unit) {
+      : painter_(painter), chart_(chart), axes_(chart), theme_(theme), panel_(panel), unit_(unit) {
     font_ = {std::max(10, static_cast<int>(std::lround(13.0F * unit_))), Weight::Regular};
-    findRanges();
   }
 
   Margins margins() const {
@@ -57,8 +41,8 @@ class ChartPainter {
     for (const Series& series : chart_.series) {
       widest.names = std::max(widest.names, painter_.text().width(series.name, font_));
     }
-    for (const double y : yTicks()) {
-      widest.numbers = std::max(widest.numbers, painter_.text().width(yText(y), font_));
+    for (const double y : axes_.yTicks()) {
+      widest.numbers = std::max(widest.numbers, painter_.text().width(axes_.yText(y), font_));
     }
     return widest;
   }
@@ -102,48 +86,6 @@ class ChartPainter {
     return theme_.collections[i % theme_.collections.size()].fill;
   }
 
-  /// The value that is drawn: nothing is below the axis' foot.
-  double shown(double y) const {
-    return chart_.log_y ? std::max(y, chart_.y_floor.value_or(y)) : y;
-  }
-  bool usable(double y) const { return std::isfinite(y) && (!chart_.log_y || shown(y) > 0.0); }
-
-  void findRanges() {
-    for (const Series& series : chart_.series) {
-      MERGE2D_ASSERT(series.x.size() == series.y.size(), "{}: {} and {} values", series.name,
-                     series.x.size(), series.y.size());
-      for (std::size_t i = 0; i < series.x.size(); ++i) {
-        if (!usable(series.y[i])) continue;
-        x_.include(series.x[i]);
-        y_.include(chart_.stacked ? stackedUpTo(chart_.series.size(), i) : shown(series.y[i]));
-      }
-    }
-    if (chart_.stacked && x_.low < x_.high) {
-      const std::size_t areas = chart_.series.front().x.size();
-      x_ = {edge(0), edge(areas)};
-    }
-    if (chart_.x_low) x_.low = *chart_.x_low;
-    if (chart_.x_high) x_.high = *chart_.x_high;
-    x_ = x_.orElse(0.0, 1.0);
-    if (chart_.log_y) {
-      y_ = y_.orElse(1.0, 10.0);
-      y_ = {std::pow(10.0, std::floor(std::log10(y_.low))),
-            std::pow(10.0, std::ceil(std::log10(y_.high)))};
-    } else {
-      y_.include(0.0);  // lengths from zero can be compared by eye
-      y_ = y_.orElse(0.0, 1.0);
-      y_.high += 0.04 * (y_.high - y_.low);
-      if (chart_.y_high) y_.high = *chart_.y_high;
-    }
-  }
-
-  /// The sum of the first `n` series at their k-th place.
-  double stackedUpTo(std::size_t n, std::size_t k) const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) sum += chart_.series[i].y[k];
-    return sum;
-  }
-
   void findArea(const Margins& margins) {
     const float left = std::round(panel_.x + px(30.0F) + margins.numbers);
     const float right = std::round(panel_.right() - px(50.0F) - margins.names);
@@ -157,10 +99,10 @@ class ChartPainter {
   void placeMarks() {
     constexpr std::size_t kLongest = 30;  // characters
     for (const ChartMark& mark : chart_.marks) {
-      if (mark.x < x_.low || mark.x > x_.high) continue;
+      if (mark.x < axes_.x().low || mark.x > axes_.x().high) continue;
       PlacedMark& placed = marks_.emplace_back();
       placed.name = shortened(mark.name, kLongest);
-      placed.column = std::round(at(mark.x, y_.low).x);
+      placed.column = std::round(at(mark.x, axes_.y().low).x);
       placed.width = painter_.text().width(placed.name, font_);
     }
     placeNames(marks_, panel_.x + px(10.0F), area_.right(), px(10.0F));
@@ -169,40 +111,7 @@ class ChartPainter {
     }
   }
 
-  /// "1 mm", "≤ 0.1 µm" at a foot where all that is less is drawn too.
-  std::string yText(double y) const {
-    constexpr double kRounding = 1e-9;
-    const std::string text = chart_.y_text ? chart_.y_text(y) : fmt::format("{:g}", y);
-    const bool foot = chart_.log_y && chart_.y_floor && y <= *chart_.y_floor * (1.0 + kRounding);
-    return foot ? "≤ " + text : text;
-  }
-
-  std::vector<double> yTicks() const {
-    if (!chart_.log_y) {
-      std::vector<double> round = ticks(y_.low, y_.high, 5);
-      if (chart_.whole) std::erase_if(round, [](double y) { return y != std::floor(y); });
-      return round;
-    }
-    std::vector<double> decades;
-    for (double y = y_.low; y <= 1.001 * y_.high; y *= 10.0) decades.push_back(y);
-    return decades;
-  }
-
-  std::vector<std::pair<double, std::string>> xTicks() const {
-    if (!chart_.x_ticks.empty()) return chart_.x_ticks;
-    std::vector<std::pair<double, std::string>> round;
-    for (const double x : ticks(x_.low, x_.high, 6)) round.emplace_back(x, fmt::format("{:g}", x));
-    return round;
-  }
-
-  Pixel at(double x, double y) const {
-    const double u = (x - x_.low) / (x_.high - x_.low);
-    const double v = chart_.log_y ? std::log(y / y_.low) / std::log(y_.high / y_.low)
-                                  : (y - y_.low) / (y_.high - y_.low);
-    const float inset = px(kInset);
-    return {area_.x + inset + static_cast<float>(u) * (area_.width - 2.0F * inset),
-            area_.bottom() - static_cast<float>(v) * area_.height};
-  }
+  Pixel at(double x, double y) const { return axes_.at(x, y, area_, px(kInset)); }
 
   float hairline() const { return std::max(1.0F, std::round(px(1.0F))); }
 
@@ -210,10 +119,10 @@ class ChartPainter {
     const float line = hairline();
     const float drop = std::round(0.5F * painter_.text().capHeight(font_));
     const Paint grid{.fill = mix(theme_.background, theme_.ink, 0.12)};
-    for (const double y : yTicks()) {
-      const float row = std::round(at(x_.low, y).y);
+    for (const double y : axes_.yTicks()) {
+      const float row = std::round(at(axes_.x().low, y).y);
       painter_.box({area_.x, row, area_.width, line}, 0.0F, grid);
-      painter_.write(yText(y), font_, {area_.x - px(8.0F), row + drop}, theme_.ink_soft,
+      painter_.write(axes_.yText(y), font_, {area_.x - px(8.0F), row + drop}, theme_.ink_soft,
                      Align::Right);
     }
   }
@@ -223,8 +132,8 @@ class ChartPainter {
     const Paint axis{.fill = theme_.ink};
     painter_.box({area_.x, std::round(area_.bottom()), area_.width, line}, 0.0F, axis);
     float free = panel_.x;  // where the last number ends
-    for (const auto& [x, text] : xTicks()) {
-      const float column = std::round(at(x, y_.low).x);
+    for (const auto& [x, text] : axes_.xTicks()) {
+      const float column = std::round(at(x, axes_.y().low).x);
       painter_.box({column, std::round(area_.bottom()), line, px(5.0F)}, 0.0F, axis);
       const float half = 0.5F * painter_.text().width(text, font_);
       if (column - half < free) continue;
@@ -249,25 +158,15 @@ class ChartPainter {
     }
   }
 
-  /// Where the k-th area begins: each value reaches half-way to its neighbours, and the outermost
-  /// as far to the other side.
-  double edge(std::size_t k) const {
-    const std::vector<double>& x = chart_.series.front().x;
-    if (x.size() == 1) return k == 0 ? x_.low : x_.high;
-    if (k == 0) return x[0] - 0.5 * (x[1] - x[0]);
-    if (k == x.size()) return x[k - 1] + 0.5 * (x[k - 1] - x[k - 2]);
-    return 0.5 * (x[k - 1] + x[k]);
-  }
-
   void drawAreas() {
     if (chart_.series.empty()) return;
     const std::vector<double>& x = chart_.series.front().x;
     for (std::size_t k = 0; k < x.size(); ++k) {
-      const float left = std::round(at(edge(k), y_.low).x);
-      const float right = std::round(at(edge(k + 1), y_.low).x);
+      const float left = std::round(at(axes_.edge(k), axes_.y().low).x);
+      const float right = std::round(at(axes_.edge(k + 1), axes_.y().low).x);
       for (std::size_t i = 0; i < chart_.series.size(); ++i) {
-        const float bottom = std::round(at(x[k], stackedUpTo(i, k)).y);
-        const float top = std::round(at(x[k], stackedUpTo(i + 1, k)).y);
+        const float bottom = std::round(at(x[k], axes_.stackedUpTo(i, k)).y);
+        const float top = std::round(at(x[k], axes_.stackedUpTo(i + 1, k)).y);
         painter_.box({left, top, right - left, bottom - top}, 0.0F, {.fill = areaColor(i)});
       }
     }
@@ -279,8 +178,9 @@ class ChartPainter {
     const std::vector<double>& x = chart_.series.front().x;
     const float half = px(3.0F), height = px(4.0F), base = std::round(area_.y);
     for (std::size_t k = 0; k < x.size(); ++k) {
-      if (stackedUpTo(chart_.series.size(), k) <= y_.high) continue;
-      const float middle = 0.5F * (at(edge(k), y_.low).x + at(edge(k + 1), y_.low).x);
+      if (axes_.stackedUpTo(chart_.series.size(), k) <= axes_.y().high) continue;
+      const float middle =
+          0.5F * (at(axes_.edge(k), axes_.y().low).x + at(axes_.edge(k + 1), axes_.y().low).x);
       const std::array<Pixel, 3> tip = {Pixel{middle - half, base}, Pixel{middle + half, base},
                                         Pixel{middle, base - height}};
       painter_.polygon(tip, 0.0F, {.fill = theme_.ink});
@@ -311,8 +211,8 @@ class ChartPainter {
       column.clear();
     };
     for (std::size_t i = 0; i < series.x.size(); ++i) {
-      if (!usable(series.y[i])) continue;
-      const Pixel p = at(series.x[i], shown(series.y[i]));
+      if (!axes_.usable(series.y[i])) continue;
+      const Pixel p = at(series.x[i], axes_.shown(series.y[i]));
       if (!column.empty() && std::floor(p.x) != std::floor(column.front().x)) flush();
       column.push_back(p);
     }
@@ -360,11 +260,11 @@ class ChartPainter {
 
   Painter& painter_;
   const Chart& chart_;
+  ChartAxes axes_;
   const Theme& theme_;
   PixelBox panel_;
   float unit_ = 1.0F;
   Font font_;
-  Range x_, y_;
   PixelBox area_;
   std::vector<PlacedMark> marks_;
   std::size_t mark_rows_ = 0;

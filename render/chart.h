@@ -51,7 +51,7 @@ struct LineStyle {
 };
 LineStyle lineStyle(const Theme& theme, std::size_t i, std::size_t count);
 
-/// What is to be drawn into a picture of this size; `text` must belong to the canvas that draws it.
+/// The shapes of a chart in a picture of this size; `text` must belong to the canvas that draws it.
 Drawing composeCharts(Text& text, std::span<const Chart> charts, int columns, int width, int height,
                       const Theme& theme = lightTheme());
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What is drawn, by a canvas (render/canvas.h) or as SVG (render/svg.h): plain lists of shapes,
+/// Shapes to be drawn by a canvas (render/canvas.h) or as SVG (render/svg.h): plain lists,
 /// arrows and text in pixels, x to the right and y down from the top left corner of the picture.
 
 #include <array>
@@ -60,7 +60,7 @@ struct GlyphInstance {
   Color color;
 };
 
-/// A line of text as text: what its glyphs say, for pictures that are not made of pixels.
+/// A line of text as text, for pictures that are not made of pixels.
 struct TextLine {
   std::string text;  ///< UTF-8
   Pixel start;       ///< of its baseline, at whole pixels

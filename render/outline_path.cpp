@@ -17,7 +17,7 @@ Pixel unit(Pixel v) {
 /// To the outside of an edge of corners that go clockwise as seen (y points down).
 Pixel outward(Pixel along) { return unit({along.y, -along.x}); }
 
-/// What lies at least `depth` inside of the line through `from` along `along`.
+/// The part at least `depth` inside of the line through `from` along `along`.
 std::vector<Pixel> clipped(const std::vector<Pixel>& corners, Pixel from, Pixel along,
                            float depth) {
   const Pixel normal = outward(along);

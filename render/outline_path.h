@@ -1,5 +1,5 @@
 #pragma once
-/// The boundary of a shape of a drawing as a path: what the shape shader computes pixel by pixel.
+/// The boundary of a shape of a drawing as a path; the shape shader computes it pixel by pixel.
 
 #include <string>
 #include <vector>

@@ -251,6 +251,11 @@ std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file) {
   return bytes;
 }
 
+std::string readFileText(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> bytes = readFileBytes(file);
+  return {bytes.begin(), bytes.end()};
+}
+
 void writeAtomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                      bool durable) {
   NewFile out(file, {.durable = durable});

@@ -62,6 +62,7 @@ bool isOurPng(const std::filesystem::path& file);
 
 /// Throws IoError.
 std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file);
+std::string readFileText(const std::filesystem::path& file);
 
 /// The file appears with all its bytes or not at all (render/new_file.h); after a loss of power
 /// too, where it is `durable`. Throws IoError.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/stage_marks.h"
+#include "render/svg.h"
 
 namespace merge2d {
 namespace {
@@ -76,16 +77,28 @@ void drawStageCaption(Painter& painter, const FrameScene& scene, const StepRecor
 }  // namespace
 
 StageDrawer::StageDrawer(const std::vector<BodyInfo>& bodies, FrameStyle style)
-    : bodies_(bodies),
-      style_(std::move(style)),
-      looks_(bodies),
-      canvas_(style_.width, style_.height) {
+    : bodies_(bodies), style_(std::move(style)), looks_(bodies) {
   style_.theme = paled(style_.theme);
   style_.overlays = Overlays::standard();
 }
 
 Picture StageDrawer::draw(const StepRecord& record, Stage stage, const StageCaption& caption,
                           const Snapshot* reference) {
+  if (!canvas_) canvas_.emplace(style_.width, style_.height);
+  return canvas_->draw(compose(canvas_->text(), record, stage, caption, reference));
+}
+
+std::string StageDrawer::drawSvg(const StepRecord& record, Stage stage, const StageCaption& caption,
+                                 const Snapshot* reference) {
+  return toSvg(compose(text_, record, stage, caption, reference),
+               {.width = style_.width,
+                .height = style_.height,
+                .title = style_.title,
+                .description = describeStage(record, stage, caption, style_)});
+}
+
+Drawing StageDrawer::compose(Text& text, const StepRecord& record, Stage stage,
+                             const StageCaption& caption, const Snapshot* reference) {
   const Snapshot& shown = record[stage].after;
   colors_.update(record.before);
   const CollectionSlots slots = colors_.update(shown);
@@ -98,7 +111,7 @@ Picture StageDrawer::draw(const StepRecord& record, Stage stage, const StageCapt
       shown, bodies_, looks_, bare, slots, layout, View(style_.camera, layout.panel)};
   Drawing drawing;
   if (!style_.transparent) drawing.background = style_.theme.background;
-  Painter painter(drawing, canvas_.text());
+  Painter painter(drawing, text);
   painter.beginLayer(layout.panel);
   drawBodies(painter, scene);
   drawMarks(painter, springs);
@@ -106,7 +119,7 @@ Picture StageDrawer::draw(const StepRecord& record, Stage stage, const StageCapt
   drawStage(painter, scene, record, stage, reference);
   painter.beginLayer();
   drawStageCaption(painter, scene, record, stage, caption);
-  return canvas_.draw(drawing);
+  return drawing;
 }
 
 std::string describeStage(const StepRecord& record, Stage stage, const StageCaption& caption,

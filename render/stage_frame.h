@@ -1,6 +1,7 @@
 #pragma once
 /// What one stage of Algorithm 1 did in one step, as a picture.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,13 +34,20 @@ class StageDrawer {
   /// null.
   Picture draw(const StepRecord& record, Stage stage, const StageCaption& caption,
                const Snapshot* reference = nullptr);
+  /// The same as an SVG document, for which no OpenGL is needed.
+  std::string drawSvg(const StepRecord& record, Stage stage, const StageCaption& caption,
+                      const Snapshot* reference = nullptr);
 
  private:
+  Drawing compose(Text& text, const StepRecord& record, Stage stage, const StageCaption& caption,
+                  const Snapshot* reference);
+
   const std::vector<BodyInfo>& bodies_;
   FrameStyle style_;
   BodyLooks looks_;
   CollectionColors colors_;
-  Canvas canvas_;
+  std::optional<Canvas> canvas_;  ///< made for the first picture of pixels
+  Text text_;                     ///< of the others
 };
 
 /// What the picture shows, for those who cannot see it.

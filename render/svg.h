@@ -20,7 +20,7 @@ struct SvgOptions {
   bool inner = false;           ///< part of a page: without the XML declaration
 };
 
-/// The drawing as one SVG 1.1 document. Text stays text, in DejaVu Sans or what is like it, as wide
+/// The drawing as one SVG 1.1 document. Text stays text, in DejaVu Sans or a similar face, as wide
 /// as it is in pictures.
 std::string toSvg(const Drawing& drawing, const SvgOptions& options);
 

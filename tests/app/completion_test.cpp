@@ -11,7 +11,7 @@ using testing::Not;
 
 class Completion : public ProgramTest {
  protected:
-  /// What bash offers for these words, of which the last is being typed.
+  /// The completions of bash for these words, of which the last is being typed.
   Words offered(const Words& words) {
     write("completion.bash", run({"completion", "bash"}).out);
     std::string script = ". ./completion.bash; COMP_WORDS=(";

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "app/program.h"
 #include "render/png.h"
 #include "src2d/trace/snapshot.h"
@@ -80,6 +82,23 @@ TEST_F(Step, ALineThatIsNotUnderstoodEndsWithAnError) {
   EXPECT_THAT(outcome.out, HasSubstr("did you mean 'step'?"));
   EXPECT_THAT(outcome.out, HasSubstr("step 1, t = 0.01 s"));
   EXPECT_THAT(outcome.err, HasSubstr("a command could not be done"));
+}
+
+TEST_F(Step, WithJsonEachCommandIsAnsweredByAnObject) {
+  const Outcome outcome = follow("step 3\nstage\nset step=0.005\nstep\nstpe\n", {"--json"});
+  EXPECT_EQ(outcome.code, kWrongUsage);
+  std::vector<nlohmann::json> answers;
+  for (const std::string& line : linesOf(outcome.out))
+    answers.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(answers.size(), 6U);
+  EXPECT_EQ(answers[0]["command"], "");
+  EXPECT_THAT(answers[0]["text"].get<std::string>(), HasSubstr("Three boxes"));
+  EXPECT_EQ(answers[1]["step"], 3);
+  EXPECT_DOUBLE_EQ(answers[1]["time"], 0.03);
+  EXPECT_EQ(answers[2]["step"], 4);
+  EXPECT_EQ(answers[2]["stage"], "ContactDetection");
+  EXPECT_NEAR(answers[4]["time"].get<double>(), 0.045, 1e-12);
+  EXPECT_EQ(answers[5]["ok"], false);
 }
 
 TEST_F(Step, RenderDrawsTheElevenStagesOfAStep) {

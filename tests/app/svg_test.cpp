@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <regex>
+#include <set>
+
 #include "tests/app/program_testing.h"
 
 namespace merge2d {
@@ -65,9 +68,49 @@ TEST_F(VectorGraphics, ChartsAndGraphsToo) {
   EXPECT_EQ(read("logo.svg"), "<svg/>");
 }
 
-TEST_F(VectorGraphics, WhatIsMadeOfPixelsIsRefused) {
-  EXPECT_EQ(run({"render", "stack.toml", "--format", "svg", "--contact-sheet", "2x2"}).code, 2);
-  EXPECT_EQ(run({"render", "stack.toml", "--format", "svg", "--stages", "--at", "3"}).code, 2);
+TEST_F(VectorGraphics, StagesAreTheShapesOfPicturesAndNeedNoOpenGl) {
+  setEnvironment("GALLIUM_DRIVER", "none-of-these");
+  const Words arguments = {"render", "stack.toml",      "--stages", "--at",
+                           "5",      "--format",        "svg",      "-o",
+                           "out",    "--contact-sheet", "4x3"};
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(files("out/stages"), testing::SizeIs(13));
+  EXPECT_THAT(read("out/stages/step_000005_11_Merge.svg"),
+              AllOf(StartsWith(kSvg), HasSubstr("Step 5, stage 11: Merge</text>"),
+                    HasSubstr("<desc>Three boxes. Step 5, stage 11 of 11")));
+  const std::string sheet = read("out/stages/step_000005.svg");
+  EXPECT_THAT(sheet, AllOf(StartsWith(kSvg), HasSubstr("stage 1: ContactDetection</text>"),
+                           HasSubstr("stage 11: Merge</text>")));
+  EXPECT_EQ(run(arguments).code, 0) << "they are ours";
+  write("out/stages/step_000005.svg", "<svg/>");
+  EXPECT_EQ(run(arguments).code, 2);
+  EXPECT_EQ(read("out/stages/step_000005.svg"), "<svg/>");
+}
+
+TEST_F(VectorGraphics, AContactSheetHoldsItsFramesWithIdsOfTheirOwn) {
+  const Outcome outcome = run({"render", "stack.toml", "--format", "svg", "-o", "out", "--fps",
+                               "20", "--contact-sheet", "3x2"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const std::string sheet = read("out/contact_sheet.svg");
+  EXPECT_THAT(sheet, StartsWith(kSvg));
+  std::set<std::string> ids;
+  const std::regex id("<[^>]* id=\"([^\"]*)\"");
+  for (std::sregex_iterator at(sheet.begin(), sheet.end(), id), end; at != end; ++at) {
+    EXPECT_TRUE(ids.insert((*at)[1]).second) << (*at)[1];
+  }
+  EXPECT_FALSE(ids.empty());
+  const std::regex use("url\\(#([^)]*)\\)");
+  for (std::sregex_iterator at(sheet.begin(), sheet.end(), use), end; at != end; ++at) {
+    EXPECT_TRUE(ids.contains((*at)[1])) << (*at)[1];
+  }
+}
+
+TEST_F(VectorGraphics, AWalkDrawsWhatItsFileIsCalled) {
+  sendInput("picture start.svg\njump 5 Merge\npicture merge.svg\n");
+  EXPECT_EQ(run({"step", "stack.toml"}).code, 0);
+  EXPECT_THAT(read("start.svg"), AllOf(StartsWith(kSvg), HasSubstr("Step 0")));
+  EXPECT_THAT(read("merge.svg"), AllOf(StartsWith(kSvg), HasSubstr("Step 5, stage 11")));
 }
 
 }  // namespace

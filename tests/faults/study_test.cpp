@@ -1,4 +1,8 @@
-/// Studies that are killed, and what goes on afterwards.
+/// Studies that are killed, and their continuation.
+
+#include <algorithm>
+#include <random>
+#include <set>
 
 #include "tests/faults/fault_testing.h"
 
@@ -129,6 +133,45 @@ TEST_F(StudyFault, AFullDiskIsAnErrorAndLosesNothing) {
   beforeStart(nullptr);
   EXPECT_EQ(keptRows(), before);
   EXPECT_EQ(run(study_).code, kFine);
+}
+
+class LongStudy : public FaultTest {};
+
+TEST_F(LongStudy, OfTenThousandShortRunsLosesNoRowHoweverOftenItIsKilled) {
+  constexpr std::size_t kRuns = 10'000;
+  write("study.toml",
+        "scenes = [\"stack.toml\"]\nsteps = 2\nreference_error = false\nseeds = { from = 1, to = " +
+            std::to_string(kRuns) + " }\n");
+  const Words study = {"study", "study.toml", "-o", "out", "--quiet"};
+  const auto rows = [&] {
+    std::set<std::string> names;
+    if (!exists("out/rows")) return names;
+    for (const std::string& name : files("out/rows")) {
+      if (!name.starts_with(".")) names.insert(name);
+    }
+    return names;
+  };
+  std::mt19937 random(1);
+  std::set<std::string> before;
+  for (int kills = 0; kills < 40 && before.size() < kRuns; ++kills) {
+    const pid_t child = start(study);
+    usleep(static_cast<useconds_t>(20'000 + random() % 2'000'000));
+    kill(child, SIGKILL);
+    wait(child);
+    const std::set<std::string> now = rows();
+    ASSERT_TRUE(std::ranges::includes(now, before)) << "after " << kills << " kills";
+    before = now;
+  }
+  const Outcome outcome = run(study);
+  EXPECT_EQ(outcome.code, kFine) << outcome.err;
+  const Words lines = linesOf(read("out/study.csv"));
+  ASSERT_EQ(lines.size(), 1 + kRuns);
+  std::set<std::string> first;  // fields: the number of the run
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    first.insert(lines[i].substr(0, lines[i].find(',')));
+  }
+  EXPECT_EQ(first.size(), kRuns) << "each run has one row";
+  EXPECT_EQ(rows().size(), kRuns);
 }
 
 }  // namespace

@@ -125,13 +125,21 @@ def check_trace(checker, folder):
             checker.check("trace-step" if i else "trace-header", line, f"{scene}, line {i + 1}")
 
 
+def check_step(checker, folder):
+    script = "step 3\nstage\nwhy\nset step=0.005\nnothing of the kind\n"
+    answers = subprocess.run([PROGRAM, "step", "stack.toml", "--json"], cwd=folder, input=script,
+                             capture_output=True, text=True, check=False).stdout
+    for i, line in enumerate(answers.splitlines()):
+        checker.check("step", line, f"merge2d step, answer {i}")
+
+
 def check_commands(checker, folder):
     """A command that offers --json has an output above."""
     known = {arguments[0] for _, arguments in OUTPUTS}
     text = run(["completion", "bash"], folder).stdout
     for line in text.splitlines():
         command, _, options = line.strip().partition(") options=")
-        if "--json" in options and command not in known | {"step"}:
+        if "--json" in options and command not in known | {"step"}:  # whose lines are checked alone
             checker.faults.append(f"merge2d {command} --json has no schema")
 
 
@@ -153,6 +161,7 @@ def main():
             for file in sorted(folder.glob(pattern)):
                 checker.check(schema, file.read_text(encoding="utf-8"), file.name)
         check_trace(checker, folder)
+        check_step(checker, folder)
         check_commands(checker, folder)
     for unused in sorted(set(checker.schemas) - checker.used):
         checker.faults.append(f"{unused}.schema.json describes nothing that was tried")
