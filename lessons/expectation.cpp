@@ -103,8 +103,18 @@ double Quantity::at(const Recording& r, std::int64_t step) const {
   return kind_ == "gap" ? least : sum / r.scene.step;
 }
 
-Expectation::Expectation(TableReader table, const Scene& scene,
-                         const std::vector<std::string>& labels) {
+Expectation::Expectation(TableReader table, const std::vector<LessonTrace>& traces) {
+  if (const auto value = table.get("trace")) {
+    std::vector<std::string_view> labels;
+    for (const LessonTrace& trace : traces) labels.emplace_back(trace.label);
+    const auto at = std::ranges::find(labels, std::string_view(value->text()));
+    if (at == labels.end()) {
+      value->fail(fmt::format("the lesson has no trace '{}'{}", value->text(),
+                              didYouMean(value->text(), labels)));
+    }
+    trace_ = static_cast<std::size_t>(at - labels.begin());
+  }
+  const Scene& scene = traces[trace_].scene;
   const auto names = [&](const char* key, What what) {
     const auto value = table.get(key);
     if (!value) return 0;
@@ -138,14 +148,6 @@ Expectation::Expectation(TableReader table, const Scene& scene,
     const std::vector<double> ends = value->numbers(2, "[least, most]");
     if (ends[0] > ends[1]) value->fail("the first number must not be larger than the second");
     between_ = {ends[0], ends[1]};
-  }
-  if (const auto value = table.get("trace")) {
-    const auto at = std::find(labels.begin(), labels.end(), value->text());
-    if (at == labels.end()) {
-      value->fail(fmt::format("the lesson has no trace '{}'{}", value->text(),
-                              didYouMean(value->text(), labels)));
-    }
-    trace_ = static_cast<std::size_t>(at - labels.begin());
   }
   table.done();
   if (found != 1) {

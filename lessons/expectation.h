@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "lessons/lesson_trace.h"
 #include "lessons/moment.h"
 
 namespace merge2d {
@@ -27,8 +28,8 @@ class Quantity {
 /// One [[expect]]: exactly one thing that can be true or false.
 class Expectation {
  public:
-  /// Throws InputError where it is not well formed. `labels` are those of the lesson's traces.
-  Expectation(TableReader table, const Scene& scene, const std::vector<std::string>& labels);
+  /// Throws InputError where it is not well formed.
+  Expectation(TableReader table, const std::vector<LessonTrace>& traces);
 
   /// Index of the trace it is about.
   std::size_t trace() const { return trace_; }

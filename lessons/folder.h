@@ -13,7 +13,7 @@ std::span<const EmbeddedFile> embeddedLessons();
 /// `player.js`, `player.css` and the engine, `engine.b64`. They read the output of this program, so
 /// nothing replaces them.
 std::span<const EmbeddedFile> embeddedPlayer();
-/// `page.txt` and `engine.txt`: the licences of what pages have in them.
+/// `page.txt` and `engine.txt`: the licences of all parts of a page.
 std::span<const EmbeddedFile> embeddedLicences();
 
 /// Where lessons are looked for, in this order.

@@ -101,15 +101,13 @@ class Loader {
     readTraces(top);
     readParts(top);
     for (TableReader& table : top.tables("expect")) {
-      lesson_.expectations.emplace_back(table, scene(), labels_);
+      lesson_.expectations.emplace_back(table, lesson_.traces);
     }
     top.done();
     return std::move(lesson_);
   }
 
  private:
-  const Scene& scene() const { return lesson_.traces.front().scene; }
-
   void readHead(TableReader& top) {
     if (const auto format = top.require("format")) format->integer({1, 1, "1"});
     if (const auto title = top.require("title")) lesson_.title = asOneLine(title->text());
@@ -124,43 +122,58 @@ class Loader {
   }
 
   void readTraces(TableReader& top) {
-    LessonTrace first{.label = "as it is", .mode = Mode::MergeSleep, .scene = {}};
+    LessonTrace first{.label = "as it is", .mode = Mode::MergeSleep, .scene = {}, .scene_name = {}};
     if (const auto mode = top.get("mode")) first.mode = modeOf(*mode);
-    const std::string wanted = sceneWanted(top);
-    lesson_.scene_name = wanted;
-    const auto load = [&](const Overrides& overrides) {
-      Scene scene = folder_.holds(wanted) ? loadSceneFile(folder_, wanted, overrides)
-                                          : loadScene(wanted, overrides);
-      if (const auto seconds = top.get("seconds")) {
-        scene.duration = seconds->number({1e-3, 600, "between 0.001 and 600"});
-      }
-      return scene;
-    };
-    first.scene = load({});
-    add(first);
+    const auto named = top.require("scene");
+    if (!named) top.done();
+    first.scene_name = sceneNamed(*named);
+    const double seconds = secondsOf(top).value_or(0.0);  // 0: the scene's own
+    load(first, {}, seconds);
     for (TableReader& table : top.tables("trace")) {
-      LessonTrace trace{.label = "", .mode = first.mode, .scene = {}};
+      LessonTrace trace{.label = "", .mode = first.mode, .scene = {}, .scene_name = {}};
       if (const auto label = table.require("label")) trace.label = newLabel(*label);
       if (const auto mode = table.get("mode")) trace.mode = modeOf(*mode);
+      const auto own = table.get("scene");
+      trace.scene_name = own ? sceneNamed(*own) : first.scene_name;
+      const bool same = trace.scene_name == first.scene_name;
+      const double usual = same ? seconds : 0.0;
       const Overrides overrides = readOverrides(table);
+      const double lasts = secondsOf(table).value_or(usual);
       table.done();
-      trace.scene = load(overrides);
-      add(std::move(trace));
+      load(std::move(trace), overrides, lasts);
     }
   }
 
-  void add(LessonTrace trace) {
+  static std::optional<double> secondsOf(TableReader& table) {
+    const auto seconds = table.get("seconds");
+    if (!seconds) return std::nullopt;
+    return seconds->number({1e-3, 600, "between 0.001 and 600"});
+  }
+
+  void load(LessonTrace trace, const Overrides& overrides, double seconds) {
+    const std::string wanted = trace.scene_name;
+    trace.scene = folder_.holds(wanted) ? loadSceneFile(folder_, wanted, overrides)
+                                        : loadScene(wanted, overrides);
+    if (seconds > 0.0) trace.scene.duration = seconds;
+    trace.world = static_cast<std::size_t>(std::ranges::find(scenes_, wanted) - scenes_.begin());
+    if (trace.world == scenes_.size()) scenes_.push_back(wanted);
     labels_.push_back(trace.label);
     lesson_.traces.push_back(std::move(trace));
   }
 
   /// A file of the folder, or the name of a built-in scene.
-  std::string sceneWanted(TableReader& top) const {
-    const std::optional<Value> named = top.require("scene");
-    if (!named) top.done();
-    const std::string wanted = named->text();
-    if (!folder_.holds(wanted) && wanted.find('.') != std::string::npos) {
-      named->fail(fmt::format("there is no file '{}' in the lesson's folder", wanted));
+  std::string sceneNamed(const Value& named) const {
+    std::string wanted = named.text();
+    if (folder_.holds(wanted)) return wanted;
+    if (wanted.find('.') != std::string::npos) {
+      named.fail(fmt::format("there is no file '{}' in the lesson's folder", wanted));
+    }
+    const std::vector<BuiltinScene> builtin = builtinScenes();
+    std::vector<std::string_view> names;
+    for (const BuiltinScene& scene : builtin) names.emplace_back(scene.name);
+    if (std::ranges::find(names, wanted) == names.end()) {
+      named.fail(
+          fmt::format("there is no built-in scene '{}'{}", wanted, didYouMean(wanted, names)));
     }
     return wanted;
   }
@@ -210,13 +223,14 @@ class Loader {
     const auto section = table.require("section");
     const auto at = table.require("at");
     if (!section || !at) table.done();
+    const std::size_t trace = traceOf(table);
     LessonPart part{.title = section->text(),
                     .html = {},
-                    .at = Moment(*at, scene()),
+                    .at = Moment(*at, lesson_.traces[trace].scene),
                     .stage = {},
                     .layers = {},
                     .select = {},
-                    .trace = 0,
+                    .trace = trace,
                     .questions = {}};
     const auto found = std::find(titles.begin(), titles.end(), part.title);
     if (found == titles.end()) {
@@ -235,30 +249,36 @@ class Loader {
       }
     }
     if (const auto select = table.get("select")) readSelection(*select, part);
-    if (const auto trace = table.get("trace")) {
-      const auto label = std::find(labels_.begin(), labels_.end(), trace->text());
-      if (label == labels_.end()) {
-        trace->fail(fmt::format("the lesson has no trace '{}'{}", trace->text(),
-                                didYouMean(trace->text(), labels_)));
-      }
-      part.trace = static_cast<std::size_t>(label - labels_.begin());
-    }
     readQuestions(table, part);
     table.done();
     lesson_.parts.push_back(std::move(part));
   }
 
+  /// The run that a part shows.
+  std::size_t traceOf(TableReader& table) const {
+    const auto trace = table.get("trace");
+    if (!trace) return 0;
+    const auto label = std::find(labels_.begin(), labels_.end(), trace->text());
+    if (label == labels_.end()) {
+      trace->fail(fmt::format("the lesson has no trace '{}'{}", trace->text(),
+                              didYouMean(trace->text(), labels_)));
+    }
+    return static_cast<std::size_t>(label - labels_.begin());
+  }
+
   /// [part.question], or several of them in [[part.questions]].
   void readQuestions(TableReader& table, LessonPart& part) const {
-    if (auto question = table.table("question")) part.questions.emplace_back(*question, scene());
+    const Scene& scene = lesson_.traces[part.trace].scene;
+    if (auto question = table.table("question")) part.questions.emplace_back(*question, scene);
     for (TableReader& question : table.tables("questions")) {
-      part.questions.emplace_back(question, scene());
+      part.questions.emplace_back(question, scene);
     }
   }
 
   void readSelection(const Value& value, LessonPart& part) const {
+    const Scene& scene = lesson_.traces[part.trace].scene;
     for (const Value& wanted : value.elements("[\"a body\"] or [\"a\", \"b\"]")) {
-      part.select.push_back(bodyNamed(wanted, scene(), wanted.text()));
+      part.select.push_back(bodyNamed(wanted, scene, wanted.text()));
     }
     if (part.select.empty() || part.select.size() > 2) value.fail("it names a body, or a pair");
     std::sort(part.select.begin(), part.select.end());
@@ -267,6 +287,7 @@ class Loader {
   DataFolder folder_;
   std::shared_ptr<Lesson::Source> source_;
   std::vector<std::string> labels_;
+  std::vector<std::string> scenes_;  ///< the different ones, by their names
   Lesson lesson_;
 };
 

@@ -8,18 +8,11 @@
 #include <vector>
 
 #include "lessons/expectation.h"
-#include "lessons/moment.h"
+#include "lessons/lesson_trace.h"
 #include "lessons/question.h"
 #include "src2d/scene/data_folder.h"
 
 namespace merge2d {
-
-/// One run of the scene: the first is shown, the others answer "what if?".
-struct LessonTrace {
-  std::string label;
-  Mode mode = Mode::MergeSleep;
-  Scene scene;
-};
 
 /// A section of the text, and what the picture shows beside it.
 struct LessonPart {
@@ -37,9 +30,7 @@ struct Lesson {
   std::string name;  ///< of the folder, without its number
   std::string title, summary;
   int minutes = 0;
-  std::string scene_name;  ///< a file of the folder, or a built-in scene
-  std::string intro;       ///< HTML
-  double seconds = 0.0;
+  std::string intro;  ///< HTML
   std::vector<LessonTrace> traces;
   std::vector<LessonPart> parts;
   std::vector<Expectation> expectations;

@@ -51,7 +51,7 @@ class MathReader {
   bool atEnd() const { return text_.empty(); }
 
  private:
-  /// An atom with what stands above and below it.
+  /// An atom with its superscript and subscript.
   std::string scripted() {
     std::string base = atom();
     std::string below, above;

@@ -32,7 +32,7 @@ std::string dataOf(const PageContent& content, const Encoding& encoding) {
   out.field("embed", content.embed).field("language", content.language);
   out.array("traces", content.traces, [&](const NamedRecording& trace) {
     const EncodedTrace encoded = encode(trace.recording, encoding);
-    out.open('{').field("label", trace.label);
+    out.open('{').field("label", trace.label).field("world", trace.world);
     out.key("head").raw(encoded.head).field("data", encoded.data).close('}');
   });
   out.close('}');

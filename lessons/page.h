@@ -13,6 +13,7 @@ namespace merge2d {
 struct NamedRecording {
   std::string label;
   Recording recording;
+  std::size_t world = 0;  ///< the same for recordings of the same scene
 };
 
 /// Where a lesson stands in a course: one page leads to the next.

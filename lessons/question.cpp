@@ -120,7 +120,7 @@ Question::Question(TableReader table, const Scene& scene) {
   }
 }
 
-/// A right answer lies within `tolerance` of what is measured.
+/// A right answer lies within `tolerance` of the measured number.
 void Question::readNumber(TableReader& table, const Value& measure, const Scene& scene) {
   kind_ = Kind::Number;
   quantity_.emplace(measure, scene);

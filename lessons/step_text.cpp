@@ -85,8 +85,8 @@ void writeColors(JsonText& out, const CollectionSlots& colors) {
   out.close(']');
 }
 
-void writeState(JsonText& out, const Recording& r, std::int64_t step) {
-  out.field("step", step);
+void writeState(JsonText& out, const Recording& r, const Snapshot& seen) {
+  out.field("step", seen.step).field("t", seen.time);
   writeBodies(out, r);
   writeContacts(out, r);
   writeDecisions(out, r);
@@ -100,7 +100,7 @@ std::string stateText(const Snapshot& seen, const std::vector<BodyInfo>& bodies,
                       const CollectionSlots& colors) {
   JsonText out;
   out.open('{');
-  writeState(out, recordingOf(seen, bodies), seen.step);
+  writeState(out, recordingOf(seen, bodies), seen);
   writeColors(out, colors);
   out.close('}');
   return std::string(out.text());
@@ -111,7 +111,7 @@ std::string stepText(const StepRecord& record, const std::vector<BodyInfo>& bodi
   const Recording r = recordingOf(record.after, bodies);
   JsonText out;
   out.open('{');
-  writeState(out, r, record.step);
+  writeState(out, r, record.after);
   writeColors(out, colors);
   writeInside(out, impulsesInside(record, r));
   writeOrder(out, record.notes);

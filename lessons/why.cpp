@@ -25,91 +25,80 @@ constexpr Measure kMeasures[] = {
     {"rest", "motion in the world", "m/s"},
 };
 
-const Measure* measureOf(const Decision& d) {
-  const auto found = std::ranges::find(kMeasures, d.criterion, &Measure::criterion);
+const Measure* measureOf(std::string_view criterion) {
+  const auto found = std::ranges::find(kMeasures, criterion, &Measure::criterion);
   return found == std::end(kMeasures) ? nullptr : &*found;
-}
-
-std::string limitOf(const Decision& d, const Measure& m) {
-  return fmt::format("{} {}", shortNumber(d.threshold), m.unit);
 }
 
 /// The test that is farthest above its limit, of those that are.
 const Decision* worst(const std::vector<Decision>& tests) {
   const Decision* found = nullptr;
   for (const Decision& d : tests) {
-    if (measureOf(d) == nullptr || !(d.threshold > 0.0) || std::abs(d.value) < d.threshold)
+    if (measureOf(d.criterion) == nullptr || !(d.threshold > 0.0) ||
+        std::abs(d.value) < d.threshold)
       continue;
     if (found == nullptr || d.value / d.threshold > found->value / found->threshold) found = &d;
   }
   return found;
 }
 
-std::string afterSteps(int steps) {
-  return counted(static_cast<std::size_t>(std::max(1, steps)), "more step", "more steps");
-}
+using Kind = Condition::Kind;
 
-std::string whenApart(const std::vector<Decision>& tests) {
-  const Decision& last = tests.back();
-  const int needed = std::max(1, last.needed);
+Condition whenApart(const std::vector<Decision>& tests) {
+  const int needed = std::max(1, tests.back().needed);
   const Decision* high = worst(tests);
-  if (high == nullptr) {
-    return fmt::format("They merge when they pass every test for {}.",
-                       counted(static_cast<std::size_t>(needed), "step", "steps"));
-  }
-  const Measure& m = *measureOf(*high);
-  return fmt::format("They merge when the {} stays below {} for {}.", m.name, limitOf(*high, m),
-                     counted(static_cast<std::size_t>(needed), "step", "steps"));
+  if (high == nullptr) return {.kind = Kind::PassAll, .steps = needed};
+  return {Kind::Below, high->criterion, high->threshold, needed};
 }
 
-std::string whenWaiting(const std::vector<Decision>& tests) {
+Condition whenWaiting(const std::vector<Decision>& tests) {
   const Decision& last = tests.back();
-  if (last.criterion == "cycle") {
-    return "They merge when a second contact, or a rigid group of bodies, holds them.";
-  }
+  if (last.criterion == "cycle") return {.kind = Kind::Hold};
   if (last.criterion == "patience") {
-    return fmt::format("They may merge after {}.", afterSteps(static_cast<int>(last.value)));
+    return {.kind = Kind::Wait, .steps = std::max(1, static_cast<int>(last.value))};
   }
   const Decision* nearest = nearestTest(tests);
-  const Measure* m = nearest == nullptr ? nullptr : measureOf(*nearest);
-  const std::string steps = afterSteps(last.needed - last.count);
-  if (m == nullptr) return fmt::format("They merge when all stays calm for {}.", steps);
-  return fmt::format("They merge when the {} stays below {} for {}.", m->name,
-                     limitOf(*nearest, *m), steps);
+  const int more = std::max(1, last.needed - last.count);
+  if (nearest == nullptr || measureOf(nearest->criterion) == nullptr) {
+    return {.kind = Kind::CalmMore, .steps = more};
+  }
+  return {Kind::BelowMore, nearest->criterion, nearest->threshold, more};
 }
 
-std::string whenHeld(const std::vector<Decision>& tests) {
+Condition whenHeld(const std::vector<Decision>& tests) {
   const Decision* nearest = nearestTest(tests);
-  const Measure* m = nearest == nullptr ? nullptr : measureOf(*nearest);
-  if (m == nullptr) return "They come apart when their contacts break, or slide.";
-  const std::string steps =
-      nearest->needed > 1 ? fmt::format(" for {} steps", nearest->needed) : std::string();
-  return fmt::format("They come apart when the {} is above {}{}, or when no contact presses.",
-                     m->name, limitOf(*nearest, *m), steps);
+  if (nearest == nullptr || measureOf(nearest->criterion) == nullptr) {
+    return {.kind = Kind::BreakOrSlide};
+  }
+  return {Kind::Above, nearest->criterion, nearest->threshold, nearest->needed};
 }
 
 /// Where no test was made.
 PairReason untested(const Words& words, const Snapshot& after, BodyId a, BodyId b) {
   const BodyState *one = bodyIn(after, a), *other = bodyIn(after, b);
   const std::string who = words.pair(a, b);
-  PairReason out{.heading = "Not tested", .text = {}, .outlook = {}, .tests = {}, .groups = {}};
+  PairReason out{.outcome = "untested", .heading = "Not tested"};
   const bool touch = std::ranges::any_of(
       after.contacts, [&](const ContactView& c) { return c.a == a && c.b == b; });
   if (one == nullptr || other == nullptr) {
+    out.outcome = "absent";
     out.text = fmt::format("{} are not both in the world now.", who);
   } else if (one->collection != kNoCollection && one->collection == other->collection) {
+    const bool asleep = one->asleep || other->asleep;
+    out.outcome = !touch ? "by-others" : asleep ? "one-asleep" : "one";
     out.heading = touch ? "One collection" : "One, by way of others";
     out.text =
         fmt::format("{} are both in {}{}.", who, collectionName(one->collection),
-                    touch ? one->asleep || other->asleep
-                                ? ", which sleeps: nothing is tested until something wakes it"
-                                : ", whose welds are not tested in this step"
+                    touch ? asleep ? ", which sleeps: nothing is tested until something wakes it"
+                                   : ", whose welds are not tested in this step"
                           : ", though they do not touch: others hold them together");
-    if (!touch) out.outlook = "They come apart when a weld on the way between them is cut.";
+    if (!touch) out.condition.kind = Kind::CutBetween;
   } else if (!touch) {
+    out.outcome = "no-touch";
     out.text = fmt::format("{} do not touch.", who);
-    out.outlook = "Only bodies that touch can merge.";
+    out.condition.kind = Kind::Touch;
   } else if (one->asleep || other->asleep) {
+    out.outcome = "asleep";
     out.text =
         fmt::format("{} touch and sleep; nothing is tested until something wakes them.", who);
   } else {
@@ -120,8 +109,50 @@ PairReason untested(const Words& words, const Snapshot& after, BodyId a, BodyId 
 
 }  // namespace
 
-std::string outlook(const Explanation& e) {
-  if (e.tests.empty() || e.a == e.b) return "";
+const char* name(Condition::Kind kind) {
+  static constexpr const char* kNames[] = {"none",        "pass-all", "below",      "below-more",
+                                           "calm-more",   "wait",     "hold",       "touch",
+                                           "break-slide", "above",    "cut-between"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string sentence(const Condition& c) {
+  const Measure* m = measureOf(c.measure);
+  const std::string limit = m == nullptr ? "" : fmt::format("{} {}", shortNumber(c.limit), m->unit);
+  const std::string_view what = m == nullptr ? "" : m->name;
+  const auto count = static_cast<std::size_t>(c.steps);
+  const std::string steps = counted(count, "step", "steps");
+  const std::string more = counted(count, "more step", "more steps");
+  switch (c.kind) {
+    case Kind::None:
+      return "";
+    case Kind::PassAll:
+      return fmt::format("They merge when they pass every test for {}.", steps);
+    case Kind::Below:
+      return fmt::format("They merge when the {} stays below {} for {}.", what, limit, steps);
+    case Kind::BelowMore:
+      return fmt::format("They merge when the {} stays below {} for {}.", what, limit, more);
+    case Kind::CalmMore:
+      return fmt::format("They merge when all stays calm for {}.", more);
+    case Kind::Wait:
+      return fmt::format("They may merge after {}.", more);
+    case Kind::Hold:
+      return "They merge when a second contact, or a rigid group of bodies, holds them.";
+    case Kind::Touch:
+      return "Only bodies that touch can merge.";
+    case Kind::BreakOrSlide:
+      return "They come apart when their contacts break, or slide.";
+    case Kind::Above:
+      return fmt::format("They come apart when the {} is above {}{}, or when no contact presses.",
+                         what, limit, c.steps > 1 ? fmt::format(" for {}", steps) : "");
+    case Kind::CutBetween:
+      return "They come apart when a weld on the way between them is cut.";
+  }
+  return "";
+}
+
+Condition conditionOf(const Explanation& e) {
+  if (e.tests.empty() || e.a == e.b) return {};
   switch (e.outcome) {
     case Outcome::Apart:
       return whenApart(e.tests);
@@ -137,9 +168,9 @@ std::string outlook(const Explanation& e) {
     case Outcome::Woke:
     case Outcome::Slept:
     case Outcome::Awake:
-      return "";
+      return {};
   }
-  return "";
+  return {};
 }
 
 PairReason reasonFor(const Words& words, const Snapshot& after, BodyId a, BodyId b) {
@@ -147,9 +178,10 @@ PairReason reasonFor(const Words& words, const Snapshot& after, BodyId a, BodyId
   for (const Explanation& e : explainStep(words, after)) {
     if (e.a != a || e.b != b) continue;
     if (e.outcome == Outcome::Hit) continue;  // of a pair that met its other tests tell more
-    return {.heading = heading(e.outcome),
+    return {.outcome = name(e.outcome),
+            .heading = heading(e.outcome),
             .text = e.text,
-            .outlook = outlook(e),
+            .condition = conditionOf(e),
             .tests = e.tests,
             .groups = e.groups};
   }
@@ -157,10 +189,13 @@ PairReason reasonFor(const Words& words, const Snapshot& after, BodyId a, BodyId
 }
 
 void writeReason(JsonText& out, const Words& words, const PairReason& reason) {
-  out.open('{').field("heading", reason.heading).field("text", reason.text);
-  out.field("outlook", reason.outlook);
+  const Condition& c = reason.condition;
+  out.open('{').field("outcome", reason.outcome).field("heading", reason.heading);
+  out.field("text", reason.text).field("outlook", sentence(c));
+  out.key("condition").open('{').field("kind", name(c.kind)).field("measure", c.measure);
+  out.field("limit", c.limit).field("steps", c.steps).close('}');
   out.array("tests", reason.tests, [&](const Decision& d) {
-    const Measure* m = measureOf(d);
+    const Measure* m = measureOf(d.criterion);
     out.open('{').field("criterion", d.criterion).field("stage", d.stage);
     out.field("equation", equationName(d.equation)).field("verdict", d.verdict);
     out.field("value", d.value).field("threshold", d.threshold);

@@ -156,6 +156,56 @@ TEST_F(LessonFolder, ExpectationsThatDoNotHoldSayWhatIs) {
               ElementsAre(HasSubstr("it is 1, not between 5 and 6")));
 }
 
+constexpr const char* kOther = R"([[trace]]
+label = "a fall"
+scene = "fall.toml"
+seconds = 0.2
+mode = "reference"
+)";
+
+/// The bodies of one scene are not those of the other.
+class LessonOfTwoScenes : public LessonFolder {
+ protected:
+  LessonOfTwoScenes() {
+    write("fall.toml", "format = 1\n[[body]]\nname = \"stone\"\nat = [0, 5]\ncircle = 0.5\n");
+    write("text.md", "## One\n## Two\n");
+  }
+  static std::string partTwo(const std::string& more) {
+    return kOther + std::string("[[part]]\nsection = \"Two\"\ntrace = \"a fall\"\n") + more;
+  }
+};
+
+TEST_F(LessonOfTwoScenes, APartShowsTheSceneOfItsTrace) {
+  const Lesson lesson =
+      load(partTwo("at = \"end\"\nselect = [\"stone\"]\n"
+                   "[[expect]]\ntrace = \"a fall\"\nat = \"0.2 s\"\n"
+                   "measure = \"y of stone\"\nbetween = [4.79, 4.8]\n"));
+  ASSERT_THAT(lesson.traces, SizeIs(2));
+  EXPECT_EQ(lesson.traces[0].world, 0U);
+  EXPECT_EQ(lesson.traces[1].world, 1U);
+  EXPECT_EQ(lesson.traces[1].scene_name, "fall.toml");
+  EXPECT_DOUBLE_EQ(lesson.traces[1].scene.duration, 0.2);
+  const auto recordings = recordLesson(lesson);
+  EXPECT_THAT(failures(lesson, recordings), IsEmpty()) << "g t² / 2 = 0.196 m, and h g t / 2 more";
+  const auto json = nlohmann::json::parse(lessonJson(lesson, recordings));
+  EXPECT_EQ(json["parts"][1]["step"], 20);
+  EXPECT_EQ(json["parts"][1]["trace"], 1);
+}
+
+TEST_F(LessonOfTwoScenes, NamesOfBodiesAreThoseOfItsScene) {
+  EXPECT_THAT(errorOf(partTwo("at = \"first impact of low\"\n")),
+              HasSubstr("the scene has no body 'low'"));
+  EXPECT_THAT(errorOf(partTwo("at = \"end\"\nselect = [\"low\"]\n")),
+              HasSubstr("the scene has no body 'low'"));
+  EXPECT_THAT(errorOf(partTwo("at = \"end\"\n[[expect]]\nfree = [\"stone\"]\nat = \"end\"\n")),
+              HasSubstr("the scene has no body 'stone'"));
+  EXPECT_THAT(
+      errorOf("[[trace]]\nlabel = \"x\"\nscene = \"bokos\"\n"),
+      HasSubstr("lesson.toml:10:9: there is no built-in scene 'bokos' (did you mean 'books'?)"));
+  EXPECT_THAT(errorOf("[[trace]]\nlabel = \"x\"\nscene = \"none.toml\"\n"),
+              HasSubstr("there is no file 'none.toml' in the lesson's folder"));
+}
+
 TEST_F(LessonFolder, AQuestionIsAnsweredByTheSimulation) {
   const Lesson lesson =
       load("[part.question]\nask = \"How many?\"\ncollections = true\nreveal = \"end\"\n");

@@ -36,19 +36,19 @@ TEST_F(WhyTest, APairThatWaitsSaysForHowManySteps) {
       *std::ranges::find(events, EventType::Merge, [](const Event& e) { return e.type; });
   const PairReason why = reason(merge - 1, static_cast<std::uint32_t>(std::min(first.a, first.b)),
                                 static_cast<std::uint32_t>(std::max(first.a, first.b)));
-  EXPECT_THAT(why.outlook, AllOf(HasSubstr("They merge when"), HasSubstr("more step")));
+  EXPECT_THAT(sentence(why.condition), AllOf(HasSubstr("They merge when"), HasSubstr("more step")));
 }
 
 TEST_F(WhyTest, AWeldThatHoldsSaysWhatWouldEndIt) {
   const PairReason why = reason(300, 1, 2);
   EXPECT_EQ(why.heading, "Welds that hold");
-  EXPECT_THAT(why.outlook, HasSubstr("They come apart when"));
+  EXPECT_THAT(sentence(why.condition), HasSubstr("They come apart when"));
 }
 
 TEST_F(WhyTest, BodiesThatDoNotTouchAreToldApartOrTogether) {
   EXPECT_THAT(reason(300, 1, 3).text, HasSubstr("though they do not touch"));
   EXPECT_THAT(reason(1, 1, 3).text, HasSubstr("do not touch"));
-  EXPECT_THAT(reason(1, 1, 3).outlook, HasSubstr("Only bodies that touch"));
+  EXPECT_THAT(sentence(reason(1, 1, 3).condition), HasSubstr("Only bodies that touch"));
 }
 
 TEST_F(WhyTest, IsWrittenWithItsTests) {
@@ -59,6 +59,28 @@ TEST_F(WhyTest, IsWrittenWithItsTests) {
   ASSERT_FALSE(written["tests"].empty());
   EXPECT_EQ(written["tests"][0]["criterion"].get<std::string>().empty(), false);
   EXPECT_TRUE(written["tests"][0]["threshold"].is_number());
+  EXPECT_EQ(written["outlook"], sentence(reason(firstMerge() - 1, 1, 2).condition));
+}
+
+TEST_F(WhyTest, IsToldByNamesAndNumbersTooForOtherLanguages) {
+  const auto written = [&](std::int64_t k, std::uint32_t a, std::uint32_t b) {
+    JsonText out;
+    writeReason(out, Words(run.bodies()), reason(k, a, b));
+    return nlohmann::json::parse(out.text());
+  };
+  const auto held = written(300, 1, 2);
+  EXPECT_EQ(held["outcome"], "held");
+  EXPECT_EQ(held["condition"]["kind"], "break-slide");
+  const auto soon = written(1, 1, 2);
+  EXPECT_EQ(soon["outcome"], "apart");
+  EXPECT_EQ(soon["condition"]["kind"], "below");
+  EXPECT_EQ(soon["condition"]["measure"], "breathing");
+  EXPECT_EQ(soon["condition"]["limit"], 1e-5);
+  EXPECT_EQ(soon["condition"]["steps"], soon["tests"].back()["needed"]);
+  EXPECT_EQ(written(300, 1, 3)["outcome"], "by-others");
+  EXPECT_EQ(written(300, 1, 3)["condition"]["kind"], "cut-between");
+  EXPECT_EQ(written(1, 1, 3)["outcome"], "no-touch");
+  EXPECT_EQ(written(1, 1, 3)["condition"]["kind"], "touch");
 }
 
 TEST_F(WhyTest, EachStageTellsItsResultInFewCharacters) {

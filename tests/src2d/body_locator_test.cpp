@@ -1,4 +1,4 @@
-/// Which bodies are where, against what sampling says.
+/// Which bodies are where, compared with sampled points.
 
 #include "src2d/body_locator.h"
 

@@ -79,6 +79,7 @@ int openScene(Make&& make) {
 
 void writeSettings(JsonText& out, const World& world) {
   out.open('{').field("mode", name(world.mode())).key("gravity").value(world.gravity());
+  out.field("step", world.timeStep());
   forEachSetting(world.settings(),
                  [&](std::string_view table, std::string_view key, const auto& value, const auto&) {
                    if constexpr (!std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {

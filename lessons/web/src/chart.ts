@@ -16,7 +16,7 @@ const kRight = 8;
 const kTop = 8;
 const kBottom = 18;
 
-export function chart(series: Series, steps: number, h: number, step: number, onStep: (step: number) => void): SVGSVGElement {
+export function chart(series: Series, steps: number, timeAt: (step: number) => number, step: number, onStep: (step: number) => void): SVGSVGElement {
   const values = series.points.map(([, v]) => v);
   const shown = series.threshold !== undefined && series.threshold > 0 ? [...values, series.threshold] : values;
   const log = series.logarithmic === true && shown.some((v) => v > 0);
@@ -50,7 +50,7 @@ export function chart(series: Series, steps: number, h: number, step: number, on
       svg('text', { x: kLeft - 5, y: (y(tick) + 3.5).toFixed(1), class: 'tick end' }, number(tick, 2)));
   }
   root.append(svg('text', { x: kLeft, y: kHeight - 5, class: 'tick' }, '0 s'),
-    svg('text', { x: kWidth - kRight, y: kHeight - 5, class: 'tick end' }, `${number(steps * h)} s`));
+    svg('text', { x: kWidth - kRight, y: kHeight - 5, class: 'tick end' }, `${number(timeAt(steps))} s`));
   if (series.threshold !== undefined && series.threshold > 0) {
     const at = y(series.threshold).toFixed(1);
     root.append(svg('path', { class: 'threshold', d: `M${kLeft} ${at}H${kWidth - kRight}` }));

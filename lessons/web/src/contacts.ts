@@ -23,15 +23,26 @@ export function contactMarks(sight: Sight): Paths {
       if (c.fresh && state.stage <= 1) marks.fresh += disc(x, y, 9);
     }
   }
-  if (state.stage >= kUnmerge) {
-    for (const [, type, a, b] of sight.trace.eventsAt.get(state.step) ?? []) {
-      if (type !== 'unmerge') continue;
-      for (const c of sight.contacts) {
-        if (c.a === Math.min(a, b) && c.b === Math.max(a, b)) marks.cut += cross(...view.at([c.x, c.y]), 2 * mark);
-      }
-    }
-  }
+  for (const [x, y] of partedAt(sight)) marks.cut += cross(...view.at([x, y]), 2 * mark);
   return marks;
+}
+
+/** An unmerge is marked for so many steps, or until something else happens. */
+const kMarked = 20;
+
+/** The contacts of the pairs that came apart last. */
+function partedAt({ state, trace, posed }: Sight): Vec[] {
+  const last = state.step - (state.stage >= kUnmerge ? 0 : 1);
+  for (let step = last; step > Math.max(0, last - kMarked); --step) {
+    const rows = trace.eventsAt.get(step);
+    if (!rows) continue;
+    return rows.filter(([, type]) => type === 'unmerge').flatMap(([, , a, b]) =>
+      trace.tracksOf(Math.min(a, b), Math.max(a, b)).flatMap((track): Vec[] => {
+        const c = trace.contact(track, step, posed);
+        return c ? [[c.x, c.y]] : [];
+      }));
+  }
+  return [];
 }
 
 /** Whether a contact that carries nothing now did so one step before: it has just broken. */
@@ -46,7 +57,7 @@ export function forces(sight: Sight): Paths {
   const { state, stage } = sight;
   const changing = aboutImpulses(state);
   if (!state.layers.has('forces') && !changing) return paths;
-  const scale = sight.scales.force / sight.trace.head.h;
+  const scale = sight.scales.force / sight.trace.lengthOf(state.step);
   const withCone = stage === 'SolveLCP' || stage === 'Unmerge' || stage === 'SingleIterationPGS';
   for (const c of sight.contacts) {
     const [x, y] = sight.view.at([c.x, c.y]);

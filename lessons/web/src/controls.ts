@@ -28,7 +28,7 @@ function clockwork(state: State): () => void {
   let rest = 0;
   const frame = (now: number) => {
     if (!state.playing) return;
-    const h0 = state.trace.head.h;
+    const h0 = state.trace.lengthOf(state.step + 1);
     const due = rest + ((now - before) / 1000) * (state.speed / h0);
     before = now;
     const whole = Math.min(Math.floor(due), Math.max(1, Math.ceil(0.25 / h0)), state.live ? 4 : Infinity);

@@ -83,6 +83,7 @@ export class Engine {
 /** The output of lessons/step_text.cpp. */
 export interface StateText {
   step: number;
+  t: number; // [s]
   bodies: number[][];
   contacts: number[][];
   decisions: [a: number, b: number, stage: string, criterion: string, equation: string, threshold: number, needed: number,
@@ -101,6 +102,8 @@ export interface StepText extends StateText {
 
 /** The output of lessons/why.cpp. */
 export interface Reason {
+  outcome: string;
+  condition: { kind: string; measure: string; limit: number; steps: number };
   heading: string;
   text: string;
   outlook: string;

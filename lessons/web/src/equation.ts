@@ -100,7 +100,7 @@ function heldFast(state: State, collection: number): boolean {
 
 function line(state: State): Line | null {
   const { trace, step } = state;
-  const hh = trace.head.h;
+  const hh = trace.lengthOf(step);
   switch (kStages[state.stage].id) {
     case 'ContactDetection': case 'WarmStart': case 'SingleIterationPGS': case 'SolveLCP': {
       const c = contactMeant(state);

@@ -1,9 +1,10 @@
 // The page on paper: a comic strip of the key states, with their text and questions.
 import { homeOf } from './camera';
 import { h } from './dom';
-import { type Lesson, prose, type Question, selectionOf, shownOrder, stageIndex } from './lesson';
+import { type Lesson, prose, type Question, selectionOf, stageIndex } from './lesson';
 import { describe } from './now';
 import { Picture } from './picture';
+import { shownOrder } from './question_view';
 import { kLast } from './stages';
 import { State } from './state';
 import type { Trace } from './trace';
@@ -44,7 +45,7 @@ export function handout(title: string, place: string, lesson: Lesson | null, tra
     }
   } else {
     for (const step of keySteps(traces[0])) {
-      panel(`${(step * traces[0].head.h).toFixed(2)} s`, step, kLast, 0, false, () => {}, null, []);
+      panel(`${traces[0].timeAt(step).toFixed(2)} s`, step, kLast, 0, false, () => {}, null, []);
     }
   }
   return h('div', { class: 'handout', 'aria-hidden': true }, h('h1', {}, title),

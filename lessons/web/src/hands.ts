@@ -54,7 +54,7 @@ export function loadsShown(sight: Sight): Load[] {
   }
   for (const [, ax, ay, ix, iy, time] of trace.head.impulses ?? []) {
     // From the step before to a quarter of a second after it.
-    if (state.time < time - 1.5 * trace.head.h || state.time > time + 0.25) continue;
+    if (state.time < time - 1.5 * trace.lengthOf(state.step) || state.time > time + 0.25) continue;
     const [x, y] = view.at([ax, ay]);
     add(x, y, ix, iy, 90, `${number(Math.hypot(ix, iy))} N s`);
   }

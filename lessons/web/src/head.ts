@@ -50,6 +50,7 @@ export interface Head {
 
 export interface Packed {
   label: string;
+  world: number; // the same for runs of the same scene
   head: Head;
   data: string;
 }

@@ -61,7 +61,7 @@ function figure(state: State, series: Series): HTMLElement {
   const limit = series.threshold !== undefined && series.threshold > 0 ? ` · limit ${number(series.threshold)} ${series.unit}` : '';
   return h('figure', { class: 'trend' },
     h('figcaption', {}, h('span', {}, series.label), h('strong', {}, value), limit),
-    chart(series, state.steps, state.trace.head.h, state.step, (step) => state.goTo(step)));
+    chart(series, state.steps, (step) => state.trace.timeAt(step), state.step, (step) => state.goTo(step)));
 }
 
 function bodyView(state: State, id: number): HTMLElement[] {
@@ -123,7 +123,7 @@ function pairView(state: State, a: number, b: number): HTMLElement[] {
   const tracks = trace.tracksOf(a, b);
   const contacts = contactsOfStage(state).filter((c) => tracks.includes(c.track));
   if (contacts.length === 0) out.push(h('p', {}, 'They do not touch at this step.'));
-  const hh = trace.head.h;
+  const hh = trace.lengthOf(state.step);
   const first = contacts[0];
   if (first) {
     const normal = contacts.reduce((sum, c) => sum + c.lambdaN, 0) / hh;

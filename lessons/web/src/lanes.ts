@@ -86,11 +86,11 @@ export function lanes(state: State, flags: () => Flag[]): SVGSVGElement {
         svg('text', { class: 'flag-name', x: Math.min(shifted, width - 6), y: height - 1 }, flag.label));
     }
     if (flags().length > 0) return;
-    const seconds = state.steps * state.trace.head.h;
+    const seconds = state.trace.timeAt(state.steps);
     const power = 10 ** Math.floor(Math.log10(Math.max(1e-6, seconds / 4)));
     const every = [1, 2, 5, 10].map((m) => m * power).find((m) => seconds / m <= 8) ?? power;
     for (let t = 0; t <= seconds + 1e-9; t += every) {
-      const at = x(t / state.trace.head.h);
+      const at = x(state.trace.stepAt(t));
       root.append(svg('path', { class: 'flag', d: `M${at} ${height - 16}v4` }),
         svg('text', { class: 'flag-name', x: at, y: height - 1 }, `${Number(t.toPrecision(6))} s`));
     }
@@ -109,7 +109,7 @@ export function lanes(state: State, flags: () => Flag[]): SVGSVGElement {
     root.style.cursor = step === undefined ? '' : 'pointer';
     const rows = step === undefined ? [] : state.trace.eventsAt.get(step) ?? [];
     const more = rows.length > 3 ? `, and ${rows.length - 3} more` : '';
-    tip.textContent = step === undefined ? '' : `${(step * state.trace.head.h).toFixed(2)} s: ${rows.slice(0, 3).map((row) => eventText(state.trace, row)).join('; ')}${more}`;
+    tip.textContent = step === undefined ? '' : `${state.trace.timeAt(step).toFixed(2)} s: ${rows.slice(0, 3).map((row) => eventText(state.trace, row)).join('; ')}${more}`;
     if (tip.parentNode !== root) root.prepend(tip);
   });
   root.addEventListener('click', (event) => {

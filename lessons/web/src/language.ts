@@ -31,7 +31,8 @@ export function translator(language: string): (text: string) => string {
       const found = pattern.exec(bare);
       if (!found) continue;
       let i = 0;
-      return text.replace(bare, sentence[language].replace(/\{\}/g, () => found[++i] ?? ''));
+      const part = (words: string) => exact.get(words)?.[language] ?? words; // as the name of a stage
+      return text.replace(bare, sentence[language].replace(/\{\}/g, () => part(found[++i] ?? '')));
     }
     return text;
   };

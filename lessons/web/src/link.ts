@@ -1,5 +1,5 @@
 // Links to a moment: #part=4&step=402&stage=6&bodies=ball,brick[0,5]&do=… opens there.
-import type { LessonPanel } from './lesson';
+import type { LessonPanel } from './lesson_panel';
 import type { Picture } from './picture';
 import { kLast } from './stages';
 import type { State } from './state';

@@ -56,8 +56,10 @@ export class LiveTrace extends Trace {
   private readonly contactOf = new Map<string, LiveContact>();
   private readonly decisionOf = new Map<string, LiveDecision>();
   private readonly numbers: number[][];
+  private readonly times: number[] = [];
+  private pace: number; // the length of the steps after the known ones
 
-  constructor(private readonly world: World, prepared: Trace, readonly fork: number, label: string, mode = prepared.head.mode) {
+  constructor(private readonly run: World, prepared: Trace, readonly fork: number, label: string, mode = prepared.head.mode) {
     const head: Head = {
       ...prepared.head, mode, every: 1, length: 1, angle: 1, bodies: [...prepared.head.bodies], steps: Math.max(prepared.head.steps, fork),
       events: prepared.head.events.filter(([step]) => step <= fork),
@@ -68,10 +70,12 @@ export class LiveTrace extends Trace {
     };
     const stats = Array.from({ length: 11 }, () => [] as number[]);
     super({
-      head, label, bodies: head.bodies.map((_, i) => bodyUpTo(prepared, i, fork)), contacts: [], decisions: [],
+      head, label, world: prepared.world, bodies: head.bodies.map((_, i) => bodyUpTo(prepared, i, fork)), contacts: [], decisions: [],
       insides: new Map(), stats, amount: same, fine: same,
     });
     this.numbers = stats;
+    this.pace = head.h;
+    for (let step = 0; step <= fork; ++step) this.times.push(prepared.timeAt(step));
     this.copyStats(prepared, fork);
     this.copyContacts(prepared, fork);
     this.copyDecisions(prepared, fork);
@@ -137,8 +141,21 @@ export class LiveTrace extends Trace {
     return track;
   }
 
+  override timeAt(step: number): number {
+    const known = this.times.length - 1;
+    return step <= known ? this.times[step] : this.times[known] + (step - known) * this.pace;
+  }
+  override lengthOf(step: number): number {
+    return step > 0 && step < this.times.length ? this.times[step] - this.times[step - 1] : this.pace;
+  }
+  override stepAt(time: number): number {
+    const after = this.times.findIndex((t) => t > time);
+    if (after < 0) return this.times.length - 1 + (time - this.times[this.times.length - 1]) / this.pace;
+    return after === 0 ? 0 : after - 1 + (time - this.times[after - 1]) / this.lengthOf(after);
+  }
+
   override reach(step: number): boolean {
-    while (this.known < step) this.add(this.world.step(this.known + 1));
+    while (this.known < step) this.add(this.run.step(this.known + 1));
     this.head.steps = Math.max(this.head.steps, this.known);
     return true;
   }
@@ -147,7 +164,7 @@ export class LiveTrace extends Trace {
   changedAt(step: number): void {
     this.known = Math.min(this.known, step);
     this.forgetAfter(step);
-    this.head.bodies.splice(0, Infinity, ...this.world.bodies());
+    this.head.bodies.splice(0, Infinity, ...this.run.bodies());
     for (let i = this.bodies.length; i < this.head.bodies.length; ++i) this.bodies.push(newBody(step));
     this.bodies.length = this.head.bodies.length;
     this.look(step);
@@ -157,6 +174,7 @@ export class LiveTrace extends Trace {
     for (const track of this.bodies as LiveBody[]) cut(track, kBodyColumns, Math.max(0, step + 1 - track.first));
     for (const track of this.contacts as LiveContact[]) this.cutTrack(track, kContactColumns, step);
     for (const track of this.decisions as LiveDecision[]) this.cutTrack(track, kDecisionColumns, step);
+    this.times.length = Math.min(this.times.length, step + 1);
     for (const column of this.numbers) column.length = Math.min(column.length, step + 1);
     for (const map of [this.eventsAt, this.insides, this.results]) {
       for (const at of map.keys()) if (at > step) map.delete(at);
@@ -173,12 +191,14 @@ export class LiveTrace extends Trace {
 
   /** The state after a step once more, as the engine has it: exact, and with the changes made there. */
   private look(step: number): void {
-    const seen = this.world.see(step);
+    const seen = this.run.see(step);
     for (const track of this.bodies as LiveBody[]) cut(track, kBodyColumns, Math.max(0, step - track.first));
     for (const track of this.contacts as LiveContact[]) this.cutTrack(track, kContactColumns, step - 1);
     this.addBodies(seen, step);
     this.addContacts(seen, step);
     seen.stats.forEach((value, i) => { this.numbers[i][step] = value; });
+    this.times[step] = seen.t;
+    this.pace = Number(this.run.settings(step).step);
     for (const [id, slot] of seen.colors) this.slots.set(id, slot);
   }
 
@@ -192,6 +212,7 @@ export class LiveTrace extends Trace {
       [value, count, passed].forEach((number, i) => track[kDecisionColumns[i]].push(number));
     }
     step.stats.forEach((value, i) => { this.numbers[i][k] = value; });
+    this.times[k] = step.t;
     for (const row of step.events) this.addEvent(row);
     for (const [id, slot] of step.colors) this.slots.set(id, slot);
     this.head.ledger?.push(...step.ledger);

@@ -12,7 +12,9 @@ import { impulseCard } from './impulses';
 import { inspector } from './inspector';
 import { helpDialog, listenToKeys } from './keys';
 import { ledger } from './ledger';
-import { type CoursePlace, type Lesson, LessonPanel } from './lesson';
+import { answersAsText } from './answers';
+import type { CoursePlace, Lesson } from './lesson';
+import { LessonPanel } from './lesson_panel';
 import { homeOf, isEnough } from './camera';
 import { bodyCursor } from './cursor';
 import type { Box } from './labels';
@@ -90,7 +92,7 @@ function liveHeader(state: State): HTMLElement {
   const words = h('p', { class: 'live-words' });
   state.onChange(() => {
     if (!state.live) return;
-    words.replaceChildren(h('span', { class: 'red', 'aria-hidden': true }, '●'), h('strong', {}, 'You have taken over'), ` at ${(state.live.fork * state.trace.head.h).toFixed(2)} s. The prepared run is kept.`);
+    words.replaceChildren(h('span', { class: 'red', 'aria-hidden': true }, '●'), h('strong', {}, 'You have taken over'), ` at ${state.trace.timeAt(state.live.fork).toFixed(2)} s. The prepared run is kept.`);
   });
   return words;
 }
@@ -155,6 +157,7 @@ function start(): void {
     choose(state, contact ? { a: contact.a, b: contact.b } : { body });
   };
   listenToHands(picture, state, controls.play, live.say);
+  state.onChange(() => picture.enter(state.trace));
   if (panel) aim(picture, state, panel);
   bodyCursor(frame, picture, state, (body) => picture.onPick({ body, at: [0, 0], turn: 0, of: 0 }));
   state.onChange(() => {
@@ -181,7 +184,7 @@ function start(): void {
   const kept = h('button', { type: 'button', class: 'item', onclick: () => state.showKept() }, 'Your last run');
   state.onChange(() => { kept.hidden = !state.hasKept; });
   const answers = panel && data.lesson?.parts.some((part) => part.questions.length > 0) ? [
-    h('button', { type: 'button', class: 'item', onclick: () => copied(panel.answersAsText(), status) }, 'Copy my answers'),
+    h('button', { type: 'button', class: 'item', onclick: () => copied(answersAsText(panel.answers()), status) }, 'Copy my answers'),
     h('button', { type: 'button', class: 'item', onclick: () => copied(JSON.stringify(panel.answers(), null, 2), status) }, 'Copy my answers as JSON')] : [];
   app.append(
     panel ? h('a', { class: 'skip', href: '#question', onclick: (event) => { event.preventDefault(); panel.focusQuestion(); } }, 'To the question') : h('span'),
@@ -206,8 +209,9 @@ function start(): void {
   printing(data, state);
   follow(state, picture);
   listenToAddress(state, panel);
+  state.language = new URLSearchParams(location.hash.slice(1)).get('language') ?? data.language;
   state.changed();
-  speak(app, new URLSearchParams(location.hash.slice(1)).get('language') ?? data.language);
+  speak(app, state.language);
   document.documentElement.dataset.ready = 'true';
   void loadEngine(state);
 }

@@ -9,6 +9,7 @@ import { hands, loads, loadsShown, pullsShown } from './hands';
 import { boxes, corners, newCollections, springs, velocities, ways } from './motions';
 import { Lens } from './lens';
 import { type Sight, sightOf } from './sight';
+import { kLast } from './stages';
 import type { State } from './state';
 import { fixed, outline } from './strokes';
 import type { Contact, Trace } from './trace';
@@ -22,6 +23,8 @@ const kLayers = [springs, boxes, newCollections, graph, heat, contactMarks, forc
 /** A line on a body has a rim of the background, so that it is seen on every colour. */
 const kRimmed = ['welds', 'broken', 'cut', 'force', 'friction', 'inner', 'velocity', 'loads', 'hand', 'aim', 'corners', 'before'];
 
+const kBlink = 200; // ms
+
 let pictures = 0;
 
 export class Picture {
@@ -29,7 +32,8 @@ export class Picture {
   onPick: (hit: { body?: number; contact?: Contact; at: Vec; turn: number; of: number }) => void = () => {};
   readonly view: View;
   readonly lens: Lens;
-  private readonly scales: Scales;
+  private scales: Scales;
+  private world: number;
   private shown: readonly unknown[] = []; // the bodies that there are shapes of
   private readonly bodies: SVGGElement[] = [];
   private readonly ghosts: SVGPathElement[] = [];
@@ -43,11 +47,13 @@ export class Picture {
   private cursor: number | undefined;
   private below = ''; // the pairs under the last click, and which of them was chosen
   private order: string[] = [];
+  private seen = 0; // the last step that was drawn
+  private readonly blinking = new Map<number, number>(); // bodies, and until when [ms]
   private turn = 0;
 
   constructor(trace: Trace, interactive = true) {
-    const [cx, cy, height] = trace.head.camera;
-    this.view = new View(cx, cy, height);
+    this.view = new View(trace.head.camera);
+    this.world = trace.world;
     this.scales = scalesOf(trace, this.view);
     this.root = svg('svg', {
       viewBox: `0 0 ${kWidth} ${kHeight}`, class: interactive ? 'picture interactive' : 'picture', role: 'img', 'aria-label': trace.head.title,
@@ -101,6 +107,17 @@ export class Picture {
     }
   }
 
+  /** Turns to the scene of a run, where it is another one. */
+  enter(trace: Trace): void {
+    if (trace.world === this.world) return;
+    this.world = trace.world;
+    this.view.look(trace.head.camera);
+    this.scales = scalesOf(trace, this.view);
+    this.buildBodies(trace);
+    this.lens.setHome(null);
+    this.lens.fit();
+  }
+
   draw(state: State): void {
     const all = state.trace.head.bodies;
     if (all.length !== this.shown.length || all[all.length - 1]?.name !== (this.shown[all.length - 1] as { name: string } | undefined)?.name) {
@@ -124,14 +141,30 @@ export class Picture {
     }
   }
 
-  private drawBodies({ state, trace, posed, grouped }: Sight): void {
+  /** The bodies of the pairs that merge in the step that is shown blink once, when it is first shown. */
+  private blink({ state, trace }: Sight): void {
+    if (state.step === this.seen || state.stage < kLast) return;
+    const onwards = state.step > this.seen;
+    this.seen = state.step;
+    if (!onwards) return;
+    const until = performance.now() + kBlink;
+    for (const [, type, a, b] of trace.eventsAt.get(state.step) ?? []) {
+      if (type === 'merge') for (const body of [a, b]) this.blinking.set(body, until);
+    }
+  }
+
+  private drawBodies(sight: Sight): void {
+    const { state, trace, posed, grouped } = sight;
     const { selection } = state;
+    this.blink(sight);
+    const now = performance.now();
     for (const [i, node] of this.bodies.entries()) {
       const there = trace.present(i, posed);
       node.style.display = there ? '' : 'none';
       if (there) {
         this.place(node, trace, i, posed);
-        node.setAttribute('class', `body ${lookOf(trace, i, posed, grouped[i])}`);
+        const blinks = (this.blinking.get(i) ?? 0) > now ? ' blink' : '';
+        node.setAttribute('class', `body ${lookOf(trace, i, posed, grouped[i])}${blinks}`);
       }
       node.classList.toggle('cursor', i === this.cursor);
       node.classList.toggle('picked', selection?.kind === 'body' ? selection.body === i

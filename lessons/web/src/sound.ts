@@ -25,7 +25,7 @@ function tone(audio: AudioContext, hertz: number, loudness: number, falling: boo
 /** How hard the contacts of a pair press, as a part of the weight of a typical body for a step. */
 function loudness(state: State, a: number, b: number): number {
   const { trace, step } = state;
-  const weight = Math.max(1e-9, (trace.head.bodies[b]?.mass ?? 1) * 9.81 * trace.head.h);
+  const weight = Math.max(1e-9, (trace.head.bodies[b]?.mass ?? 1) * 9.81 * trace.lengthOf(step));
   const sum = trace.contactsAt(step).reduce((total, c) => total + (c.a === Math.min(a, b) && c.b === Math.max(a, b) ? c.lambdaN : 0), 0);
   return sum / (10 * weight);
 }

@@ -37,6 +37,8 @@ export class State {
   besideKind: Beside = 'reference';
   /** The reason why playing stopped, or a command was refused; told until something else happens. */
   notice = '';
+  /** Of the page's words: en, de or fr. */
+  language = 'en';
   /** Whether elements that show the answer of an open question are hidden. */
   veiled = false;
   readonly layers = new Set<LayerId>(['contacts']);
@@ -56,21 +58,33 @@ export class State {
   get prepared(): Trace {
     return this.live?.prepared ?? this.trace;
   }
+  /** The runs of the scene that is shown; the first of them is the usual one. */
+  get runs(): Trace[] {
+    const { world } = this.trace;
+    return this.traces.filter((trace) => trace.world === world);
+  }
   get reference(): Trace | undefined {
-    const recorded = this.traces.find((trace) => trace.head.mode === 'reference');
+    const recorded = this.runs.find((trace) => trace.head.mode === 'reference');
     if (!this.live) return recorded;
     const beside = this.live.beside(this.besideKind, recorded);
     beside.reach(this.step);
     return beside;
   }
   get hasReference(): boolean {
-    return this.live !== null || this.traces.some((trace) => trace.head.mode === 'reference');
+    return this.live !== null || this.runs.some((trace) => trace.head.mode === 'reference');
+  }
+  /** A number among the settings in force, by its key in scene files. */
+  setting(key: string): number | undefined {
+    if (this.live) return Number(this.live.settings(this.step)[key]);
+    const [table, name] = key.split('.');
+    const value = (this.trace.head.parameters[table] as Record<string, unknown> | undefined)?.[name];
+    return typeof value === 'number' ? value : undefined;
   }
   get steps(): number {
     return this.trace.head.steps;
   }
   get time(): number {
-    return this.step * this.trace.head.h;
+    return this.trace.timeAt(this.step);
   }
   /** The first step that can be reached: a run that was taken over begins there. */
   get first(): number {

@@ -1,5 +1,6 @@
 // The panel of a run that was taken over: tools, limits, the list of changes, the way back.
 import { h, number } from './dom';
+import { kLimits, kTimeStep, type Limit } from './limits';
 import { roving } from './rail';
 import type { State, Tool } from './state';
 
@@ -14,27 +15,6 @@ const kTools: { id: Tool; label: string; sign: string; how: string }[] = [
   { id: 'ask', label: 'Ask why', sign: '?', how: 'Click two bodies: why are they merged, or not?' },
 ];
 
-interface Limit {
-  key: string;
-  label: string;
-  unit: string;
-  paper: number;
-  low: number;
-  high: number;
-  whole?: boolean;
-}
-
-/** Table 1 of the paper. */
-const kLimits: Limit[] = [
-  { key: 'merging.velocity', label: 'Merge below', unit: 'm/s', paper: 0.01, low: 1e-4, high: 1 },
-  { key: 'unmerging.velocity', label: 'Unmerge above', unit: 'm/s', paper: 0.02, low: 1e-4, high: 2 },
-  { key: 'merging.sliding', label: 'Merge: slip below', unit: 'm/s', paper: 0.01, low: 1e-4, high: 1 },
-  { key: 'unmerging.sliding', label: 'Unmerge: slip above', unit: 'm/s', paper: 0.01, low: 1e-4, high: 1 },
-  { key: 'merging.breathing', label: 'Change of overlap below', unit: 'm', paper: 1e-5, low: 1e-8, high: 1e-2 },
-  { key: 'sleeping.velocity', label: 'Sleep below', unit: 'm/s', paper: 1e-5, low: 1e-7, high: 1e-1 },
-  { key: 'merging.steps', label: 'Calm steps before merging', unit: 'steps', paper: 3, low: 1, high: 20, whole: true },
-  { key: 'unmerging.steps', label: 'Steps above before unmerging', unit: 'steps', paper: 3, low: 1, high: 20, whole: true },
-];
 const kModes = ['merge+sleep', 'merge', 'sleep', 'reference'];
 
 /** A slider for one setting of the run: it applies from the next step on. */
@@ -53,7 +33,7 @@ function slider(state: State, limit: Limit): HTMLElement {
   });
   let first: number | undefined; // at the fork
   let now = limit.paper;
-  // The value can be typed, too; what is no number is not taken.
+  // The value can be typed, too; a text that is no number is not taken.
   const typed = h('input', {
     type: 'text', class: 'typed', inputmode: 'decimal', autocomplete: 'off', 'aria-label': `${limit.label}, value in ${limit.unit}`,
     onchange: () => {
@@ -171,7 +151,7 @@ function deeds(state: State): HTMLElement[] {
       state.playing = false;
       state.goTo(deed.step);
     },
-  }, `${(deed.step * state.trace.head.h).toFixed(2)} s`), ` ${state.trace.told(deed.told)}`));
+  }, `${state.trace.timeAt(deed.step).toFixed(2)} s`), ` ${state.trace.told(deed.told)}`));
 }
 
 export interface LivePanel {
@@ -207,7 +187,7 @@ export function livePanel(state: State, wayBack: string): LivePanel {
   const back = h('button', { type: 'button', class: 'primary', onclick: () => state.giveBack() }, wayBack);
   state.onChange(() => {
     if (!state.live) return;
-    title.textContent = `Your run, since ${(state.live.fork * state.trace.head.h).toFixed(2)} s`;
+    title.textContent = `Your run, since ${state.trace.timeAt(state.live.fork).toFixed(2)} s`;
     for (const button of tools) {
       const on = button.dataset.tool === state.tool;
       button.setAttribute('aria-pressed', String(on));
@@ -224,8 +204,8 @@ export function livePanel(state: State, wayBack: string): LivePanel {
       besideChoice(state),
       h('h3', {}, 'Limits ', h('span', { class: 'hint' }, '(Table 1 of the paper)')),
       ...kLimits.slice(0, 2).map((limit) => slider(state, limit)),
-      h('details', { class: 'all-limits' }, h('summary', {}, 'All eight limits, friction, gravity, mode'),
-        ...kLimits.slice(2).map((limit) => slider(state, limit)), frictionSlider(state), gravitySlider(state), modeChoice(state)),
+      h('details', { class: 'all-limits' }, h('summary', {}, 'All eight limits, friction, gravity, time step, mode'),
+        ...kLimits.slice(2).map((limit) => slider(state, limit)), frictionSlider(state), gravitySlider(state), slider(state, kTimeStep), modeChoice(state)),
       papers,
       h('h3', {}, 'What you changed'), done, again),
     h('div', { class: 'actions' }, undo, back));

@@ -79,6 +79,7 @@ function logarithmic(floor: number, steps: number): Scale {
 export interface TraceParts {
   head: Head;
   label: string;
+  world: number;
   bodies: BodyTrack[];
   contacts: ContactTrack[];
   decisions: DecisionTrack[];
@@ -90,11 +91,11 @@ export interface TraceParts {
 
 /** A packed run, as it is in the page. */
 export function partsOf(packed: Packed): TraceParts {
-  const { head, label } = packed;
+  const { head, label, world } = packed;
   const read = new Unpacker(packed.data);
   const { full, every, criteria } = head;
   const parts: TraceParts = {
-    head, label, bodies: [], contacts: [], decisions: [], insides: new Map(), stats: [],
+    head, label, world, bodies: [], contacts: [], decisions: [], insides: new Map(), stats: [],
     amount: logarithmic(head.amount[0], head.amount[1]), fine: logarithmic(1e-6, 1024),
   };
   for (let i = 0; i < head.bodies.length; ++i) parts.bodies.push(readBody(read, full));
@@ -113,6 +114,8 @@ export function partsOf(packed: Packed): TraceParts {
 export class Trace {
   readonly head: Head;
   readonly label: string;
+  /** Runs of the same scene are of one world. */
+  readonly world: number;
   readonly bodies: BodyTrack[];
   readonly contacts: ContactTrack[];
   readonly decisions: DecisionTrack[];
@@ -130,6 +133,7 @@ export class Trace {
   constructor(parts: TraceParts) {
     this.head = parts.head;
     this.label = parts.label;
+    this.world = parts.world;
     this.bodies = parts.bodies;
     this.contacts = parts.contacts;
     this.decisions = parts.decisions;
@@ -173,6 +177,19 @@ export class Trace {
     if (this.shorts.length === bodies.length && this.shortOf.has(bodies[bodies.length - 1]?.name)) return;
     this.shorts = shortNames(this.head.bodies);
     this.shortOf = new Map(this.head.bodies.map((body, i) => [body.name, written(this.shorts[i])]));
+  }
+
+  /** The time after a step [s]. */
+  timeAt(step: number): number {
+    return step * this.head.h;
+  }
+  /** The length of a step [s]. */
+  lengthOf(_step: number): number {
+    return this.head.h;
+  }
+  /** The step that ends at a time, with fractions. */
+  stepAt(time: number): number {
+    return time / this.head.h;
   }
 
   present(body: number, step: number): boolean {

@@ -7,9 +7,16 @@ export const kHeight = 720;
 
 /** World to picture: metres and y up to units and y down. */
 export class View {
-  readonly scale: number;
-  constructor(private readonly cx: number, private readonly cy: number, height: number) {
-    this.scale = kHeight / height;
+  scale = 1;
+  private cx = 0;
+  private cy = 0;
+
+  constructor(camera: [number, number, number]) {
+    this.look(camera);
+  }
+  /** Looks at a place with so many metres in height. */
+  look([cx, cy, height]: [number, number, number]): void {
+    [this.cx, this.cy, this.scale] = [cx, cy, kHeight / height];
   }
   x(x: number): number {
     return kWidth / 2 + (x - this.cx) * this.scale;
@@ -59,7 +66,7 @@ function strongForce(trace: Trace): number {
   if (trace.head.full) {
     for (let i = 1; i <= 12; ++i) {
       const step = Math.round((i * trace.head.steps) / 12);
-      for (const c of trace.contactsAt(step)) if (c.lambdaN > 0) forces.push(c.lambdaN / trace.head.h);
+      for (const c of trace.contactsAt(step)) if (c.lambdaN > 0) forces.push(c.lambdaN / trace.lengthOf(step));
     }
   }
   forces.sort((a, b) => a - b);

@@ -31,7 +31,7 @@ function familyOf(traces: Trace[]): Family | null {
     for (const [name, value] of parameters) {
       if (!kThresholds.test(name) || typeof value !== 'number') continue;
       const others = [...parameters].filter(([other]) => other !== name);
-      const key = JSON.stringify([name, trace.head.mode, others]);
+      const key = JSON.stringify([name, trace.world, trace.head.mode, others]);
       const family = families.get(key) ?? { name, runs: [] };
       if (!family.runs.some((run) => run.value === value)) family.runs.push({ trace, value });
       families.set(key, family);
@@ -63,6 +63,7 @@ export function thresholdSlider(state: State): HTMLElement | null {
   state.onChange(() => {
     const at = runs.findIndex((run) => run.trace === state.trace);
     root.classList.toggle('away', at < 0); // a run that is not on the slider
+    root.hidden = runs[0].trace.world !== state.trace.world;
     if (at >= 0) slider.value = String(at);
     value.textContent = at < 0 ? '–' : number(runs[at].value);
     slider.setAttribute('aria-valuetext', at < 0 ? 'another run' : number(runs[at].value));
@@ -72,10 +73,15 @@ export function thresholdSlider(state: State): HTMLElement | null {
 
 export function whatIf(state: State): HTMLElement | null {
   if (state.traces.length < 2) return null;
-  const select = h('select', {
-    'aria-label': 'What if: another run of the scene', onchange: () => show(state, state.traces[Number(select.value)]),
-  }, ...state.traces.map((trace, i) => h('option', { value: i }, i === 0 ? `Compare with … (${trace.label})` : trace.label)));
+  const select = h('select', { 'aria-label': 'What if: another run of the scene', onchange: () => show(state, state.traces[Number(select.value)]) });
+  let world = -1;
   state.onChange(() => {
+    const { runs } = state;
+    if (state.trace.world !== world) {
+      world = state.trace.world;
+      select.replaceChildren(...runs.map((trace, i) => h('option', { value: state.traces.indexOf(trace) }, i === 0 ? `Compare with … (${trace.label})` : trace.label)));
+      select.hidden = runs.length < 2;
+    }
     select.value = String(state.traces.indexOf(state.prepared));
     select.disabled = state.live !== null;
   });
@@ -85,7 +91,7 @@ export function whatIf(state: State): HTMLElement | null {
 export function badge(state: State): HTMLElement {
   const root = h('div', { class: 'badge' });
   state.onChange(() => {
-    root.textContent = state.live || state.trace === state.traces[0] ? '' : `What if: ${state.trace.label}`;
+    root.textContent = state.live || state.trace === state.runs[0] ? '' : `What if: ${state.trace.label}`;
     root.hidden = root.textContent === '';
   });
   return root;

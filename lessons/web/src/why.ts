@@ -2,7 +2,9 @@
 import { h, number, plural, svg } from './dom';
 import type { Reason } from './engine';
 import { criterionName } from './inspector';
+import { besideLimit } from './limits';
 import { eventsShown, eventText } from './now';
+import { reasonIn } from './reasons';
 import { kStages } from './stages';
 import type { State } from './state';
 
@@ -25,7 +27,7 @@ function decisive(reason: Reason): Test | null {
 const kWidth = 240;
 
 /** The value against its limit, over decades: below it on the left of the tick, above it on the right. */
-export function gauge(test: Test): HTMLElement {
+export function gauge(test: Test, second: { label: string; value: number } | null = null): HTMLElement {
   const value = Math.abs(test.value);
   const over = value >= test.threshold;
   // Friction that holds as much as it can is neither below its limit nor above it.
@@ -34,15 +36,19 @@ export function gauge(test: Test): HTMLElement {
   const end = Math.min(kWidth - 6, at(value));
   const limit = at(test.threshold);
   const words = `${number(value, 3)} ${test.unit}`;
+  const beside = second ? at(second.value) : 0;
+  const told = second ? `${second.label} ${number(second.value)}` : '';
   return h('figure', { class: `gauge ${look}` },
-    svg('svg', { viewBox: `0 0 ${kWidth} 62`, role: 'img', 'aria-label': `${words}, limit ${number(test.threshold)} ${test.unit}` },
+    svg('svg', { viewBox: `0 0 ${kWidth} 62`, role: 'img', 'aria-label': `${words}, limit ${number(test.threshold)} ${test.unit}${told && `, ${told} ${test.unit}`}` },
       svg('path', { class: 'beyond', d: `M${limit} 24H${kWidth}v10H${limit}z` }),
       svg('path', { class: 'rest', d: `M0 24H${limit}v10H0z` }),
       svg('path', { class: 'bar', d: `M0 24H${end.toFixed(1)}v10H0z` }),
       svg('path', { class: 'pointer', d: `M${end.toFixed(1)} 23l-5 -7h10z` }),
       svg('path', { class: 'tick', d: `M${limit} 20V38` }),
       svg('text', { x: Math.min(kWidth - 42, Math.max(42, end)).toFixed(1), y: 11, class: 'value' }, words),
-      svg('text', { x: limit, y: 52 }, `limit ${number(test.threshold)}`)),
+      svg('text', { x: limit, y: 52 }, `limit ${number(test.threshold)}`),
+      second && svg('path', { class: 'second-tick', d: `M${beside.toFixed(1)} 21V37` }),
+      second && svg('text', { class: 'second', x: Math.min(kWidth - 34, Math.max(34, beside + (beside < limit ? -38 : 38))).toFixed(1), y: 52 }, told)),
     test.needed > 1 ? steps(test) : null);
 }
 
@@ -101,11 +107,13 @@ export function whyCard(state: State, equation: HTMLElement): HTMLElement {
     all.hidden = true;
   };
   const show = (reason: Reason, names: string) => {
-    title.replaceChildren(state.trace.told(reason.heading), h('span', { class: 'names' }, `${names}, step ${state.step}`));
+    title.replaceChildren(state.trace.told(reason.heading), h('span', { class: 'names' }, h('span', {}, names), ', ', h('span', {}, `step ${state.step}`)));
     const test = decisive(reason);
-    const told = pronouns(shortened(state.trace.told(reason.text), test), names).replace(` at step ${state.step}`, '');
-    text.replaceChildren(h('p', {}, ...sentence(told)), ...(reason.outlook ? [h('p', { class: 'outlook' }, ...sentence(state.trace.told(reason.outlook)))] : []));
-    holder.replaceChildren(...(test ? [gauge(test)] : []));
+    const other = reasonIn(state.language, reason, test);
+    const told = other?.text ?? pronouns(shortened(state.trace.told(reason.text), test), names).replace(` at step ${state.step}`, '');
+    const outlook = other?.outlook ?? state.trace.told(reason.outlook);
+    text.replaceChildren(h('p', {}, ...sentence(told)), ...(outlook ? [h('p', { class: 'outlook' }, ...sentence(outlook))] : []));
+    holder.replaceChildren(...(test ? [gauge(test, besideLimit(test.stage, test.criterion, test.threshold, (key) => state.setting(key)))] : []));
     text.append(...nextBroken());
     all.hidden = reason.tests.length === 0;
     all.replaceChildren(h('summary', {}, `All ${reason.tests.length} tests of this pair`), tests(reason));

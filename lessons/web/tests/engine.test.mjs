@@ -114,3 +114,36 @@ test('what cannot be done is refused in words, and changes nothing', () => {
 test('a scene that cannot be read says where', () => {
   assert.throws(() => engine.open('format = 1\n[[body]]\ncirlce = 1\n', 'merge+sleep'), /scene\.toml:3.*circle/s);
 });
+
+test('reasons have sentences in every language, by the names that the engine gives', () => {
+  const reasons = JSON.parse(readFileSync(join(project, 'lessons/web/src/reasons.json'), 'utf8'));
+  const namesIn = (file, list) => {
+    const text = readFileSync(join(project, file), 'utf8');
+    const found = new RegExp(`${list}\\[[^\\]]*\\]\\s*=\\s*\\{([^}]*)\\}`).exec(text);
+    assert.ok(found, `${list} in ${file}`);
+    return [...found[1].matchAll(/"([^"]+)"/g)].map(([, name]) => name);
+  };
+  const outcomes = [...namesIn('lessons/explain.cpp', 'kNames'), 'absent', 'one', 'one-asleep', 'by-others', 'no-touch', 'asleep', 'untested'];
+  const conditions = namesIn('lessons/why.cpp', 'kNames');
+  for (const [language, words] of Object.entries(reasons)) {
+    assert.deepEqual(Object.keys(words.outcome).sort(), [...outcomes].sort(), language);
+    assert.deepEqual(Object.keys(words.condition).sort(), [...conditions].sort(), language);
+    assert.deepEqual(Object.keys(words.clause), Object.keys(reasons.de.clause), language);
+  }
+  // Every criterion that is seen in runs has a clause of its own.
+  for (const scene of ['tower-platform', 'books', 'slope']) {
+    const world = engine.open(tomlOf(scene), 'merge+sleep');
+    for (let k = 1; k <= 400; k += 3) {
+      for (const [a, b] of world.step(k).decisions) {
+        if (a === b) continue;
+        const reason = world.why(k, a, b);
+        for (const words of Object.values(reasons)) {
+          assert.ok(words.outcome[reason.outcome], reason.outcome);
+          assert.ok(reason.condition.kind in words.condition, reason.condition.kind);
+          for (const { criterion } of reason.tests) assert.ok(words.measure[criterion] ?? words.clause[criterion], criterion);
+        }
+      }
+    }
+    world.close();
+  }
+});
