@@ -1,5 +1,6 @@
 #include "src2d/time_step.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "src2d/edit.h"
@@ -51,9 +52,10 @@ void setTimeStep(Setup& setup, double h) {
   }
   scaleImpulses(state, ratio);
   layOutCollections(state);
+  constexpr double kMost = 1e9;  // steps
   for (Rigid& r : state.rigids) {
-    r.slow_steps = static_cast<int>(r.slow_steps / ratio);
-    r.quiet_steps = static_cast<int>(r.quiet_steps / ratio);
+    r.slow_steps = static_cast<int>(std::min(kMost, r.slow_steps / ratio));
+    r.quiet_steps = static_cast<int>(std::min(kMost, r.quiet_steps / ratio));
   }
   wakeAll(setup);
 }

@@ -1,6 +1,6 @@
 // What the page shows now, and who wants to know when that changes.
 import type { Engine } from './engine';
-import { type Beside, LiveRun, Probe } from './live';
+import { type Beside, LiveRun, Probe } from './live_run';
 import { kLast } from './stages';
 import type { Trace } from './trace';
 
