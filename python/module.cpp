@@ -1,5 +1,5 @@
-// merge2d._merge2d: scenes, worlds and shapes for Python, over the public C++ interface. What needs
-// no speed is in python/merge2d/*.py.
+// merge2d._merge2d: scenes, worlds and shapes for Python, over the public C++ interface. Parts that
+// need no speed are in python/merge2d/*.py.
 
 #include <merge2d/merge2d.h>
 #include <pybind11/numpy.h>

@@ -17,7 +17,7 @@ function(require_equal what have want)
   endif()
 endfunction()
 
-# What the header declares.
+# The functions that the header declares.
 file(READ ${HEADER} header)
 string(REGEX REPLACE "/\\*([^*]|\\*[^/])*\\*/" "" header "${header}")
 string(REGEX MATCHALL "m2_[a-z0-9_]+\\(" declared "${header}")

@@ -31,7 +31,7 @@ constexpr std::int64_t kNoEnd = 1'000'000'000;
 std::map<int, std::unique_ptr<Timeline>> worlds;
 std::map<int, std::unique_ptr<World>> traced;
 int last_handle = 0;
-std::string buffer;  ///< what the last call gave
+std::string buffer;  ///< the result of the last call
 
 /// Runs `work`, which gives a number above 0; 0 when it throws.
 template <class Work>

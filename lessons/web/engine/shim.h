@@ -1,5 +1,5 @@
 #pragma once
-/// Stands in for what the C++ library of Emscripten's compiler (libc++ 14) lacks of C++20: the
+/// Stands in for parts that the C++ library of Emscripten's compiler (libc++ 14) lacks of C++20: the
 /// algorithms of std::ranges. Only scripts/build-web includes it.
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a recorded run says about itself in plain JSON: lessons/encode_head.cpp writes it.
+// The description of a recorded run in plain JSON: lessons/encode_head.cpp writes it.
 export type Vec = [number, number];
 export type EventRow = [step: number, type: string, a: number, b: number, collection: number, reason: string];
 

@@ -1,4 +1,4 @@
-// What is known inside a time step: impulses before and after the single sweep and the full solve.
+// Quantities inside a time step: impulses before and after the single sweep and the full solve.
 import { kLast, kSolve, kSweep, kStages, kUnmerge } from './stages';
 import type { State } from './state';
 import type { Contact, Impulse } from './trace';

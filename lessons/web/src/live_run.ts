@@ -1,4 +1,4 @@
-// What the reader did to a run, and the worlds of the engine behind it.
+// The actions of a reader on a run, and the worlds of the engine behind it.
 import type { Engine, Hand, Reason, World } from './engine';
 import { LiveTrace } from './live';
 import type { Trace } from './trace';

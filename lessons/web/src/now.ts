@@ -1,4 +1,4 @@
-// What happens in this stage of this step, in words: for the eye and for the screen reader.
+// The events of this stage of this step, in words: for the eye and for the screen reader.
 import { h, plural } from './dom';
 import type { EventRow } from './head';
 import { impulsesText } from './impulses';

@@ -1,4 +1,4 @@
-// What the picture shows at one moment: the layers are drawn from it.
+// The content of the picture at one moment: the layers are drawn from it.
 import { groupedAt } from './groups';
 import { contactsOfStage } from './inside';
 import { kPositions, kStages, kVelocities } from './stages';

@@ -1,4 +1,4 @@
-// The eleven stages of Algorithm 1: what each does, in one sentence.
+// The eleven stages of Algorithm 1, each in one sentence.
 import stages from './stages.json';
 
 export interface Stage {

@@ -1,4 +1,4 @@
-// What the page shows now, and who wants to know when that changes.
+// The state of the page: run, step, stage, selection; and its listeners.
 import type { Engine } from './engine';
 import { type Beside, LiveRun, Probe } from './live_run';
 import { kLast } from './stages';

@@ -1,4 +1,4 @@
-// A recorded run, to be asked what is where at a time step.
+// A recorded run: places, contacts and decisions at each time step.
 import type { Criterion, EventRow, Head, Packed } from './head';
 import { type ShortName, shortNames, withShortNames, written } from './names';
 import { type BodyTrack, ByPair, type Column, type ContactTrack, type DecisionTrack, type Inside, readBody, readContact, readDecision, readInside } from './tracks';

@@ -1,4 +1,4 @@
-// What lessons/pack.cpp packed.
+// Reads the columns that lessons/pack.cpp packed.
 import { unzlibSync } from 'fflate';
 
 export class Unpacker {

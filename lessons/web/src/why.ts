@@ -110,7 +110,7 @@ export function whyCard(state: State, equation: HTMLElement): HTMLElement {
     title.replaceChildren(state.trace.told(reason.heading), h('span', { class: 'names' }, h('span', {}, names), ', ', h('span', {}, `step ${state.step}`)));
     const test = decisive(reason);
     const other = reasonIn(state.language, reason, test);
-    const told = other?.text ?? pronouns(shortened(state.trace.told(reason.text), test), names).replace(` at step ${state.step}`, '');
+    const told = other?.text ?? pronouns(shortened(state.trace.told(reason.text), test), names).replace(` at step ${state.step}`, '').replace(/;? ?docs\/[^\s)]+/g, '').replace(' ()', '');
     const outlook = other?.outlook ?? state.trace.told(reason.outlook);
     text.replaceChildren(h('p', {}, ...sentence(told)), ...(outlook ? [h('p', { class: 'outlook' }, ...sentence(outlook))] : []));
     holder.replaceChildren(...(test ? [gauge(test, besideLimit(test.stage, test.criterion, test.threshold, (key) => state.setting(key)))] : []));
