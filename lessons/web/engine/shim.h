@@ -1,6 +1,6 @@
 #pragma once
-/// Stands in for parts that the C++ library of Emscripten's compiler (libc++ 14) lacks of C++20: the
-/// algorithms of std::ranges. Only scripts/build-web includes it.
+/// Stands in for parts that the C++ library of Emscripten's compiler (libc++ 14) lacks of C++20:
+/// the algorithms of std::ranges. Only scripts/build-web includes it.
 
 #include <algorithm>
 #include <charconv>
