@@ -27,7 +27,7 @@ foreach(copy one another/deeper/one)
   run(${CMAKE_COMMAND} --build ${WORK}/${copy}/build --target merge2d merge2d_shared)
 endforeach()
 file(GLOB_RECURSE products RELATIVE ${WORK}/one/build
-     ${WORK}/one/build/merge2d ${WORK}/one/build/libmerge2d.so.*.*.*)
+     ${WORK}/one/build/merge2d ${WORK}/one/build/api/libmerge2d.so.*.*.*)
 list(LENGTH products count)
 if(count LESS 2)
   message(FATAL_ERROR "there is no program or no library to compare: ${products}")
