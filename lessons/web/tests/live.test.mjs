@@ -143,6 +143,19 @@ test('the time step can be changed in a run of one’s own, and time goes on fro
   await close();
 });
 
+test('a gauge shows the value of the paper beside a limit that is another one', async () => {
+  const change = (line) => `&do=${encodeURIComponent(`0 set ${line}`)}`;
+  const bodies = '&bodies=cookbook%26diary';
+  const { page, close } = await open('books', {}, `#step=2&fork=0${change('merging.velocity=0.05')}${change('merging.breathing=0.0001')}${bodies}`);
+  await page.waitForSelector('html.taken-over');
+  await page.waitForSelector('.gauge .second-tick', { state: 'attached' });
+  const [limit, paper] = await page.$$eval('.gauge text:not(.value)', (texts) => texts.map((text) => text.textContent));
+  assert.match(limit, /^limit (0\.05|1\.0·10⁻⁴)$/);
+  assert.match(paper, /^paper (0\.01|1\.0·10⁻⁵)$/);
+  assert.match(await page.getAttribute('.gauge svg', 'aria-label'), /limit .*, paper /);
+  await close();
+});
+
 test('a limit that is moved decides from the next step on', async () => {
   const { page, close } = await takenOver('books', 0);
   const collections = async () => Number(await page.textContent('.counts strong >> nth=1'));
