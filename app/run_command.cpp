@@ -35,6 +35,7 @@ struct RunOptions : SceneOptions {
   std::string trace, csv;        ///< files, or empty
   std::string snapshot, resume;  ///< the same
   std::string reference_folder;  ///< the same
+  int threads = 1;
   bool no_timings = false;
   bool decisions = false;
   bool reference_error = false;
@@ -176,9 +177,11 @@ void run(const RunOptions& options) {
   check(options);
   const Console console(options);
   catchInterrupts();
-  Simulation simulation(
-      std::make_shared<const Scene>(loadScene(options, console)),
-      {.mode = options.mode, .timings = !options.no_timings, .decisions = options.decisions});
+  Simulation simulation(std::make_shared<const Scene>(loadScene(options, console)),
+                        {.mode = options.mode,
+                         .timings = !options.no_timings,
+                         .decisions = options.decisions,
+                         .threads = options.threads});
   resume(options, simulation);
   Record record(options, simulation.world());
   try {
@@ -200,6 +203,13 @@ void addRunCommand(CLI::App& program, Action& action) {
   command->footer(kRunExamples);
   const auto options = std::make_shared<RunOptions>();
   addSceneOptions(*command, *options);
+  addOption(
+      *command, "--threads", "N",
+      [options](const std::string& s) {
+        options->threads = static_cast<int>(readInteger("--threads", s, 1, 64));
+      },
+      "Threads that share the work of each step, 1 unless given; the results are the same")
+      ->group("Simulation");
   constexpr const char* kGroup = "Files";
   addOutputOption(
       *command, "--trace", "FILE.jsonl",

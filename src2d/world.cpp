@@ -16,6 +16,7 @@
 #include "src2d/dynamics/integrate.h"
 #include "src2d/dynamics/setup.h"
 #include "src2d/dynamics/solver.h"
+#include "src2d/dynamics/task_pool.h"
 #include "src2d/edit.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/disturbance.h"
@@ -39,6 +40,7 @@ struct World::Impl {
       : scene(std::move(of)), options(with) {
     checkSimulated(*scene);
     setUp(*scene, options.mode, setup);
+    if (options.threads > 1) tasks = std::make_unique<TaskPool>(options.threads);
     countBodies(setup.state, scratch);
   }
 
@@ -46,6 +48,7 @@ struct World::Impl {
   WorldOptions options;
   Setup setup;
   Scratch scratch;
+  std::unique_ptr<TaskPool> tasks;
   Observer* observer = nullptr;
   Notes notes;
   std::vector<BodyInfo> bodies;  ///< described when somebody asks
@@ -132,6 +135,7 @@ void World::Impl::step() {
   State& state = setup.state;
   notes.clear();
   scratch.notes = options.decisions ? &notes : nullptr;
+  scratch.tasks = tasks.get();
   if (options.timings) lap();
   const bool watched = observer || options.decisions;
   if (watched) wholeState();

@@ -29,6 +29,7 @@ struct WorldOptions {
   Mode mode = Mode::MergeSleep;
   bool timings = true;     ///< measure the seconds per stage
   bool decisions = false;  ///< note every test of a criterion, and what else `notes` holds
+  int threads = 1;         ///< that share the work of a step; the results do not depend on it
 };
 
 /// Whether a state may be taken over that was saved under other settings or in another mode.

@@ -6,6 +6,7 @@
 #include "src2d/contact/approach.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
+#include "src2d/dynamics/task_pool.h"
 
 namespace merge2d {
 namespace {
@@ -95,23 +96,47 @@ void moveLeaves(State& state, Scratch& scratch) {
   }
 }
 
-/// Asks the tree who is near what moved: shape pairs at once where both have one shape, near pairs
-/// otherwise.
+/// Asks the tree who is near something that moved: shape pairs at once where both have one shape,
+/// near pairs otherwise.
+void findNeighboursOf(const State& state, const Scratch& scratch, RigidId id,
+                      std::vector<ContactKey>& candidates, std::vector<NearPair>& near) {
+  const Rigid& r = state[id];
+  state.broadphase.tree.queryLeaf(r.leaf, [&](std::uint32_t other) {
+    const RigidId o{other};
+    if (o == id || (scratch.moved_flag[other] && o < id) || !canTouch(state, id, o)) return;
+    if (hasShapeTree(state, id) || hasShapeTree(state, o)) {
+      NearPair pair{.a = std::min(id, o), .b = std::max(id, o)};
+      near.push_back(pair);
+    } else if (!joined(state, BodyId{static_cast<std::uint32_t>(id)}, BodyId{other})) {
+      candidates.push_back(keyOf(state, onlyShape(state, id), onlyShape(state, o)));
+    }
+  });
+}
+
+/// The same for all that moved.
 void findNeighbours(State& state, Scratch& scratch) {
+  constexpr std::size_t kGrain = 128;
   scratch.candidates.clear();
   scratch.near_candidates.clear();
-  for (const RigidId id : scratch.moved) {
-    const Rigid& r = state[id];
-    state.broadphase.tree.queryLeaf(r.leaf, [&](std::uint32_t other) {
-      const RigidId o{other};
-      if (o == id || (scratch.moved_flag[other] && o < id) || !canTouch(state, id, o)) return;
-      if (hasShapeTree(state, id) || hasShapeTree(state, o)) {
-        NearPair pair{.a = std::min(id, o), .b = std::max(id, o)};
-        scratch.near_candidates.push_back(pair);
-      } else if (!joined(state, BodyId{static_cast<std::uint32_t>(id)}, BodyId{other})) {
-        scratch.candidates.push_back(keyOf(state, onlyShape(state, id), onlyShape(state, o)));
-      }
-    });
+  const auto& moved = scratch.moved;
+  if (!scratch.tasks) {
+    for (const RigidId id : moved) {
+      findNeighboursOf(state, scratch, id, scratch.candidates, scratch.near_candidates);
+    }
+    return;
+  }
+  scratch.found.resize(std::max(scratch.found.size(), moved.size() / kGrain + 1));
+  forEachIndex(scratch.tasks, moved.size(), kGrain, [&](std::size_t i, int) {
+    FoundByTask& found = scratch.found[i / kGrain];
+    findNeighboursOf(state, scratch, moved[i], found.candidates, found.near);
+  });
+  const auto append = [](auto& all, auto& some) {
+    all.insert(all.end(), some.begin(), some.end());
+    some.clear();
+  };
+  for (FoundByTask& found : scratch.found) {
+    append(scratch.candidates, found.candidates);
+    append(scratch.near_candidates, found.near);
   }
 }
 

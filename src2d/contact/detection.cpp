@@ -10,6 +10,7 @@
 #include "src2d/contact/parking.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
+#include "src2d/dynamics/task_pool.h"
 
 namespace merge2d {
 namespace {
@@ -86,46 +87,95 @@ void holdBreath(Contact& contact) {
 
 bool resting(const Rigid& r) { return r.asleep || r.anchor == kWorldFrame; }
 
-/// The manifold of now, or of where the two will meet in this step.
-void findManifold(const State& state, Scratch& scratch, Contact& contact) {
+constexpr std::size_t kGrain = 64;  ///< contacts or pairs that one task looks at
+constexpr double kDone = -1.0;      ///< instead of the way ahead: nothing is left to do
+
+/// The manifold of now. Returns how far the two can come nearer in this step, if they are to be
+/// followed to where they meet [m]; else kDone.
+double findManifold(const State& state, const Scratch& scratch, Contact& contact) {
   const double ahead = approach(state, scratch, contact.key.a, contact.key.b);
   updateManifold(state, contact, ahead);
-  if (contact.count > 0) castContact(state, scratch, contact, ahead);
+  return contact.count > 0 ? ahead : kDone;
 }
 
-/// Follows the contacts that there are.
-void followContacts(State& state, Scratch& scratch, double farthest) {
-  for (const ContactTable::Slot slot : state.contacts.order) {
-    Contact& contact = state.contacts[slot];
-    const ContactKey& key = contact.key;
-    const Rigid &a = state.rigid(key.a), &b = state.rigid(key.b);
-    const bool fixed = resting(a) && resting(b);
-    if (fixed) holdBreath(contact);
-    if (fixed || (contact.count == 0 && sameFrame(a, b))) {
-      contact.apart = 0.0F;  // what they have moved before is not counted from here on
-    } else if (contact.count == 0 && staysApart(state, key, contact.apart, farthest)) {
-      loseTouch(contact);
-    } else {
-      findManifold(state, scratch, contact);
-    }
+/// The same for a contact that there is.
+double followContact(const State& state, const Scratch& scratch, double farthest,
+                     Contact& contact) {
+  const ContactKey& key = contact.key;
+  const Rigid &a = state.rigid(key.a), &b = state.rigid(key.b);
+  const bool fixed = resting(a) && resting(b);
+  if (fixed) holdBreath(contact);
+  if (fixed || (contact.count == 0 && sameFrame(a, b))) {
+    contact.apart = 0.0F;  // what they have moved before is not counted from here on
+  } else if (contact.count == 0 && staysApart(state, key, contact.apart, farthest)) {
+    loseTouch(contact);
+  } else {
+    return findManifold(state, scratch, contact);
   }
+  return kDone;
+}
+
+/// Follows the contacts that there are. Casts share a list, and are few.
+void followContacts(State& state, Scratch& scratch, double farthest) {
+  const auto& order = state.contacts.order;
+  const auto cast = [&](Contact& contact, double ahead) {
+    if (ahead != kDone) castContact(state, scratch, contact, ahead);
+  };
+  if (!scratch.tasks) {
+    for (const ContactTable::Slot slot : order) {
+      Contact& contact = state.contacts[slot];
+      cast(contact, followContact(state, scratch, farthest, contact));
+    }
+    return;
+  }
+  scratch.ahead.resize(order.size());
+  forEachIndex(scratch.tasks, order.size(), kGrain, [&](std::size_t i, int) {
+    scratch.ahead[i] = followContact(state, scratch, farthest, state.contacts[order[i]]);
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) cast(state.contacts[order[i]], scratch.ahead[i]);
+}
+
+/// The manifold of an idle pair, if it may touch now; else the contact has no points.
+Contact lookAt(const State& state, const Scratch& scratch, double farthest, IdlePair& pair) {
+  Contact contact;
+  contact.key = pair.key;
+  const Rigid &a = state.rigid(pair.key.a), &b = state.rigid(pair.key.b);
+  if ((resting(a) && resting(b)) || sameFrame(a, b)) {
+    pair.apart = 0.0F;  // as above
+  } else if (!staysApart(state, pair.key, pair.apart, farthest)) {
+    findManifold(state, scratch, contact);
+    pair.apart = contact.apart;
+  }
+  return contact;
+}
+
+/// Follows an idle pair that may touch now to where it meets.
+void castIdle(const State& state, Scratch& scratch, IdlePair& pair, Contact& contact) {
+  castContact(state, scratch, contact, approach(state, scratch, pair.key.a, pair.key.b));
+  pair.apart = contact.apart;
+  if (contact.count > 0) scratch.touching.push_back(contact);
 }
 
 /// Finds the idle pairs that touch now.
 void findTouching(State& state, Scratch& scratch, double farthest) {
   scratch.touching.clear();
-  for (IdlePair& pair : state.contacts.idle) {
-    const Rigid &a = state.rigid(pair.key.a), &b = state.rigid(pair.key.b);
-    if ((resting(a) && resting(b)) || sameFrame(a, b)) {
-      pair.apart = 0.0F;  // as above
-      continue;
+  auto& idle = state.contacts.idle;
+  if (scratch.tasks) {
+    scratch.found.resize(std::max(scratch.found.size(), idle.size() / kGrain + 1));
+    forEachIndex(scratch.tasks, idle.size(), kGrain, [&](std::size_t i, int) {
+      const Contact contact = lookAt(state, scratch, farthest, idle[i]);
+      if (contact.count == 0) return;
+      scratch.found[i / kGrain].touching.emplace_back(static_cast<std::uint32_t>(i), contact);
+    });
+    for (FoundByTask& found : scratch.found) {
+      for (auto& [i, contact] : found.touching) castIdle(state, scratch, idle[i], contact);
+      found.touching.clear();
     }
-    if (staysApart(state, pair.key, pair.apart, farthest)) continue;
-    Contact contact;
-    contact.key = pair.key;
-    findManifold(state, scratch, contact);
-    pair.apart = contact.apart;
-    if (contact.count > 0) scratch.touching.push_back(contact);
+  } else {
+    for (IdlePair& pair : idle) {
+      Contact contact = lookAt(state, scratch, farthest, pair);
+      if (contact.count > 0) castIdle(state, scratch, pair, contact);
+    }
   }
   addContacts(state.contacts, scratch.touching);
   releaseMany(scratch.touching);
@@ -193,9 +243,10 @@ void detectContacts(State& state, Scratch& scratch) {
   dropHiddenSides(state, scratch);
   retireContacts(state.contacts);
   collectPairs(state, scratch);
-  for (const BodyPair& pair : scratch.pairs) {
-    if (pair.count > 1) prune(state, pair, scratch.notes);
-  }
+  TaskPool* const tasks = scratch.notes ? nullptr : scratch.tasks;
+  forEachIndex(tasks, scratch.pairs.size(), kGrain, [&](std::size_t i, int) {
+    if (scratch.pairs[i].count > 1) prune(state, scratch.pairs[i], scratch.notes);
+  });
 }
 
 }  // namespace merge2d

@@ -27,6 +27,9 @@ struct alignas(64) SolverVelocity {
   double surface = 0.0;       ///< speed of its belt [m/s]
   /// The change of the last step's velocity by the loads and the full solve [m/s, rad/s].
   std::array<float, 3> gained{};
+
+  /// What does not is never written to: many islands stand on it, each perhaps in another thread.
+  bool responds() const { return inv_mass != 0.0; }
 };
 
 /// The rows of one manifold. Lever arms are moments of the unit normal or tangent about the centre
@@ -82,18 +85,22 @@ inline ContactVelocity contactVelocity(const ContactBlock& k, int i, double nx, 
 inline void applyImpulse(const ContactBlock& k, int i, double nx, double ny, double pn, double pt,
                          SolverVelocity& a, SolverVelocity& b) {
   const double px = nx * pn - ny * pt, py = ny * pn + nx * pt;
-  a.vx -= a.inv_mass * px;
-  a.vy -= a.inv_mass * py;
-  a.omega -= a.inv_inertia * (k.arm_an[i] * pn + k.arm_at[i] * pt);
-  b.vx += b.inv_mass * px;
-  b.vy += b.inv_mass * py;
-  b.omega += b.inv_inertia * (k.arm_bn[i] * pn + k.arm_bt[i] * pt);
+  if (a.responds()) {
+    a.vx -= a.inv_mass * px;
+    a.vy -= a.inv_mass * py;
+    a.omega -= a.inv_inertia * (k.arm_an[i] * pn + k.arm_at[i] * pt);
+  }
+  if (b.responds()) {
+    b.vx += b.inv_mass * px;
+    b.vy += b.inv_mass * py;
+    b.omega += b.inv_inertia * (k.arm_bn[i] * pn + k.arm_bt[i] * pt);
+  }
 }
 
 /// Adds the moment `p` against rolling [N m s].
 inline void applyRolling(double p, SolverVelocity& a, SolverVelocity& b) {
-  a.omega -= a.inv_inertia * p;
-  b.omega += b.inv_inertia * p;
+  if (a.responds()) a.omega -= a.inv_inertia * p;
+  if (b.responds()) b.omega += b.inv_inertia * p;
 }
 
 /// All impulses of a block at once: its warm start.
@@ -207,12 +214,16 @@ inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
     }
   }
   const double px = nx * p_n - ny * p_t, py = ny * p_n + nx * p_t;
-  a.vx -= a.inv_mass * px;
-  a.vy -= a.inv_mass * py;
-  a.omega = omega_a;
-  b.vx += b.inv_mass * px;
-  b.vy += b.inv_mass * py;
-  b.omega = omega_b;
+  if (a.responds()) {
+    a.vx -= a.inv_mass * px;
+    a.vy -= a.inv_mass * py;
+    a.omega = omega_a;
+  }
+  if (b.responds()) {
+    b.vx += b.inv_mass * px;
+    b.vy += b.inv_mass * py;
+    b.omega = omega_b;
+  }
 }
 
 /// The paper's plain PGS: one row at a time, each normal followed by its friction.

@@ -2,20 +2,29 @@
 
 #include "src2d/contact/approach.h"
 #include "src2d/dynamics/stabilise.h"
+#include "src2d/dynamics/task_pool.h"
 
 namespace merge2d {
 
+namespace {
+
+constexpr std::size_t kRunOfRigids = 256;  ///< that one task moves
+
+}  // namespace
+
 void advanceVelocities(State& state, Scratch& scratch) {
-  for (const RigidId id : state.present) {
+  const auto& present = state.present.ids();
+  forEachIndex(scratch.tasks, present.size(), kRunOfRigids, [&](std::size_t i, int) {
+    const RigidId id = present[i];
     Rigid& r = state[id];
     const bool anchored = !r.floating() && state.isCollection(id);  // takes its frame's velocity
-    if (r.asleep || !(r.floating() || anchored)) continue;
+    if (r.asleep || !(r.floating() || anchored)) return;
     SolverVelocity& u = scratch.u[index(id)];
     u.gained = {static_cast<float>(u.vx - r.v.x()), static_cast<float>(u.vy - r.v.y()),
                 static_cast<float>(u.omega - r.omega)};
     r.v = {u.vx, u.vy};
     r.omega = u.omega;
-  }
+  });
 }
 
 namespace {
@@ -52,16 +61,17 @@ void followAnchors(State& state) {
 
 void advancePositions(State& state, Scratch& scratch) {
   state.moved = farthestMove(state, scratch);
-  for (const RigidId id : state.present) {
-    Rigid& r = state[id];
-    if (r.asleep || r.anchor == kWorldFrame) continue;
+  const auto& present = state.present.ids();
+  forEachIndex(scratch.tasks, present.size(), kRunOfRigids, [&](std::size_t i, int) {
+    Rigid& r = state[present[i]];
+    if (r.asleep || r.anchor == kWorldFrame) return;
     r.previous_rotation = r.rotation;
-    if (!r.floating() && state.isCollection(id)) continue;  // anchored: follows its frame
+    if (!r.floating() && state.isCollection(present[i])) return;  // anchored: follows its frame
     r.moveBy(state.h * r.v);
-    if (r.omega == 0.0) continue;
+    if (r.omega == 0.0) return;
     r.angle += state.h * r.omega;
     r.rotation = Rotation::of(r.angle);
-  }
+  });
   followHits(state, scratch);
   correctPositions(state, scratch);
   followAnchors(state);

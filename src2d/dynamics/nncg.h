@@ -15,12 +15,6 @@
 
 namespace merge2d {
 
-/// The change of all impulses in the last sweep, squared, beside the impulses themselves [N² s²].
-struct SweepChange {
-  double squared = 0.0;
-  double total = 0.0;
-};
-
 /// `impulses(i)` for i < `blocks` are those of a block of rows, `velocity(i)` for i < `bodies` what
 /// they act on, each once; `sweep()` solves every block once and changes both. With `accelerate`
 /// off: plain sweeps.

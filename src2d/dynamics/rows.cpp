@@ -11,6 +11,7 @@
 #include "src2d/dynamics/hits.h"
 #include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/solver.h"
+#include "src2d/dynamics/task_pool.h"
 #include "src2d/scene/compliance.h"
 
 namespace merge2d {
@@ -172,6 +173,32 @@ void clearMarks(Scratch& scratch) {
   for (const std::uint32_t r : scratch.island_bodies) clear(r);
 }
 
+/// Sorts the blocks. Several threads take an island each: first the blocks of each are brought
+/// together, still by source.
+void sortBlocks(Scratch& scratch) {
+  auto& order = scratch.block_order;
+  if (!scratch.tasks) return std::sort(order.begin(), order.end());
+  auto& next = scratch.island_of;  // per root: first how many blocks, then where the next one goes
+  auto& roots = scratch.island_roots;
+  roots.clear();
+  for (const BlockOrder& block : order) {
+    if (next[block.island()] < 0) roots.push_back(block.island());
+    next[block.island()] = std::max(next[block.island()], 0) + 1;
+  }
+  std::ranges::sort(roots);
+  std::int32_t first = 0;
+  for (const std::uint32_t root : roots) first += std::exchange(next[root], first);
+  scratch.block_order_before = order;
+  for (const BlockOrder& block : scratch.block_order_before) {
+    order[static_cast<std::size_t>(next[block.island()]++)] = block;
+  }
+  constexpr std::size_t kGrain = 4;  // islands
+  forEachIndex(scratch.tasks, roots.size(), kGrain, [&](std::size_t i, int) {
+    const auto begin = order.begin() + (i == 0 ? 0 : next[roots[i - 1]]);
+    std::sort(begin, order.begin() + next[roots[i]]);
+  });
+}
+
 /// Orders the blocks by island and, inside it, by colour: blocks of one colour share no body, so
 /// that consecutive ones need not wait for each other's results.
 void orderBlocks(const State& state, Scratch& scratch) {
@@ -188,6 +215,7 @@ void orderBlocks(const State& state, Scratch& scratch) {
   uniteJoints(state, scratch);
   // Greedy colours, in the order of the pairs.
   resizeTightly(scratch.colours, state.rigids.size());
+  resizeTightly(scratch.island_of, state.rigids.size(), -1);
   reserveTightly(scratch.block_order, scratch.row_sources.size());
   scratch.block_order.resize(scratch.row_sources.size());
   for (std::uint32_t i = 0; i < scratch.row_sources.size(); ++i) {
@@ -201,7 +229,7 @@ void orderBlocks(const State& state, Scratch& scratch) {
     const auto body = static_cast<std::uint32_t>(a_moves ? ends.a : ends.b);
     scratch.block_order[i] = BlockOrder::of(sets.find(body), colour, i);
   }
-  std::sort(scratch.block_order.begin(), scratch.block_order.end());
+  sortBlocks(scratch);
 }
 
 /// Lever arms of the points of a block: as they are now, or as they will be where it was `cast` to.
@@ -270,18 +298,19 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
 }
 
 void buildBlocks(State& state, Scratch& scratch) {
+  constexpr std::size_t kGrain = 64;  // blocks
   scratch.islands.clear();
-  scratch.blocks.clear();
   const auto& order = scratch.block_order;
   const auto size = static_cast<std::uint32_t>(order.size());
-  reserveTightly(scratch.blocks, size);
+  resizeTightly(scratch.blocks, size);
+  forEachIndex(scratch.tasks, size, kGrain, [&](std::size_t i, int) {
+    scratch.blocks[i] = makeBlock(state, scratch, scratch.row_sources[order[i].source()]);
+  });
   for (std::uint32_t first = 0, last = 0; first < size; first = last) {
     while (last < size && order[last].island() == order[first].island()) ++last;
     Island island{.root = order[first].island(), .first = first, .last = last};
     for (std::uint32_t i = first; i < last; ++i) {
-      const RowSource& source = scratch.row_sources[order[i].source()];
-      scratch.blocks.push_back(makeBlock(state, scratch, source));
-      island.hits |= scratch.blocks.back().hits != 0;
+      island.hits |= scratch.blocks[i].hits != 0;
     }
     scratch.islands.push_back(island);
   }
@@ -299,7 +328,6 @@ void forEachMover(const State& state, const Scratch& scratch, Visit&& visit) {
 
 void listIslandBodies(const State& state, Scratch& scratch) {
   auto& island_of = scratch.island_of;
-  resizeTightly(island_of, state.rigids.size(), -1);
   for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
     island_of[scratch.islands[i].root] = static_cast<std::int32_t>(i);
   }

@@ -14,6 +14,8 @@
 
 namespace merge2d {
 
+class TaskPool;
+
 /// A force acting through this step: on a body, about its centre of mass.
 struct Load {
   BodyId body{};
@@ -189,6 +191,19 @@ enum class Doubt : std::uint8_t {
   Open,    ///< they do not cover it, or something hits it
 };
 
+/// The change of all impulses in the last sweep, squared, beside the impulses themselves [N² s²].
+struct SweepChange {
+  double squared = 0.0;
+  double total = 0.0;
+};
+
+/// What one task of the contact detection found, where several threads search.
+struct FoundByTask {
+  std::vector<ContactKey> candidates;
+  std::vector<NearPair> near;
+  std::vector<std::pair<std::uint32_t, Contact>> touching;  ///< with the index of the idle pair
+};
+
 /// Lives for one step; its memory is kept.
 struct Scratch {
   std::vector<Load> loads;
@@ -198,14 +213,17 @@ struct Scratch {
   std::vector<double> spring_gain;       ///< per body with springs: what these do to its velocity
   std::vector<BodyPair> pairs;           ///< body pairs in contact, ascending
   std::vector<Event> events;
-  Notes* notes = nullptr;  ///< null: nobody asks
+  Notes* notes = nullptr;     ///< null: nobody asks
+  TaskPool* tasks = nullptr;  ///< null: one thread
   Stats stats;
 
   // ContactDetection
   std::vector<RigidId> moved;
   std::vector<std::uint8_t> moved_flag;
   std::vector<ContactKey> candidates;
-  std::vector<Contact> touching;  ///< idle pairs that have become contacts
+  std::vector<Contact> touching;   ///< idle pairs that have become contacts
+  std::vector<double> ahead;       ///< per contact in order, where several threads follow them [m]
+  std::vector<FoundByTask> found;  ///< per task
   std::vector<SeamContact> seams;
   std::vector<Cast> casts;                          ///< ascending by key
   std::vector<ActionOrder> kick_order, load_order;  ///< ascending; loads only where one is asked
@@ -274,8 +292,12 @@ struct Scratch {
   std::vector<JointBlock> joint_blocks;  ///< by island
   JointMemory joint_memory;
   std::vector<BlockOrder> block_order;
+  std::vector<BlockOrder> block_order_before;  ///< where several threads sort it
+  std::vector<std::uint32_t> island_roots;     ///< the same
   std::vector<HitWay> hit_ways;
   NncgBuffers nncg;
+  std::vector<NncgBuffers> nncg_of_threads;  ///< of those beside the caller's
+  std::vector<SweepChange> island_changes;   ///< per island
 };
 
 }  // namespace merge2d

@@ -6,6 +6,7 @@
 #include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/newton.h"
 #include "src2d/dynamics/nncg.h"
+#include "src2d/dynamics/task_pool.h"
 
 namespace merge2d {
 namespace {
@@ -27,7 +28,8 @@ void warmStart(std::span<const ContactBlock> blocks, std::vector<SolverVelocity>
 constexpr int kSweepsForBends = 2, kTimesForBends = 2;
 
 /// Far-away bodies do not matter: each island has its own ρ.
-SweepChange solveIsland(const State& state, Scratch& scratch, const Island& island) {
+SweepChange solveIsland(const State& state, Scratch& scratch, const Island& island,
+                        NncgBuffers& buffers) {
   const SolverSettings& settings = state.settings.solver;
   const std::span blocks(scratch.blocks.data() + island.first, island.last - island.first);
   const std::span bodies(scratch.island_bodies.data() + island.first_body,
@@ -46,7 +48,7 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   if (joints.empty()) {
     Nncg iteration(
         blocks.size(), [&](std::size_t i) -> Impulses& { return blocks[i].lambda; }, bodies.size(),
-        body, [&] { sweep(blocks, u, settings.method); }, scratch.nncg);
+        body, [&] { sweep(blocks, u, settings.method); }, buffers);
     return iteration.run(settings.iterations, accelerate);
   }
   JointSolver together(joints, u, scratch.joint_memory);
@@ -60,7 +62,7 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
         together.sweep();
         sweep(blocks, u, settings.method);
       },
-      scratch.nncg);
+      buffers);
   const auto done = [&] { return blocks.empty() && together.isExact(); };
   SweepChange change = iteration.run(settings.iterations, accelerate, done);
   thread_local std::vector<JointErrors> bends;  // its memory is kept
@@ -71,14 +73,36 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   return change;
 }
 
+/// Islands share nothing but what is fixed. Joints are solved with a memory of their own, in order.
+void solveIslands(const State& state, Scratch& scratch) {
+  constexpr std::size_t kGrain = 4;  // islands
+  const auto& islands = scratch.islands;
+  auto& others = scratch.nncg_of_threads;
+  if (scratch.tasks) others.resize(static_cast<std::size_t>(scratch.tasks->threads() - 1));
+  scratch.island_changes.assign(islands.size(), {});
+  const auto hasJoints = [](const Island& i) { return i.first_joint != i.last_joint; };
+  const auto solve = [&](std::size_t i, NncgBuffers& buffers) {
+    scratch.island_changes[i] = solveIsland(state, scratch, islands[i], buffers);
+  };
+  forEachIndex(scratch.tasks, islands.size(), kGrain, [&](std::size_t i, int thread) {
+    if (hasJoints(islands[i])) return;
+    solve(i, thread == 0 ? scratch.nncg : others[static_cast<std::size_t>(thread - 1)]);
+  });
+  scratch.joint_memory.next = 0;
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    if (hasJoints(islands[i])) solve(i, scratch.nncg);
+  }
+}
+
 /// Hands the impulses back to the contacts, with the velocities that they leave.
 void storeImpulses(State& state, const Scratch& scratch) {
-  for (std::size_t i = 0; i < scratch.blocks.size(); ++i) {
+  constexpr std::size_t kGrain = 128;  // blocks
+  forEachIndex(scratch.tasks, scratch.blocks.size(), kGrain, [&](std::size_t i, int) {
     const ContactBlock& k = scratch.blocks[i];
     const RowSource& source = scratch.row_sources[scratch.block_order[i].source()];
     if (source.isInner()) {
       state.collections[source.slot()].blocks[source.block()].lambda = k.lambda;
-      continue;
+      return;
     }
     for (int p = 0; p < k.count; ++p) {
       ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(p)]);
@@ -89,7 +113,7 @@ void storeImpulses(State& state, const Scratch& scratch) {
       point.w_t = static_cast<float>(w.t);
     }
     if (k.rolls()) state.contacts.secondOf(source.points[0]).lambda_t = k.lambda_r();
-  }
+  });
 }
 
 }  // namespace
@@ -105,12 +129,11 @@ void solveContacts(State& state, Scratch& scratch) {
   }
   scratch.hit_ways.clear();
   SweepChange all;
-  scratch.joint_memory.next = 0;
-  for (const Island& island : scratch.islands) {
-    const SweepChange change = solveIsland(state, scratch, island);
-    if (island.hits) resolveHits(state, scratch, island);
-    all.squared += change.squared;
-    all.total += change.total;
+  solveIslands(state, scratch);
+  for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
+    if (scratch.islands[i].hits) resolveHits(state, scratch, scratch.islands[i]);
+    all.squared += scratch.island_changes[i].squared;
+    all.total += scratch.island_changes[i].total;
   }
   storeImpulses(state, scratch);
   storeJointImpulses(state, scratch);

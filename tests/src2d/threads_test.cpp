@@ -1,0 +1,100 @@
+/// The bytes of a run do not depend on the number of threads that share its work.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "src2d/world.h"
+#include "tests/src2d/world_edit_testing.h"
+
+namespace merge2d {
+namespace {
+
+constexpr Mode kModesOfThreads[] = {Mode::Reference, Mode::Sleep, Mode::Merge, Mode::MergeSleep};
+
+/// Enough of everything for several tasks in every stage: pyramids, bouncing balls, jointed chains,
+/// compound bodies, and a scripted cart.
+Scene crowd() {
+  Scene scene = onGround();
+  for (int i = 0; i < 8; ++i) {
+    for (int row = 0; row < 5; ++row) {
+      for (int k = 0; k < 5 - row; ++k) {
+        add(scene, box(1, 1, {7.0 * i - 40 + k + 0.5 * row, row + 0.5}));
+      }
+    }
+    BodyDesc ball = disc(0.4, {7.0 * i - 38, 9.0 + 0.3 * i});
+    ball.restitution = 0.6;
+    add(scene, ball);
+    BodyDesc tee = box(0.2, 1, {7.0 * i - 35.5, 1.0});
+    tee.shapes.emplace_back(makeBox(1, 0.2, Pose::at({0, 0.6}, 0)));
+    add(scene, tee);
+  }
+  for (int i = 0; i < 4; ++i) {
+    add(scene, box(1.8, 0.2, {20.0 + 2.0 * i, 6}));
+    const BodyIndex here = scene.bodies.size() - 1;
+    const std::optional<BodyIndex> before = i > 0 ? std::optional(here - 1) : std::nullopt;
+    scene.joints.push_back(jointOf(JointKind::Revolute, here, before, {19.0 + 2.0 * i, 6}));
+  }
+  SteadyMotion way;
+  way.velocity = {1.5, 0};
+  add(scene, named("cart", scripted(box(2, 1, {-50, 0.5}), way)));
+  return scene;
+}
+
+std::string endOf(const Scene& scene, Mode mode, int threads, bool decisions = false) {
+  World world(scene, {.mode = mode, .timings = false, .decisions = decisions, .threads = threads});
+  runSteps(world, 100);
+  world.applyImpulse(BodyId{3}, {-38, 0.5}, {3, 1});
+  runSteps(world, 200);
+  return world.save();
+}
+
+TEST(Threads, TheResultIsTheSameWithAnyNumberOfThem) {
+  for (const Mode mode : kModesOfThreads) {
+    const std::string alone = endOf(crowd(), mode, 1);
+    for (const int threads : {2, 3, 8}) {
+      EXPECT_TRUE(endOf(crowd(), mode, threads) == alone) << name(mode) << " " << threads;
+    }
+  }
+}
+
+TEST(Threads, EverySolverGivesTheSame) {
+  for (const SolverMethod method : {SolverMethod::Pgs, SolverMethod::Nncg, SolverMethod::Newton}) {
+    Scene scene = crowd();
+    scene.settings.solver.method = method;
+    EXPECT_TRUE(endOf(scene, Mode::Merge, 3) == endOf(scene, Mode::Merge, 1));
+  }
+  Scene scene = crowd();
+  scene.settings.solver.stabilisation = Stabilisation::Post;
+  EXPECT_TRUE(endOf(scene, Mode::Merge, 3) == endOf(scene, Mode::Merge, 1));
+}
+
+TEST(Threads, WhoeverAsksGetsTheSameDecisions) {
+  const auto decisions = [](int threads) {
+    World world(crowd(), {.decisions = true, .threads = threads});
+    std::string all;
+    for (int i = 0; i < 150; ++i) {
+      world.step();
+      for (const Decision& d : world.notes().decisions) {
+        all += std::to_string(index(d.a)) + " " + std::string(d.criterion) + " " +
+               std::to_string(d.value) + "\n";
+      }
+    }
+    return all;
+  };
+  EXPECT_EQ(decisions(3), decisions(1));
+}
+
+TEST(Threads, ARestoredWorldKeepsItsThreads) {
+  World world(crowd(), {.threads = 2});
+  runSteps(world, 50);
+  const std::string middle = world.save();
+  runSteps(world, 50);
+  const std::string end = world.save();
+  world.restore(middle, "memory");
+  runSteps(world, 50);
+  EXPECT_TRUE(world.save() == end);
+}
+
+}  // namespace
+}  // namespace merge2d
