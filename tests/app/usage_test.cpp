@@ -1,5 +1,6 @@
 /// What the program says to those who type something wrong, and what it returns to the shell.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/app/program_testing.h"

@@ -79,6 +79,11 @@ MERGE2D_ORDER(max_element)
 MERGE2D_ORDER(min_element)
 #undef MERGE2D_ORDER
 
+template <std::input_or_output_iterator I, class C = std::ranges::less, class P = std::identity>
+void sort(I first, I last, C c = {}, P p = {}) {
+  std::sort(first, last, shim::comparing(c, p));
+}
+
 template <class R, class T, class P = std::identity>
 auto find(R&& r, const T& value, P p = {}) {
   return std::find_if(std::begin(r), std::end(r),
