@@ -72,6 +72,7 @@ after(async () => {
 export async function open(name, options = {}, hash = '') {
   const context = await browser.newContext({ offline: true, viewport: { width: 1280, height: 860 }, ...options });
   const page = await context.newPage();
+  page.setDefaultTimeout(180_000); // of a machine that does much else
   const trouble = [];
   page.on('pageerror', (error) => trouble.push(String(error)));
   page.on('console', (message) => { if (message.type() === 'error') trouble.push(message.text()); });
