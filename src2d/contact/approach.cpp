@@ -70,59 +70,72 @@ StartMotion freeMotion(const State& state, const Scratch& scratch, RigidId id) {
   return motion;
 }
 
-double approach(const State& state, const Scratch& scratch, RigidId a, RigidId b) {
-  const StartMotion of_a = startMotion(state, scratch, a), of_b = startMotion(state, scratch, b);
-  const auto turning = [&](RigidId id, double omega) {
-    return std::abs(omega) * radius(state.extent(id).bounds, state[id].center);
-  };
-  return state.h * ((of_b.v - of_a.v).norm() + turning(a, of_a.omega) + turning(b, of_b.omega));
+std::vector<Approaches::Motion>& Approaches::memory() {
+  thread_local std::vector<Motion> motions;
+  return motions;
 }
 
-double approach(const State& state, const Scratch& scratch, BodyId a, BodyId b) {
-  const auto motion = [&](BodyId body) {
-    const Rigid& r = state.rigid(body);
-    StartMotion at_body = startMotion(state, scratch, state[body].rigid);
-    if (state.isCollection(state[body].rigid)) {
-      at_body.v += cross(at_body.omega, state.pose(body).position - r.x);
+Approaches::Approaches(const State& state, const Scratch& scratch)
+    : state_(state), motions_(memory()) {
+  motions_.resize(std::max(motions_.size(), state.rigids.size()));
+  double fastest = 0.0;
+  for (const RigidId id : state.present) {
+    const Rigid& r = state[id];
+    const StartMotion start = startMotion(state, scratch, id);
+    Motion& motion = motions_[index(id)];
+    motion = {start.v, start.omega, 0.0};
+    if (start.omega != 0.0) {
+      motion.turning = std::abs(start.omega) * radius(state.extent(r).bounds, r.center);
     }
-    return at_body;
-  };
-  const auto turning = [&](BodyId body, double omega) {
-    return std::abs(omega) * radius(state.extent(rigidOf(body)).bounds, Vec2::Zero());
-  };
-  const StartMotion of_a = motion(a), of_b = motion(b);
-  return state.h * ((of_b.v - of_a.v).norm() + turning(a, of_a.omega) + turning(b, of_b.omega));
+    if (!r.asleep) fastest = std::max(fastest, start.v.norm() + motion.turning);
+  }
+  farthest_ = 2.0 * state.h * fastest;
+}
+
+/// Things that are parked are in no list, and stand still.
+Approaches::Motion Approaches::of(RigidId id) const {
+  return state_.parked.count > 0 && state_.parked.holds(id) ? Motion{} : motions_[index(id)];
+}
+
+double Approaches::between(RigidId a, RigidId b) const { return between(of(a), of(b)); }
+
+double Approaches::between(BodyId a, BodyId b) const {
+  const RigidId rigid_a = state_[a].rigid, rigid_b = state_[b].rigid;
+  const bool alone = !state_.isCollection(rigid_a) && !state_.isCollection(rigid_b);
+  return alone ? between(rigid_a, rigid_b) : between(of(a), of(b));
+}
+
+/// About its own centre, also in a collection.
+Approaches::Motion Approaches::of(BodyId body) const {
+  const RigidId id = state_[body].rigid;
+  Motion motion = of(id);
+  if (!state_.isCollection(id)) return motion;
+  motion.v += cross(motion.omega, state_.pose(body).position - state_[id].x);
+  motion.turning =
+      std::abs(motion.omega) * radius(state_.extent(rigidOf(body)).bounds, Vec2::Zero());
+  return motion;
 }
 
 namespace {
 
-/// The speed of the fastest point of all that is awake, at most, where `motion(id)` is how a rigid
-/// thing moves [m/s].
-template <class MotionOf>
-double fastestPoint(const State& state, MotionOf&& motion) {
+/// The speed of the fastest point of all that is awake, at most [m/s].
+double fastestPoint(const State& state) {
   double fastest = 0.0;
   for (const RigidId id : state.present) {
     const Rigid& r = state[id];
     if (r.asleep) continue;
-    const StartMotion of = motion(id);
-    const double turning = std::abs(of.omega) * radius(state.extent(r).bounds, r.center);
-    fastest = std::max(fastest, of.v.norm() + turning);
+    const double turning = std::abs(r.omega) * radius(state.extent(r).bounds, r.center);
+    fastest = std::max(fastest, r.v.norm() + turning);
   }
   return fastest;
 }
 
 }  // namespace
 
-double farthestApproach(const State& state, const Scratch& scratch) {
-  const auto at_start = [&](RigidId id) { return startMotion(state, scratch, id); };
-  return 2.0 * state.h * fastestPoint(state, at_start);
-}
-
 double farthestMove(const State& state, const Scratch& scratch) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   if (state.settings.solver.stabilisation == Stabilisation::Post) return kUnknown;
-  const auto now = [&](RigidId id) { return StartMotion{state[id].v, state[id].omega}; };
-  double farthest = state.h * fastestPoint(state, now);
+  double farthest = state.h * fastestPoint(state);
   for (const HitWay& hit : scratch.hit_ways) {
     const Rigid& r = state[hit.id];
     const double turning = std::abs(hit.turn) * radius(state.extent(r).bounds, r.center);

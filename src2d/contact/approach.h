@@ -23,15 +23,36 @@ StartMotion freeMotion(const State& state, const Scratch& scratch, RigidId id);
 void orderKicks(const State& state, Scratch& scratch);
 void orderLoads(const State& state, Scratch& scratch);
 
-/// An upper bound of the way [m] that a point of the first can go against one of the second in this
-/// step, but for what contacts and forces add.
-double approach(const State& state, const Scratch& scratch, RigidId a, RigidId b);
+/// How far things can come towards each other in a step, but for what contacts and forces add: as
+/// they move when it begins. The kicks must have been ordered.
+class Approaches {
+ public:
+  Approaches(const State& state, const Scratch& scratch);
 
-/// The same for any two things.
-double farthestApproach(const State& state, const Scratch& scratch);
+  /// An upper bound of the way [m] that a point of the first can go against one of the second.
+  double between(RigidId a, RigidId b) const;
+  /// The same for two bodies, wherever their rigid things have their centres.
+  double between(BodyId a, BodyId b) const;
+  /// The same for any two things.
+  double farthest() const { return farthest_; }
 
-/// The same for two bodies, wherever their rigid things have their centres.
-double approach(const State& state, const Scratch& scratch, BodyId a, BodyId b);
+ private:
+  struct Motion {
+    Vec2 v = Vec2::Zero();  ///< of the centre of mass [m/s]
+    double omega = 0.0;     ///< [rad/s]
+    double turning = 0.0;  ///< speed of the fastest point against the centre of mass, at most [m/s]
+  };
+  double between(const Motion& a, const Motion& b) const {
+    return state_.h * ((b.v - a.v).norm() + a.turning + b.turning);
+  }
+  Motion of(RigidId id) const;
+  Motion of(BodyId body) const;
+  static std::vector<Motion>& memory();  ///< kept from step to step
+
+  const State& state_;
+  double farthest_ = 0.0;
+  std::vector<Motion>& motions_;  ///< per rigid thing that is there
+};
 
 /// How far the velocities of now carry any point in a step, at most: what advancePositions moves
 /// anything, unless it corrects positions too [m].

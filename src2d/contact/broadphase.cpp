@@ -199,7 +199,7 @@ double wayOf(const NearPair& p, const std::array<Vec2, 4>& corners) {
 
 /// Pairs shapes anew where two rigid things have moved against each other, or will in this step.
 /// Most have not: nothing has gone as far since the last look.
-void refineNearPairs(State& state, Scratch& scratch, double farthest) {
+void refineNearPairs(State& state, Scratch& scratch, const Approaches& approaches) {
   constexpr double kRounding = 1e-6;  // of a sum in float
   auto& near = state.broadphase.near;
   scratch.near_refined.assign(near.size(), 0);
@@ -210,13 +210,13 @@ void refineNearPairs(State& state, Scratch& scratch, double farthest) {
     NearPair& p = near[i];
     const bool still = !moves(state[p.a]) && !moves(state[p.b]);
     if (!still) p.way += static_cast<float>(2.0 * state.moved);
-    if (!p.fresh && farthest <= kNear && p.way < (1.0 - kRounding) * kNear) continue;
+    if (!p.fresh && approaches.farthest() <= kNear && p.way < (1.0 - kRounding) * kNear) continue;
     if (!p.fresh && !canTouch(state, p.a, p.b)) continue;
     const bool a_hosts = hasShapeTree(state, p.a);
     const RigidId host = a_hosts ? p.a : p.b, guest = a_hosts ? p.b : p.a;
     const auto corners = cornersSeenFrom(state[host].frame().toLocal(state[guest].frame()),
                                          state.extent(guest).bounds);
-    const double ahead = approach(state, scratch, p.a, p.b);
+    const double ahead = approaches.between(p.a, p.b);
     const double way = wayOf(p, corners);
     p.way = static_cast<float>(way);
     if (!p.fresh && ahead <= kNear && way <= kNear) continue;
@@ -328,11 +328,11 @@ void rebuildTree(State& state) {
 
 void dropShapeTree(State& state, RigidId id) { state.broadphase.shape_trees[index(id)].reset(); }
 
-void updateBroadphase(State& state, Scratch& scratch, double farthest) {
+void updateBroadphase(State& state, Scratch& scratch, const Approaches& approaches) {
   moveLeaves(state, scratch);
   findNeighbours(state, scratch);
   updateNearPairs(state, scratch);
-  refineNearPairs(state, scratch, farthest);
+  refineNearPairs(state, scratch, approaches);
   auto& candidates = scratch.candidates;
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());

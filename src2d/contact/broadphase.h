@@ -3,6 +3,7 @@
 /// several shapes (a compound body, a collection) has a tree of its shapes in its own frame, which
 /// never changes while it moves (Section 4.1).
 
+#include "src2d/contact/approach.h"
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
@@ -23,8 +24,7 @@ void rebuildTree(State& state);
 void compactTree(State& state);
 
 /// Follows the motion of all rigid things and brings the contact table up to date with the pairs of
-/// shapes whose boxes meet: pairs that parted are dropped, new ones start idle. No two things come
-/// nearer by more than `farthest` in this step [m].
-void updateBroadphase(State& state, Scratch& scratch, double farthest);
+/// shapes whose boxes meet: pairs that parted are dropped, new ones start idle.
+void updateBroadphase(State& state, Scratch& scratch, const Approaches& approaches);
 
 }  // namespace merge2d

@@ -179,10 +179,10 @@ bool couldClose(const State& state, const Flights& f, const Contact& contact) {
 /// change: bodies that hardly move meet at the features that are nearest now.
 bool isPredicted(const State& state, const Contact& contact, double ahead) {
   constexpr double kShort = 20.0;  // touching gaps; and twice the fall from rest by gravity
-  if (contact.count == 0) return false;
   const double gap = smallestGap(contact);
+  if (gap <= 0.0) return false;
   const double gravity = 2.0 * state.gravity.norm() * state.h * state.h;
-  if (gap <= 0.0 || gap >= ahead + gravity || ahead <= gravity) return false;
+  if (gap >= ahead + gravity || ahead <= gravity) return false;
   const double touching = touchingGap(state, contact.key);
   return gap > touching && ahead > kShort * touching + gravity;
 }
@@ -250,12 +250,8 @@ double touchingGap(const State& state, const ContactKey& key) {
   return std::min(kTouching, kPart * size);
 }
 
-double smallestGap(const Contact& contact) {
-  return contact.count == 2 ? std::min(contact.points[0].gap, contact.points[1].gap)
-                            : contact.points[0].gap;
-}
-
-void castContact(const State& state, Scratch& scratch, Contact& contact, double ahead) {
+void castContact(const State& state, Scratch& scratch, Contact& contact, double ahead,
+                 std::vector<SoftHit>& soft) {
   const ContactKey& key = contact.key;
   if (!isPredicted(state, contact, ahead) || isBilateral(state, key.a, key.b)) return;
   if (scratch.load_order.size() != scratch.loads.size()) orderLoads(state, scratch);
@@ -277,8 +273,10 @@ void castContact(const State& state, Scratch& scratch, Contact& contact, double 
   // Without restitution a hit that comes about where and as it seems now is as good as it is; and
   // inside a collection it is solved as the sweep sees it.
   const auto alone = [&](BodyId body) { return !state.isCollection(state[body].rigid); };
-  const bool follows = cast.displaced && alone(key.a) && alone(key.b);
-  if (at.hit && !follows && restitutionOf(state, key.a, key.b) == 0.0) return;
+  if (at.hit && restitutionOf(state, key.a, key.b) == 0.0) {
+    if (cast.displaced && alone(key.a) && alone(key.b)) soft.push_back({then, cast});
+    return;
+  }
   contact = then;
   scratch.casts.push_back(cast);
 }
@@ -300,12 +298,17 @@ const CastEnd* castOf(const Scratch& scratch, const Contact& contact, const Cont
   return nullptr;
 }
 
-SurfacePoints surfacePoints(const Scratch& scratch, const Contact& contact,
-                            const ContactPoint& point, const Pose& b_in_a) {
+Vec2 surfaceOfA(const Scratch& scratch, const Contact& contact, const ContactPoint& point) {
+  const CastEnd* end = castOf(scratch, contact, point);
+  return point.position - 0.5 * (end ? end->gap : point.gap) * contact.normal;
+}
+
+Vec2 surfaceOfB(const Scratch& scratch, const Contact& contact, const ContactPoint& point,
+                const Pose& b_in_a) {
   const CastEnd* end = castOf(scratch, contact, point);
   const Vec2 half = 0.5 * (end ? end->gap : point.gap) * contact.normal;
   const Vec2 on_b = end ? end->on_b : b_in_a.toLocal(point.position);
-  return {point.position - half, on_b + b_in_a.rotation.inverse() * half};
+  return on_b + b_in_a.rotation.inverse() * half;
 }
 
 }  // namespace merge2d

@@ -20,6 +20,8 @@
 /// of the point on the first body. By the time of the hit the second has moved across; where that
 /// matters, dynamics/hits.h lets both move there.
 
+#include <algorithm>
+
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
@@ -28,12 +30,23 @@ namespace merge2d {
 double touchingGap(const State& state, const ContactKey& key);
 
 /// The least gap of the points of a contact that has some [m].
-double smallestGap(const Contact& contact);
+inline double smallestGap(const Contact& contact) {
+  const auto& points = contact.points;
+  return contact.count == 2 ? std::min(points[0].gap, points[1].gap) : points[0].gap;
+}
+
+/// A contact at which two bodies meet in this step without restitution, as it is then.
+struct SoftHit {
+  Contact contact;
+  Cast cast;
+};
 
 /// Replaces the points of a contact that is open, but would close in this step, by those of the
 /// meeting or of the nearest approach. Without forces the two come nearer by `ahead` [m] at most.
-/// Appends to `scratch.casts`.
-void castContact(const State& state, Scratch& scratch, Contact& contact, double ahead);
+/// Appends to `scratch.casts`; a meeting without restitution goes to `soft` instead, and leaves the
+/// contact as it is: contact/followed_hits.h decides.
+void castContact(const State& state, Scratch& scratch, Contact& contact, double ahead,
+                 std::vector<SoftHit>& soft);
 
 /// Makes the casts of this step ready for `castOf`.
 void sortCasts(Scratch& scratch);
@@ -44,11 +57,11 @@ const Cast* castOf(const Scratch& scratch, const Contact& contact);
 /// The same for a point of it.
 const CastEnd* castOf(const Scratch& scratch, const Contact& contact, const ContactPoint& point);
 
-/// Where the two surfaces are at a point of a contact, each in its own body's frame.
-struct SurfacePoints {
-  Vec2 on_a, on_b;
-};
-SurfacePoints surfacePoints(const Scratch& scratch, const Contact& contact,
-                            const ContactPoint& point, const Pose& b_in_a);
+/// Where the surface of the first body is at a point of a contact, in its frame.
+Vec2 surfaceOfA(const Scratch& scratch, const Contact& contact, const ContactPoint& point);
+
+/// The same of the second body, in its frame.
+Vec2 surfaceOfB(const Scratch& scratch, const Contact& contact, const ContactPoint& point,
+                const Pose& b_in_a);
 
 }  // namespace merge2d

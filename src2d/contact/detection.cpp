@@ -5,6 +5,7 @@
 #include "src2d/contact/approach.h"
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/cast.h"
+#include "src2d/contact/followed_hits.h"
 #include "src2d/contact/hidden_sides.h"
 #include "src2d/contact/internal_edges.h"
 #include "src2d/contact/parking.h"
@@ -92,89 +93,92 @@ constexpr double kDone = -1.0;      ///< instead of the way ahead: nothing is le
 
 /// The manifold of now. Returns how far the two can come nearer in this step, if they are to be
 /// followed to where they meet [m]; else kDone.
-double findManifold(const State& state, const Scratch& scratch, Contact& contact) {
-  const double ahead = approach(state, scratch, contact.key.a, contact.key.b);
+double findManifold(const State& state, const Approaches& approaches, Contact& contact) {
+  const double ahead = approaches.between(contact.key.a, contact.key.b);
   updateManifold(state, contact, ahead);
   return contact.count > 0 ? ahead : kDone;
 }
 
 /// The same for a contact that there is.
-double followContact(const State& state, const Scratch& scratch, double farthest,
-                     Contact& contact) {
+double followContact(const State& state, const Approaches& approaches, Contact& contact) {
   const ContactKey& key = contact.key;
   const Rigid &a = state.rigid(key.a), &b = state.rigid(key.b);
   const bool fixed = resting(a) && resting(b);
   if (fixed) holdBreath(contact);
   if (fixed || (contact.count == 0 && sameFrame(a, b))) {
     contact.apart = 0.0F;  // what they have moved before is not counted from here on
-  } else if (contact.count == 0 && staysApart(state, key, contact.apart, farthest)) {
+  } else if (contact.count == 0 && staysApart(state, key, contact.apart, approaches.farthest())) {
     loseTouch(contact);
   } else {
-    return findManifold(state, scratch, contact);
+    return findManifold(state, approaches, contact);
   }
   return kDone;
 }
 
 /// Follows the contacts that there are. Casts share a list, and are few.
-void followContacts(State& state, Scratch& scratch, double farthest) {
+void followContacts(State& state, Scratch& scratch, const Approaches& approaches,
+                    std::vector<SoftHit>& soft) {
   const auto& order = state.contacts.order;
   const auto cast = [&](Contact& contact, double ahead) {
-    if (ahead != kDone) castContact(state, scratch, contact, ahead);
+    if (ahead != kDone) castContact(state, scratch, contact, ahead, soft);
   };
   if (!scratch.tasks) {
     for (const ContactTable::Slot slot : order) {
       Contact& contact = state.contacts[slot];
-      cast(contact, followContact(state, scratch, farthest, contact));
+      cast(contact, followContact(state, approaches, contact));
     }
     return;
   }
   scratch.ahead.resize(order.size());
   forEachIndex(scratch.tasks, order.size(), kGrain, [&](std::size_t i, int) {
-    scratch.ahead[i] = followContact(state, scratch, farthest, state.contacts[order[i]]);
+    scratch.ahead[i] = followContact(state, approaches, state.contacts[order[i]]);
   });
   for (std::size_t i = 0; i < order.size(); ++i) cast(state.contacts[order[i]], scratch.ahead[i]);
 }
 
 /// The manifold of an idle pair, if it may touch now; else the contact has no points.
-Contact lookAt(const State& state, const Scratch& scratch, double farthest, IdlePair& pair) {
+Contact lookAt(const State& state, const Approaches& approaches, IdlePair& pair) {
   Contact contact;
   contact.key = pair.key;
   const Rigid &a = state.rigid(pair.key.a), &b = state.rigid(pair.key.b);
   if ((resting(a) && resting(b)) || sameFrame(a, b)) {
     pair.apart = 0.0F;  // as above
-  } else if (!staysApart(state, pair.key, pair.apart, farthest)) {
-    findManifold(state, scratch, contact);
+  } else if (!staysApart(state, pair.key, pair.apart, approaches.farthest())) {
+    findManifold(state, approaches, contact);
     pair.apart = contact.apart;
   }
   return contact;
 }
 
 /// Follows an idle pair that may touch now to where it meets.
-void castIdle(const State& state, Scratch& scratch, IdlePair& pair, Contact& contact) {
-  castContact(state, scratch, contact, approach(state, scratch, pair.key.a, pair.key.b));
+void castIdle(const State& state, Scratch& scratch, const Approaches& approaches, IdlePair& pair,
+              Contact& contact, std::vector<SoftHit>& soft) {
+  castContact(state, scratch, contact, approaches.between(pair.key.a, pair.key.b), soft);
   pair.apart = contact.apart;
   if (contact.count > 0) scratch.touching.push_back(contact);
 }
 
 /// Finds the idle pairs that touch now.
-void findTouching(State& state, Scratch& scratch, double farthest) {
+void findTouching(State& state, Scratch& scratch, const Approaches& approaches,
+                  std::vector<SoftHit>& soft) {
   scratch.touching.clear();
   auto& idle = state.contacts.idle;
   if (scratch.tasks) {
     scratch.found.resize(std::max(scratch.found.size(), idle.size() / kGrain + 1));
     forEachIndex(scratch.tasks, idle.size(), kGrain, [&](std::size_t i, int) {
-      const Contact contact = lookAt(state, scratch, farthest, idle[i]);
+      const Contact contact = lookAt(state, approaches, idle[i]);
       if (contact.count == 0) return;
       scratch.found[i / kGrain].touching.emplace_back(static_cast<std::uint32_t>(i), contact);
     });
     for (FoundByTask& found : scratch.found) {
-      for (auto& [i, contact] : found.touching) castIdle(state, scratch, idle[i], contact);
+      for (auto& [i, contact] : found.touching)
+        castIdle(state, scratch, approaches, idle[i], contact, soft);
       found.touching.clear();
     }
   } else {
     for (IdlePair& pair : idle) {
-      Contact contact = lookAt(state, scratch, farthest, pair);
-      if (contact.count > 0) castIdle(state, scratch, pair, contact);
+      Contact contact = lookAt(state, approaches, pair);
+      if (contact.count > 0) castIdle(state, scratch, approaches, pair, contact, soft);
     }
   }
   addContacts(state.contacts, scratch.touching);
@@ -234,11 +238,13 @@ void detectContacts(State& state, Scratch& scratch) {
   orderKicks(state, scratch);
   scratch.load_order.clear();
   scratch.casts.clear();
-  const double farthest = farthestApproach(state, scratch);
-  updateBroadphase(state, scratch, farthest);
-  followContacts(state, scratch, farthest);
-  findTouching(state, scratch, farthest);
+  const Approaches approaches(state, scratch);
+  updateBroadphase(state, scratch, approaches);
+  std::vector<SoftHit> soft;  // none in most steps
+  followContacts(state, scratch, approaches, soft);
+  findTouching(state, scratch, approaches, soft);
   bringBackTouched(state);
+  followSoftHits(state, scratch, soft);
   sortCasts(scratch);
   dropHiddenSides(state, scratch);
   retireContacts(state.contacts);

@@ -40,6 +40,14 @@ struct Cover {
   bool contains(const Vec2& p) const { return signedDistance(shape, frame * p) <= scale.skin; }
 };
 
+/// True when a shape with these bounds may hide sides at `p`, which is in the bounds' frame.
+bool mayReach(const Aabb& bounds, const Vec2& p) {
+  constexpr SeamScale kWidest;
+  constexpr double kReach = kWidest.ahead + kWidest.beside + 2.0 * kWidest.skin;
+  return ((p - bounds.lower).array() >= -kReach).all() &&
+         ((bounds.upper - p).array() >= -kReach).all();
+}
+
 /// True when a face of the shape at `p` that looks along `normal` has the cover before it, as far
 /// beside `p` as the face reaches.
 bool isHidden(const Collider& shape, const Vec2& p, const Vec2& normal, const Cover& cover) {
@@ -132,12 +140,21 @@ struct Side {
 
  private:
   Side(const State& state, const Scratch& scratch, const Contact& contact, bool of_a)
-      : count(contact.count) {
+      : count(contact.count), normal(contact.normal) {
+    if (of_a) {
+      fill([&](const ContactPoint& point) { return surfaceOfA(scratch, contact, point); }, contact);
+      return;
+    }
     const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
-    normal = of_a ? contact.normal : Vec2(b_in_a.rotation.inverse() * Vec2(-contact.normal));
+    normal = b_in_a.rotation.inverse() * Vec2(-contact.normal);
+    fill([&](const ContactPoint& point) { return surfaceOfB(scratch, contact, point, b_in_a); },
+         contact);
+  }
+
+  template <class Surface>
+  void fill(Surface&& surface, const Contact& contact) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-      const SurfacePoints on = surfacePoints(scratch, contact, contact.points[k], b_in_a);
-      points[k] = of_a ? on.on_a : on.on_b;
+      points[k] = surface(contact.points[k]);
     }
   }
 };
@@ -158,11 +175,12 @@ bool mayHide(const State& state, const SeamContact& t, const SeamContact& s,
 bool hides(const State& state, const SeamContact& t, const SeamContact& s, const Side& side) {
   const std::uint32_t cover_shape = shapeOf(contactOf(state, t), t);
   const std::uint32_t shape = shapeOf(contactOf(state, s), s);
-  const SeamScale scale = seamScale(state, shape, cover_shape, s.toucher);
-  if (!mayHide(state, t, s, scale)) return false;
   const BodyId body = state.shape_body[shape], cover_body = state.shape_body[cover_shape];
   const Pose to_cover =
       body == cover_body ? Pose{} : state.pose(cover_body).toLocal(state.pose(body));
+  if (!mayReach(state.bounds(cover_shape), to_cover * side.points[0])) return false;
+  const SeamScale scale = seamScale(state, shape, cover_shape, s.toucher);
+  if (!mayHide(state, t, s, scale)) return false;
   const Cover cover{state.collider(cover_shape), to_cover, scale};
   for (std::size_t k = 0; k < static_cast<std::size_t>(side.count); ++k) {
     if (!isHidden(state.collider(shape), side.points[k], side.normal, cover)) return false;

@@ -42,10 +42,6 @@ double signedDistance(const Collider& shape, const Vec2& p) {
   return most;
 }
 
-bool hasSiblings(const State& state, std::uint32_t shape) {
-  return !state.siblings.empty() && state.first_sibling[shape] < state.first_sibling[shape + 1];
-}
-
 void listSiblings(State& state) {
   state.siblings.clear();
   state.first_sibling.assign(state.shape_body.size() + 1, 0);

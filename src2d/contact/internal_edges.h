@@ -13,7 +13,9 @@ namespace merge2d {
 void listSiblings(State& state);
 
 /// Whether a shape's body has others that touch it.
-bool hasSiblings(const State& state, std::uint32_t shape);
+inline bool hasSiblings(const State& state, std::uint32_t shape) {
+  return !state.siblings.empty() && state.first_sibling[shape] < state.first_sibling[shape + 1];
+}
 
 /// Signed distance of a place from a shape, or less; negative inside [m].
 double signedDistance(const Collider& shape, const Vec2& p);

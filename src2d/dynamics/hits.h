@@ -20,34 +20,13 @@
 /// is kept as that speed times e, plus α(t − h/2): then a ball that bounces with e = 1 rises to
 /// where it fell from at any h.
 ///
+/// Without restitution hits are followed in small islands alone (contact/followed_hits.h).
+///
 /// Guarded by tests/src2d/dynamics/hits_test.cpp and restitution_test.cpp.
 
-#include "src2d/dynamics/state.h"
+#include "src2d/dynamics/hit_rows.h"
 
 namespace merge2d {
-
-/// The bias of a row that takes no part in a solve [m/s].
-inline constexpr double kNeverActs = 1e12;
-
-/// Slower approaches of a pair do not bounce [m/s]: `restitution_velocity`, or for small bodies
-/// the final speed of a fall by a part of their size.
-double leastBounce(const State& state, const ContactKey& key);
-
-/// Hits without restitution are followed in small islands alone, as all that bears takes part in
-/// each: in others their contacts are put back to where they are now.
-void withdrawCasts(State& state, Scratch& scratch);
-
-/// The cast of a contact whose points may be left to the hits, or nullptr.
-const Cast* castToHit(const State& state, const Scratch& scratch, const Contact& contact);
-
-/// True for a point that takes no part in the full solve, as it is going to be hit: it approaches
-/// with −`w_start` at the start of the step and −`w_free` with the loads of the step [m/s].
-bool isHit(const State& state, const Contact& contact, const Cast* cast, double gap, double w_start,
-           double w_free);
-
-/// The velocity at the start of the step, with the impulses that are about to be given, of a body
-/// that responds to forces; of any other its velocity in the step.
-SolverVelocity velocityAtStart(const State& state, const Scratch& scratch, std::uint32_t rigid);
 
 /// Follows the hits of an island through the step, from the velocities of the full solve on.
 void resolveHits(State& state, Scratch& scratch, const Island& island);

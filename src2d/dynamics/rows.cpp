@@ -8,7 +8,7 @@
 #include "src2d/contact/approach.h"
 #include "src2d/contact/cast.h"
 #include "src2d/core/memory.h"
-#include "src2d/dynamics/hits.h"
+#include "src2d/dynamics/hit_rows.h"
 #include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/dynamics/task_pool.h"
@@ -77,6 +77,10 @@ void startVelocities(const State& state, Scratch& scratch) {
 /// its bodies merges, or each merge would set everything around it in motion.
 double ownInverseMass(const State& state, BodyId b) {
   return state.responds(b) ? 1.0 / state[b].mass : 0.0;
+}
+
+double ownSoftness(const State& state, BodyId a, BodyId b) {
+  return contactSoftness(state, a, b, ownInverseMass(state, a), ownInverseMass(state, b));
 }
 
 /// Sets the bias of a point, or leaves it to the hits. True when it rests.
@@ -273,23 +277,20 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
   BlockGeometry g;
   g.normal = state.pose(contact.key.a).rotation * contact.normal;
   g.count = source.count();
-  g.softness =
-      contactSoftness(state, contact.key.a, contact.key.b, ownInverseMass(state, contact.key.a),
-                      ownInverseMass(state, contact.key.b));
   ContactBlock k;
   k.a = static_cast<std::uint32_t>(ends.a);
   k.b = static_cast<std::uint32_t>(ends.b);
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
   k.bilateral = isBilateral(state, contact.key.a, contact.key.b);
-  const Cast* cast = castToHit(state, scratch, contact);
+  const Cast* cast = scratch.casts.empty() ? nullptr : castToHit(state, scratch, contact);
   bool rests = aimBlock(state, scratch, source, cast, g, k);
   if (cast && k.hits == 0) rests = aimBlock(state, scratch, source, nullptr, g, k);
   if (source.count() == 1 && k.hits == 0) {
     k.setRolling(rollingOf(state, contact.key.a, contact.key.b), rollingImpulse(state, contact));
   }
-  // Only what rests breathes: compliance would take speed from a bounce.
-  if (!rests) g.softness = 0.0;
-  prepareBlock(k, g, scratch.u[k.a], scratch.u[k.b]);
+  // Only contacts that rest breathe: compliance would take speed from a bounce.
+  const double softness = rests ? ownSoftness(state, contact.key.a, contact.key.b) : 0.0;
+  fillMasses(k, softness, scratch.u[k.a], scratch.u[k.b]);
   if (k.count < source.count()) {  // the second is too close to the first to count
     ContactPoint& point = state.contacts.point(source.points[1]);
     point.lambda_n = point.lambda_t = 0.0;
@@ -383,7 +384,6 @@ double contactSoftness(const State& state, BodyId a, BodyId b, double inv_mass_a
 void buildRows(State& state, Scratch& scratch) {
   startVelocities(state, scratch);
   orderKicks(state, scratch);  // bodies may have left their collections
-  withdrawCasts(state, scratch);
   scratch.row_sources.clear();
   reserveTightly(scratch.row_sources, scratch.pairs.size());
   for (const BodyPair& pair : scratch.pairs) listSources(state, pair, scratch);

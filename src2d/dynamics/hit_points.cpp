@@ -1,0 +1,74 @@
+#include "src2d/dynamics/hit_points.h"
+
+#include <algorithm>
+
+#include "src2d/contact/cast.h"
+#include "src2d/dynamics/hit_rows.h"
+
+namespace merge2d {
+
+HitIsland::HitIsland(State& state, Scratch& scratch, const Island& island)
+    : state_(state),
+      scratch_(scratch),
+      blocks_(scratch.blocks.data() + island.first, island.last - island.first),
+      joints_(scratch.joint_blocks.data() + island.first_joint,
+              island.last_joint - island.first_joint),
+      bodies_(scratch.island_bodies.data() + island.first_body,
+              island.last_body - island.first_body),
+      first_(island.first) {}
+
+std::uint32_t HitIsland::placeOf(std::uint32_t rigid) const {
+  const auto at = std::ranges::lower_bound(bodies_, rigid);
+  const bool moves = at != bodies_.end() && *at == rigid;
+  return moves ? static_cast<std::uint32_t>(at - bodies_.begin()) : kFixed;
+}
+
+namespace {
+
+/// How much faster the two come towards each other by loads [m/s²]: no more than these can.
+double loadOf(const HitIsland& island, const ContactBlock& k, int row, double w) {
+  const State& state = island.state();
+  const SolverVelocity a = velocityAtStart(state, island.scratch(), k.a);
+  const SolverVelocity b = velocityAtStart(state, island.scratch(), k.b);
+  const double w_start = contactVelocity(k, row, k.nx, k.ny, a, b).n;
+  const double most = 2.0 * state.gravity.norm();
+  return std::clamp((w_start - w) / state.h, -most, most);
+}
+
+HitPoint hitPoint(const HitIsland& island, std::uint32_t block, int row, const Contact& contact) {
+  const State& state = island.state();
+  const ContactBlock& k = island.blocks()[block];
+  const ContactKey& key = contact.key;
+  HitPoint p{.block = block, .row = row};
+  const ContactPoint& point = island.pointOf(p);
+  const CastEnd* end = k.hits ? castOf(island.scratch(), contact, point) : nullptr;
+  p.gap = end ? end->carried : point.gap;
+  p.e = k.bilateral ? 0.0 : restitutionOf(state, key.a, key.b);
+  p.still = p.e > 0.0 || k.bilateral ? HitPoint::kStill : HitPoint::kSoft;
+  p.touching = touchingGap(state, key);
+  p.least = leastBounce(state, key);
+  const bool hit = (k.hits >> row & 1) != 0;
+  const double w = island.velocityOf(p);
+  p.holds = k.bilateral || (p.e == 0.0 && !hit && p.gap <= p.touching);
+  if (!hit && p.gap <= p.touching) p.allowed = std::min(0.0, w);
+  p.alpha = loadOf(island, k, row, w);
+  return p;
+}
+
+}  // namespace
+
+std::vector<HitPoint> hitPoints(const HitIsland& island) {
+  std::vector<HitPoint> points;
+  points.reserve(2 * island.blocks().size());
+  for (std::uint32_t block = 0; block < island.blocks().size(); ++block) {
+    const RowSource& source = island.sourceOf(block);
+    if (source.isInner()) continue;
+    const Contact& contact = island.state().contacts.contactOf(source.points[0]);
+    for (int row = 0; row < island.blocks()[block].count; ++row) {
+      points.push_back(hitPoint(island, block, row, contact));
+    }
+  }
+  return points;
+}
+
+}  // namespace merge2d

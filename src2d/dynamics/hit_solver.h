@@ -1,0 +1,38 @@
+#pragma once
+/// Newton's law at one hit (dynamics/hits.h).
+
+#include <span>
+#include <vector>
+
+#include "src2d/dynamics/hit_points.h"
+
+namespace merge2d {
+
+class HitSolver {
+ public:
+  explicit HitSolver(const HitIsland& island) : island_(island) {}
+
+  /// Changes the velocities of the island at one time: w becomes the target at the points that
+  /// meet, with all those around them that this makes give way. Adds their impulses to what struck
+  /// each point.
+  void solve(std::span<HitPoint> points);
+
+ private:
+  void returnToStart();
+  void listStruck();
+  void collectRows(std::span<HitPoint> points);
+  ContactBlock rowsOf(std::uint32_t block) const;
+  bool addThoseThatGiveWay(std::span<HitPoint> points, bool all) const;
+  void solveRows(std::span<const HitPoint> points);
+  double impulseOf(const HitPoint& p) const;
+  double weaken(std::span<const HitPoint> points);
+  const SolverVelocity& before(std::uint32_t rigid) const;
+
+  const HitIsland& island_;
+  std::vector<ContactBlock> rows_;
+  std::vector<JointBlock> joints_;
+  std::vector<std::uint32_t> struck_;
+  std::vector<SolverVelocity> start_;  ///< per body of the island
+};
+
+}  // namespace merge2d
