@@ -29,18 +29,17 @@ void loadAndWarmUp(Peer& peer, const Scene& scene, int steps, Positions& start) 
   }).join();
 }
 
-/// Appends the milliseconds of each step; returns their mean.
+/// Appends the milliseconds of each step; returns their median, which a machine that is busy for a
+/// moment disturbs least.
 double timeSteps(Peer& peer, int steps, std::vector<double>& times) {
   peer.step();  // brings its data back into the caches
-  double total = 0.0;
   for (int i = 0; i < steps; ++i) {
     const auto start = std::chrono::steady_clock::now();
     peer.step();
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     times.push_back(took.count());
-    total += took.count();
   }
-  return total / steps;
+  return median({times.end() - steps, times.end()});
 }
 
 /// How far body i went against body 0.
@@ -95,13 +94,13 @@ Comparison compare(const BenchScene& bench, const Peers& peers, const Plan& plan
 
   // Take turns; each round begins with another engine.
   std::vector<std::vector<double>> ms(peers.size()), ratios(peers.size());
-  std::vector<double> mean(peers.size());
+  std::vector<double> turn_ms(peers.size());
   for (int round = 0; round < plan.rounds; ++round) {
     for (std::size_t turn = 0; turn < peers.size(); ++turn) {
       const std::size_t p = (turn + static_cast<std::size_t>(round)) % peers.size();
-      mean[p] = timeSteps(*peers[p], plan.steps, ms[p]);
+      turn_ms[p] = timeSteps(*peers[p], plan.steps, ms[p]);
     }
-    for (std::size_t p = 0; p < peers.size(); ++p) ratios[p].push_back(mean[p] / mean[0]);
+    for (std::size_t p = 0; p < peers.size(); ++p) ratios[p].push_back(turn_ms[p] / turn_ms[0]);
   }
 
   for (std::size_t p = 0; p < peers.size(); ++p) {

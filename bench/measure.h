@@ -28,7 +28,7 @@ StepTimes distributionOf(std::vector<double> times);
 struct Measurement {
   std::string peer;
   StepTimes ms;        ///< of all steps that were timed
-  double ratio = 1.0;  ///< median over the rounds of its time by the first engine's
+  double ratio = 1.0;  ///< median over the rounds of its median by the first engine's
   double drift = 0.0;  ///< how far a body moved against body 0 after the warm-up, at most [m]
   int lost = 0;        ///< bodies that went more than half a box sideways, left out of `drift`
   std::size_t heap_bytes = 0;  ///< more on the heap than before loading
