@@ -57,11 +57,14 @@ Press heaviest(const World& world, double part) {
   constexpr double kResting = 0.05;  // [m/s]
   std::map<std::pair<BodyId, BodyId>, Press> loads;
   for (const ContactView& contact : world.capture().contacts) {
-    if (std::abs(contact.w_n) > kResting) continue;
     Ends ends;
     ends.add(world.bodies()[index(contact.a)]);
     ends.add(world.bodies()[index(contact.b)]);
-    const double depth = depthUnder(contact.lambda_n, ends, world.scene());
+    // Where C λ is more than the fastest correction, the bodies sink without end.
+    const bool sinks = contact.lambda_n > 0.0 && -contact.gap > part * ends.size;
+    if (std::abs(contact.w_n) > kResting && !sinks) continue;
+    const double depth =
+        std::max(depthUnder(contact.lambda_n, ends, world.scene()), sinks ? -contact.gap : 0.0);
     Press& load = loads[{contact.a, contact.b}];
     load.a = contact.a;
     load.b = contact.b;
