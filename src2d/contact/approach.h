@@ -23,8 +23,8 @@ StartMotion freeMotion(const State& state, const Scratch& scratch, RigidId id);
 void orderKicks(const State& state, Scratch& scratch);
 void orderLoads(const State& state, Scratch& scratch);
 
-/// How far things can come towards each other in a step, but for what contacts and forces add: as
-/// they move when it begins. The kicks must have been ordered.
+/// How far things can come towards each other in a step by the motion with which it begins, without
+/// contacts and forces. The kicks must have been ordered.
 class Approaches {
  public:
   Approaches(const State& state, const Scratch& scratch);

@@ -106,7 +106,7 @@ double followContact(const State& state, const Approaches& approaches, Contact& 
   const bool fixed = resting(a) && resting(b);
   if (fixed) holdBreath(contact);
   if (fixed || (contact.count == 0 && sameFrame(a, b))) {
-    contact.apart = 0.0F;  // what they have moved before is not counted from here on
+    contact.apart = 0.0F;  // earlier motion does not count from here on
   } else if (contact.count == 0 && staysApart(state, key, contact.apart, approaches.farthest())) {
     loseTouch(contact);
   } else {

@@ -159,8 +159,8 @@ struct Side {
   }
 };
 
-/// True when the shape of `t` may hide what `s` touches: it is about as near, and does not move
-/// against the shape of `s`.
+/// True when the shape of `t` may hide sides of the shape of `s`: it is about as near, and the two
+/// do not move against each other.
 bool mayHide(const State& state, const SeamContact& t, const SeamContact& s,
              const SeamScale& scale) {
   const Contact &other = contactOf(state, t), &contact = contactOf(state, s);
@@ -188,7 +188,7 @@ bool hides(const State& state, const SeamContact& t, const SeamContact& s, const
   return true;
 }
 
-/// True when one of the shapes that the toucher of `s` touches hides what `s` touches.
+/// True when one of the shapes that the toucher of `s` touches hides the sides at `s`.
 bool isHiddenByAny(const State& state, const Scratch& scratch, std::span<const SeamContact> all,
                    const SeamContact& s) {
   std::optional<Side> side;

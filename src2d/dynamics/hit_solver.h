@@ -13,8 +13,8 @@ class HitSolver {
   explicit HitSolver(const HitIsland& island) : island_(island) {}
 
   /// Changes the velocities of the island at one time: w becomes the target at the points that
-  /// meet, with all those around them that this makes give way. Adds their impulses to what struck
-  /// each point.
+  /// meet, with all those around them that this makes give way. Adds the impulses to
+  /// ContactPoint::struck.
   void solve(std::span<HitPoint> points);
 
  private:
