@@ -187,14 +187,13 @@ void fields(Ar& ar, Some<NncgBuffers> auto& m) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<ProofSearch> auto& s) {
-  auto& [load, start, nncg, way, ahead] = s;
-  ar(load, start, nncg, way, ahead);
+  auto& [load, start, nncg, way, doublings, ahead] = s;
+  ar(load, start, nncg, way, doublings, ahead);
 }
 template <class Ar>
 void fields(Ar& ar, Some<LoadCertificate> auto& c) {
-  auto& [columns, witnesses, gram, weights, heaviest, lambda_stale, in_doubt, moves, since,
-         search] = c;
-  ar(columns, witnesses, gram, weights, heaviest, lambda_stale, in_doubt, moves, since, search);
+  auto& [columns, witnesses, gram, weights, heaviest, lambda_stale, in_doubt, since, search] = c;
+  ar(columns, witnesses, gram, weights, heaviest, lambda_stale, in_doubt, since, search);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {

@@ -161,11 +161,12 @@ struct Witness {
 
 /// A search for the impulses that carry a load, over several steps.
 struct ProofSearch {
-  Witness load;              ///< with the impulses found so far
-  std::vector<Twist> start;  ///< per member: the velocity that the load gives; empty: no search
-  NncgBuffers nncg;          ///< of the sweeps so far
-  double way = 0.0;          ///< from where it began, if ahead
-  bool ahead = false;        ///< beyond the loads that there were: nothing depends on it
+  Witness load;               ///< with the impulses found so far
+  std::vector<Twist> start;   ///< per member: the velocity that the load gives; empty: no search
+  NncgBuffers nncg;           ///< of the sweeps so far
+  double way = 0.0;           ///< from where it began, if ahead
+  std::int8_t doublings = 0;  ///< of the sweeps that it may take in a step
+  bool ahead = false;         ///< beyond the loads that there were: nothing depends on it
 };
 
 /// Proofs that a collection holds (merging/load_certificate.h).
@@ -181,8 +182,6 @@ struct LoadCertificate {
   std::uint32_t heaviest = ~0u;
   bool lambda_stale = false;  ///< blocks and joints hold other impulses than the weights say
   bool in_doubt = true;       ///< a proof must be sought for any load
-  bool moves =
-      false;  ///< a search has found motion, and the full solve is to find the moving welds
   std::int64_t since = 0;  ///< step in which the collection was laid out
   ProofSearch search;
 };

@@ -155,12 +155,43 @@ inline double solveRolling(ContactBlock& k, double w, const SolverVelocity& a,
   return k.lambda[3] - before;
 }
 
-/// Solves one block: normals together, then friction at each point (Eqs. (5)-(7)). `nx`, `ny` is
+/// The friction of two points as one row, where their pressure has its centre: on a flat face the
+/// two rows are the same, and sweeps push impulses from one to the other. Where the points are
+/// close to each other such sweeps may not converge. Each point has its part of the pressure.
+struct ManifoldFriction {
+  double part[2] = {0.5, 0.5};
+  double arm_a = 0.0, arm_b = 0.0;  ///< r × t [m]
+  double inv_k = 0.0;               ///< 1 / K, between those of the points
+  double limit = std::numeric_limits<double>::infinity();
+
+  explicit ManifoldFriction(const ContactBlock& k) {
+    const double pressure = k.lambda_n(0) + k.lambda_n(1);
+    if (!k.bilateral) limit = k.mu * pressure;
+    if (!k.bilateral && pressure > 0.0) {
+      part[0] = k.lambda_n(0) / pressure;
+      part[1] = 1.0 - part[0];
+    }
+    arm_a = part[0] * k.arm_at[0] + part[1] * k.arm_at[1];
+    arm_b = part[0] * k.arm_bt[0] + part[1] * k.arm_bt[1];
+    inv_k = part[0] * k.inv_kt[0] + part[1] * k.inv_kt[1];
+  }
+
+  /// The impulse of both, where the tangent moves by `w` [m/s].
+  double solve(const ContactBlock& k, double w) const {
+    return std::clamp(k.lambda_t(0) + k.lambda_t(1) - inv_k * w, -limit, limit);
+  }
+};
+
+/// How the friction of two points is solved: one after the other, or as one row.
+enum class PairFriction { InTurn, AsOne };
+
+/// Solves one block: normals together, then their friction (Eqs. (5)-(7)). `nx`, `ny` is
 /// the block's normal in the frame of the velocities. The rows share a normal: what one of them
 /// changes for the next is told by its impulse alone, so that the velocities are read and written
 /// once.
-inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
-                       SolverVelocity& b) {
+template <PairFriction friction>
+inline void solveBlockWith(ContactBlock& k, double nx, double ny, SolverVelocity& a,
+                           SolverVelocity& b) {
   const double dx = b.vx - a.vx, dy = b.vy - a.vy;
   const double v_n = nx * dx + ny * dy;  // of the centres of mass
   const double v_t = nx * dy - ny * dx + a.surface + b.surface;
@@ -180,13 +211,20 @@ inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
     omega_a -= a.inv_inertia * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
     omega_b += b.inv_inertia * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
 
-    const double y1 = solveTangent(k, 0, v_t + k.arm_bt[0] * omega_b - k.arm_at[0] * omega_a);
-    const double q1 = y1 - k.lambda_t(0);
-    const double k12 = a.inv_mass + b.inv_mass + a.inv_inertia * k.arm_at[0] * k.arm_at[1] +
-                       b.inv_inertia * k.arm_bt[0] * k.arm_bt[1];
-    const double y2 =
-        solveTangent(k, 1, v_t + k.arm_bt[1] * omega_b - k.arm_at[1] * omega_a + k12 * q1);
-    const double q2 = y2 - k.lambda_t(1);
+    double y1, y2;
+    if constexpr (friction == PairFriction::AsOne) {
+      const ManifoldFriction f(k);
+      const double y = f.solve(k, v_t + f.arm_b * omega_b - f.arm_a * omega_a);
+      y1 = f.part[0] * y;
+      y2 = f.part[1] * y;
+    } else {
+      const double k12 = a.inv_mass + b.inv_mass + a.inv_inertia * k.arm_at[0] * k.arm_at[1] +
+                         b.inv_inertia * k.arm_bt[0] * k.arm_bt[1];
+      y1 = solveTangent(k, 0, v_t + k.arm_bt[0] * omega_b - k.arm_at[0] * omega_a);
+      y2 = solveTangent(
+          k, 1, v_t + k.arm_bt[1] * omega_b - k.arm_at[1] * omega_a + k12 * (y1 - k.lambda_t(0)));
+    }
+    const double q1 = y1 - k.lambda_t(0), q2 = y2 - k.lambda_t(1);
     k.lambda_t(0) = y1;
     k.lambda_t(1) = y2;
     p_t = q1 + q2;
@@ -224,6 +262,11 @@ inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
     b.vy += b.inv_mass * py;
     b.omega = omega_b;
   }
+}
+
+inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
+                       SolverVelocity& b) {
+  solveBlockWith<PairFriction::InTurn>(k, nx, ny, a, b);
 }
 
 /// The paper's plain PGS: one row at a time, each normal followed by its friction.

@@ -213,7 +213,8 @@ void storeJointImpulses(State& state, Scratch& scratch) {
   for (const JointBlock& k : scratch.joint_blocks) {
     Joint& joint = state.joints[k.joint];
     joint.lambda = k.lambda;
-    if (breaks(state, joint)) breakJoint(state, scratch, joint);
+    // Unmerge takes one apart that is inside an open collection.
+    if (!isInside(state, joint) && breaks(state, joint)) breakJoint(state, scratch, joint);
   }
   for (const std::uint32_t i : scratch.overloaded_joints) {
     if (!state.joints[i].broken) breakJoint(state, scratch, state.joints[i]);

@@ -54,16 +54,15 @@ void openCertificate(const State& state, Collection& c) {
 
 /// A load that is covered by the witnesses leaves the collection quiet; for another one impulses
 /// are sought, unless those for a load beyond it are already.
-Doubt findDoubt(const State& state, const Scratch& scratch, Collection& c) {
-  openCertificate(state, c);
+Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
-  if (isHit(c) || proof.moves) return Doubt::Open;
+  if (isHit(c)) return Doubt::Open;
   const bool searches = !proof.search.start.empty();
   if (searches && !proof.search.ahead) return Doubt::Search;
   const CollectionLoad load = loadOn(state, scratch, c);
   if (!proof.in_doubt && covers(state, c, load)) {
     writeImpulses(c);
-    if (anyJointBreaks(state, c)) return Doubt::Open;
+    if (overloadsJoints(state, c)) return Doubt::Open;
     return searches ? Doubt::Search : Doubt::None;
   }
   if (searches && !proof.in_doubt && leadsTo(state, c, load)) return Doubt::Search;
@@ -102,7 +101,7 @@ void spreadDoubts(const State& state, Scratch& scratch) {
 /// Between two things that are fixed to different frames the full solve has no row, and no load
 /// tells how one drags at the other: where a frame moves, it is asked with the members on their
 /// own.
-void openWhatFramesDrag(State& state, const Scratch& scratch) {
+void openWhatFramesDrag(const State& state, Scratch& scratch) {
   const auto moves = [](const Rigid& r) {
     return r.anchor > kWorldFrame && (r.v.squaredNorm() > 0.0 || r.omega != 0.0);
   };
@@ -111,27 +110,28 @@ void openWhatFramesDrag(State& state, const Scratch& scratch) {
     if (a.floating() || b.floating() || a.anchor == b.anchor || !(moves(a) || moves(b))) continue;
     for (const BodyId body : {pair.a, pair.b}) {
       if (!state.isCollection(state[body].rigid)) continue;
-      Collection& c = state.collection(state[body].rigid);
-      openCertificate(state, c);
-      c.certificate.front().moves = true;
+      const Collection& c = state.collection(state[body].rigid);
+      if (isSwept(state, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
     }
   }
 }
 
 void findDoubts(State& state, Scratch& scratch) {
   notePerturbations(state, scratch);
-  openWhatFramesDrag(state, scratch);
   listOuterLoads(state, scratch);
   scratch.sweep_contacts.clear();
   scratch.sweep_joints.clear();
   scratch.doubts.assign(state.collections.size(), Doubt::None);
+  openWhatFramesDrag(state, scratch);
   bool any = false;
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
     Collection& c = state.collections[slot];
     if (!isSwept(state, c)) continue;
-    scratch.doubts[slot] = findDoubt(state, scratch, c);
-    if (scratch.doubts[slot] == Doubt::None) c.settled = true;
-    any |= scratch.doubts[slot] != Doubt::None;
+    openCertificate(state, c);
+    Doubt& doubt = scratch.doubts[slot];
+    if (doubt == Doubt::None) doubt = findDoubt(state, scratch, c);
+    if (doubt == Doubt::None) c.settled = true;
+    any |= doubt != Doubt::None;
   }
   scratch.sweeping = any;
   if (!any) return;
@@ -143,13 +143,15 @@ void findDoubts(State& state, Scratch& scratch) {
   }
 }
 
+/// Where a search has found motion, the full solve of the same step says what moves.
 void solveDoubted(State& state, Scratch& scratch) {
-  if (std::ranges::find(scratch.doubts, Doubt::Open) != scratch.doubts.end()) {
-    solveOpened(state, scratch);
-  }
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) != Doubt::Search) continue;
     continueSearch(state, scratch, c, toleratedResidual(state));
+    if (!endSearch(state, scratch, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
+  }
+  if (std::ranges::find(scratch.doubts, Doubt::Open) != scratch.doubts.end()) {
+    solveOpened(state, scratch);
   }
 }
 
@@ -169,6 +171,7 @@ UnmergingMethod decided() {
   method.warmStart = findDoubts;
   method.sweep = solveDoubted;
   method.unmerge = unmergeMovers;
+  method.parts = [](const State&, Scratch&, const Collection& c) { return componentsOf(c); };
   method.waitAfterSplit = waitUntilSeen;
   return method;
 }

@@ -96,35 +96,6 @@ void notePressing(Collection& c) {
   }
 }
 
-/// The components of the graph of welds that are not cut: in a converged solution each body that
-/// does not move is held, and no rigidity need be asked for.
-Parts componentsOf(const Collection& c) {
-  const auto members = static_cast<std::uint32_t>(c.members.size());
-  DisjointSets sets;
-  sets.reset(members);
-  std::vector<std::uint8_t> fixed(members, 0);
-  for (const Weld& weld : c.welds) {
-    if (weld.cut || weld.expected) continue;
-    if (weld.node_a < members && weld.node_b < members) {
-      sets.unite(weld.node_a, weld.node_b);
-    } else {
-      fixed[std::min(weld.node_a, weld.node_b)] = 1;  // to the frame, whose node is the last
-    }
-  }
-  Parts parts;
-  std::vector<std::uint32_t> number(members, ~0u);
-  for (std::uint32_t m = 0; m < members; ++m) {
-    std::uint32_t& p = number[sets.find(m)];
-    if (p == ~0u) {
-      p = static_cast<std::uint32_t>(parts.anchored.size());
-      parts.anchored.push_back(0);
-    }
-    parts.part.push_back(p);
-    parts.anchored[p] = static_cast<std::uint8_t>(parts.anchored[p] | fixed[m]);
-  }
-  return parts;
-}
-
 /// Broken where nothing presses, sliding where a contact is on the edge of its cone.
 EventReason reasonOf(const Collection& c, const Weld& weld) {
   bool presses = weld.joints > 0, slides = false;
@@ -208,7 +179,6 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
   Witness before = std::move(proof.search.load);
   proof.search = {};
-  proof.moves = false;
   if (breakJointsInside(state, scratch, c)) return;
   notePressing(c);
   if (!c.joints.empty()) loosenJoints(state, c, scratch.sweep_u);
@@ -246,24 +216,58 @@ bool restsIn(const State& state, Scratch& scratch, Collection& c) {
   return !turns(state, scratch, c, sure());
 }
 
-/// A converged search is a proof, or else the full solve is to find the moving welds.
-void endSearch(const State& state, Scratch& scratch, Collection& c) {
+}  // namespace
+
+Parts componentsOf(const Collection& c) {
+  const auto members = static_cast<std::uint32_t>(c.members.size());
+  DisjointSets sets;
+  sets.reset(members);
+  std::vector<std::uint8_t> fixed(members, 0);
+  for (const Weld& weld : c.welds) {
+    if (weld.cut || weld.expected) continue;
+    if (weld.node_a < members && weld.node_b < members) {
+      sets.unite(weld.node_a, weld.node_b);
+    } else {
+      fixed[std::min(weld.node_a, weld.node_b)] = 1;  // to the frame, whose node is the last
+    }
+  }
+  Parts parts;
+  std::vector<std::uint32_t> number(members, ~0u);
+  for (std::uint32_t m = 0; m < members; ++m) {
+    std::uint32_t& p = number[sets.find(m)];
+    if (p == ~0u) {
+      p = static_cast<std::uint32_t>(parts.anchored.size());
+      parts.anchored.push_back(0);
+    }
+    parts.part.push_back(p);
+    parts.anchored[p] = static_cast<std::uint8_t>(parts.anchored[p] | fixed[m]);
+  }
+  return parts;
+}
+
+bool overloadsJoints(State& state, const Collection& c) {
+  for (const JointBlock& k : c.joints) state.joints[k.joint].lambda = k.lambda;
+  return anyJointBreaks(state, c);
+}
+
+bool endSearch(State& state, Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
   const bool rests = restsIn(state, scratch, c);
   if (rests && c.residual > toleratedResidual(state)) {
     c.settled = proof.search.ahead;
-    return;  // it goes on
+    return true;  // it goes on
   }
   ProofSearch search = std::exchange(proof.search, {});
-  if (!search.ahead) readImpulses(c, search.load);
-  c.settled = rests || search.ahead;
-  if (search.ahead && rests) remember(c, std::move(search.load));
-  if (search.ahead) return;
-  proof.moves = !rests;
+  if (search.ahead) {
+    c.settled = true;
+    if (rests) remember(c, std::move(search.load));
+    return true;
+  }
+  readImpulses(c, search.load);
+  c.settled = rests && !overloadsJoints(state, c);
   if (rests) prove(state, c, std::move(search.load));
+  return c.settled;
 }
-
-}  // namespace
 
 void unmergeMovers(State& state, Scratch& scratch) {
   const std::size_t slots = scratch.doubts.size();
@@ -274,7 +278,6 @@ void unmergeMovers(State& state, Scratch& scratch) {
     const Doubt doubt =
         c.id == kNoCollection ? Doubt::None : std::exchange(scratch.doubts[slot], Doubt::None);
     if (doubt == Doubt::Open) decideOne(state, scratch, c);
-    if (doubt == Doubt::Search) endSearch(state, scratch, c);
   }
   closeOpened(state, scratch);
 }

@@ -184,7 +184,7 @@ std::vector<std::uint32_t> takeOverloadedJoints(const State& state, Collection& 
 
 void breakWhatStaysInside(State& state, Scratch& scratch, std::span<const std::uint32_t> joints) {
   for (const std::uint32_t i : joints) {
-    if (isInside(state, state.joints[i])) {
+    if (isInside(state, state.joints[i]) || scratch.solved) {
       breakJoint(state, scratch, state.joints[i]);
     } else {
       scratch.overloaded_joints.push_back(i);

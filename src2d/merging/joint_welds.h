@@ -33,8 +33,8 @@ bool anyJointBreaks(const State& state, const Collection& collection);
 std::vector<std::uint32_t> takeOverloadedJoints(const State& state, Collection& collection);
 
 /// Breaks those of them whose bodies other things still hold together. Between bodies that came
-/// apart a joint acts once more, in this step's full solve, and breaks then, as without merging;
-/// otherwise the blow that breaks it would not slow the bodies that it held.
+/// apart a joint acts once more, in this step's full solve unless that is over, and breaks then, as
+/// without merging; otherwise the blow that breaks it would not slow the bodies that it held.
 void breakWhatStaysInside(State& state, Scratch& scratch, std::span<const std::uint32_t> joints);
 
 /// Counts the steps in which the bodies of each joint could have merged: Eqs. (15)-(17), and the

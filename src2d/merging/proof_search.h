@@ -20,9 +20,11 @@ struct DecidedSettings {
   /// A weld must also move this many residuals at the box where it moves least: a long body beside
   /// a short one makes much of the rotation that a residual leaves (ship-crane) [1].
   double beyond_residual = 1.0;
-  /// Sweeps per step, and how many row sweeps: a search goes on in the next step.
-  int most_sweeps = 200, least_sweeps = 10;
-  double row_sweeps = 1e4;
+  /// Sweeps per step, and how many row sweeps: a search goes on in the next step. It begins with
+  /// few and doubles them from step to step, as many loads do not last: the collapsing
+  /// tower-platform then takes half as many.
+  double row_sweeps = 1e4, first_row_sweeps = 500.0;
+  int most_sweeps = 200, full_sweeps = 10;  ///< and at last as many, of however many rows
   /// A carried load is followed by one this part further from the mean of the witnesses [1]: a wall
   /// on a swinging platform then needs one search, not one per new extreme.
   double overshoot = 0.5;
@@ -55,8 +57,8 @@ void beginSearch(const State& state, Collection& collection, const CollectionLoa
 void beginSearchAhead(const State& state, Collection& collection, Witness&& load, double way);
 
 /// Goes on with a search, for one step at most or until its residual is below `tolerance` [m/s];
-/// leaves the members' velocities in `scratch.trial_u` and the
-/// largest residual of a row in Collection::residual.
+/// leaves the members' velocities in `scratch.trial_u` and the largest residual of a row in
+/// Collection::residual.
 void continueSearch(const State& state, Scratch& scratch, Collection& collection, double tolerance);
 
 /// The velocities of the members in `scratch.trial_u` are all below `speed` at the contacts.

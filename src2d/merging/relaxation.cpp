@@ -1,6 +1,7 @@
 #include "src2d/merging/relaxation.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src2d/dynamics/nncg.h"
 #include "src2d/merging/joint_system.h"
@@ -20,7 +21,14 @@ class Relaxation {
         scratch_(scratch),
         c_(c),
         tolerance_(tolerance),
-        left_(kDecided.row_sweeps) {
+        left_(std::max(kDecided.row_sweeps,
+                       kDecided.full_sweeps * static_cast<double>(c.blocks.size()))) {
+    if (isSearch()) {
+      std::int8_t& doublings = search().doublings;
+      const double most = std::ldexp(kDecided.first_row_sweeps, doublings);
+      if (most < left_) ++doublings;
+      left_ = std::min(left_, most);
+    }
     for (const ContactBlock& k : c.blocks) ends_.push_back({memberOf(k.a), memberOf(k.b)});
   }
 
@@ -97,7 +105,6 @@ class Relaxation {
   }
 
   void sweep(int most) {
-    const SolverMethod method = state_.settings.solver.method;
     Nncg iteration(
         blocks_.size(), [&](std::size_t i) -> Impulses& { return c_.blocks[blocks_[i]].lambda; },
         members_.size(),
@@ -106,7 +113,7 @@ class Relaxation {
           for (JointBlock& k : c_.joints) solveJoint(k, {}, u_[k.a], u_[k.b]);
           for (const std::uint32_t i : blocks_) {
             ContactBlock& k = c_.blocks[i];
-            sweepBlock(k, Vec2(k.nx, k.ny), u_, method);
+            solveBlockWith<PairFriction::AsOne>(k, k.nx, k.ny, u_[k.a], u_[k.b]);
           }
         },
         buffers());
@@ -136,15 +143,11 @@ class Relaxation {
   bool isSearch() { return !search().start.empty(); }
   bool isUnderWay() { return isSearch() && search().nncg.previous > 0.0; }
 
-  bool mayGoOn() const {
-    return sweeps_ < kDecided.least_sweeps || (sweeps_ < kDecided.most_sweeps && left_ > 0.0);
-  }
+  bool mayGoOn() const { return sweeps_ == 0 || (sweeps_ < kDecided.most_sweeps && left_ > 0.0); }
   /// Sweeps over so many rows that this step can still spend.
   int affordable(std::size_t rows) const {
     const double sweeps = left_ / static_cast<double>(std::max<std::size_t>(rows, 1));
-    const int least = std::max(1, kDecided.least_sweeps - sweeps_);
-    return std::clamp(static_cast<int>(sweeps), least,
-                      std::max(least, kDecided.most_sweeps - sweeps_));
+    return std::clamp(static_cast<int>(sweeps), 1, std::max(1, kDecided.most_sweeps - sweeps_));
   }
 
   const State& state_;

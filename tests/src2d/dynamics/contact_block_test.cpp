@@ -126,6 +126,42 @@ TEST(ContactBlock, AMagnetPullsAndHoldsSideways) {
   EXPECT_LT(k.lambda_n(0) + k.lambda_n(1), 0.0);
 }
 
+/// A box on the ground that is pushed along it at 0.1 m/s; one corner presses more.
+ContactBlock pushedBox(SolverVelocity& a, SolverVelocity& b) {
+  b = {.vx = 0.1, .vy = -1.0, .omega = 0.5, .inv_mass = 1.0, .inv_inertia = 6.0};
+  BlockGeometry g;
+  g.normal = {0, 1};
+  g.count = 2;
+  g.arm_a[0] = {-0.5, 0}, g.arm_a[1] = {0.5, 0};
+  g.arm_b[0] = {-0.5, -0.5}, g.arm_b[1] = {0.5, -0.5};
+  ContactBlock k;
+  prepareBlock(k, g, a, b);
+  k.mu = 0.8;
+  return k;
+}
+
+TEST(ContactBlock, FrictionAsOneRowHoldsAsTwoRowsDo) {
+  SolverVelocity a, b;
+  ContactBlock k = pushedBox(a, b);
+  for (int i = 0; i < 50; ++i) solveBlockWith<PairFriction::AsOne>(k, k.nx, k.ny, a, b);
+  SolverVelocity a_turn, b_turn;
+  ContactBlock in_turn = pushedBox(a_turn, b_turn);
+  for (int i = 0; i < 50; ++i) solveBlock(in_turn, k.nx, k.ny, a_turn, b_turn);
+  EXPECT_NEAR(b.vx, 0.0, 1e-12);
+  EXPECT_NEAR(b.omega, b_turn.omega, 1e-12);
+  EXPECT_NEAR(k.lambda_t(0) + k.lambda_t(1), in_turn.lambda_t(0) + in_turn.lambda_t(1), 1e-12);
+}
+
+TEST(ContactBlock, FrictionAsOneRowIsSharedByPressure) {
+  SolverVelocity a, b;
+  ContactBlock k = pushedBox(a, b);
+  solveBlockWith<PairFriction::AsOne>(k, k.nx, k.ny, a, b);
+  ASSERT_GT(k.lambda_n(0), 0.0);
+  ASSERT_GT(k.lambda_n(0), k.lambda_n(1));
+  ASSERT_GT(k.lambda_n(1), 0.0);
+  EXPECT_NEAR(k.lambda_t(0) / k.lambda_t(1), k.lambda_n(0) / k.lambda_n(1), 1e-12);
+}
+
 TEST(ContactBlock, TwoPointsInOnePlaceAreTreatedAsOne) {
   SolverVelocity a, b{.vy = -1.0, .inv_mass = 1.0, .inv_inertia = 6.0};
   BlockGeometry g;

@@ -7,8 +7,6 @@
 namespace merge2d {
 namespace {
 
-const Overrides kDecidedRule{{"unmerging.rule", "decided"}};
-
 /// When the body named `top` has turned by 15 degrees or moved by 25 cm against `base`, or 99 [s].
 double timeOfFall(const std::string& scene, Mode mode, const std::string& base,
                   const std::string& top, double until) {

@@ -133,7 +133,7 @@ TEST(Unmerge, UnderThePapersRuleTheBoxNeverSlips) {
 }
 
 /// A box sleeps on a platform that then goes sideways with up to 8 m/s², more than μg.
-double slipAfterSleep(Mode mode) {
+double slipAfterSleep(Mode mode, const Overrides& rule = {}) {
   Simulation run(R"(
 format = 1
 [[body]]
@@ -146,7 +146,7 @@ name = "box"
 at = [0, 0.5]
 box = [1, 1]
 )",
-                 mode);
+                 mode, rule);
   run.until(4.0);
   const double before = seenFrom(run.body("platform"), run.body("box")).position.x();
   run.until(8.0);
@@ -158,13 +158,15 @@ TEST(Unmerge, ASleepingBoxSlipsWhenThePlatformBelowIsJerkedAway) {
   EXPECT_GT(std::abs(reference), 0.05);
   for (const Mode mode : {Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {
     EXPECT_NEAR(slipAfterSleep(mode), reference, 0.1 * std::abs(reference)) << name(mode);
+    EXPECT_NEAR(slipAfterSleep(mode, kDecidedRule), reference, 0.1 * std::abs(reference))
+        << name(mode);
   }
 }
 
 // ---- forces ----
 
 /// The step in which a tall box on the ground leaves its collection when it is pushed from 1 s on.
-int stepOfTipping(Mode mode, double push) {
+int stepOfTipping(Mode mode, double push, const Overrides& rule = {}) {
   Simulation run(kGround + R"(
 [[body]]
 name = "box"
@@ -176,7 +178,7 @@ at = [-0.25, 1]
 from = 1
 force = [)" + std::to_string(push) +
                      ", 0]\n",
-                 mode);
+                 mode, rule);
   for (int step = 1; step <= 400; ++step) {
     run.steps(1);
     if (step >= 100 && !run.merged("box")) return step;
@@ -188,6 +190,8 @@ TEST(Unmerge, APushThatTipsABoxIsFeltInTheStepInWhichItBegins) {
   for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {  // it takes 1.23 N
     EXPECT_EQ(stepOfTipping(mode, 1.35), 101) << name(mode);
     EXPECT_EQ(stepOfTipping(mode, 1.1), -1) << name(mode);
+    EXPECT_EQ(stepOfTipping(mode, 1.35, kDecidedRule), 101) << name(mode);
+    EXPECT_EQ(stepOfTipping(mode, 1.1, kDecidedRule), -1) << name(mode);
   }
 }
 
