@@ -182,7 +182,7 @@ struct LoadCertificate {
   std::uint32_t heaviest = ~0u;
   bool lambda_stale = false;  ///< blocks and joints hold other impulses than the weights say
   bool in_doubt = true;       ///< a proof must be sought for any load
-  std::int64_t since = 0;  ///< step in which the collection was laid out
+  std::int64_t since = 0;     ///< step in which the collection was laid out
   ProofSearch search;
 };
 
