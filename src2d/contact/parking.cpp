@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint8_t kSteps = 4;      ///< for which it must have slept
 constexpr std::int64_t kInterval = 64;  ///< steps until what could not become parked is tried anew
 
-/// A pinned body: it never sleeps, and what touches it is not held together by it.
+/// A pinned body: it never sleeps, and does not hold together the bodies that touch it.
 bool isPinned(const State& state, RigidId id) {
   return !state.isCollection(id) && state[id].anchor == kWorldFrame;
 }
@@ -144,7 +144,7 @@ void takeBack(State& state, RigidId id) {
   state.collections.bringBack(index(id) - state.bodies.size());
 }
 
-/// Puts what was added to the end of a list in its place.
+/// Puts the entries that were added to the end of a list in their places.
 template <class T, class KeyOf>
 void sortTail(std::vector<T>& list, std::size_t known, KeyOf&& keyOf) {
   const auto middle = list.begin() + static_cast<std::ptrdiff_t>(known);
@@ -152,7 +152,7 @@ void sortTail(std::vector<T>& list, std::size_t known, KeyOf&& keyOf) {
   std::ranges::inplace_merge(list, middle, {}, keyOf);
 }
 
-/// Brings back those in `queue`, and what touches them.
+/// Brings back those in `queue`, and all that touch them.
 void bringBackSets(State& state, std::vector<RigidId>& queue) {
   ContactTable& table = state.contacts;
   auto& near = state.broadphase.near;

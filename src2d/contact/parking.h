@@ -1,5 +1,5 @@
 #pragma once
-/// What has slept for a few steps is parked: it leaves all lists that the stages go through,
+/// A body that has slept for a few steps is parked: it leaves all lists that the stages go through,
 /// so that the cost of a step does not depend on how many sleep.
 ///
 /// Nothing that a stage does depends on it. A set of rigid things that touch is parked as a
@@ -11,19 +11,19 @@
 
 namespace merge2d {
 
-/// Parks what has slept for long enough. To be called between two steps.
+/// Parks the bodies that have slept for long enough. To be called between two steps.
 void parkSleepers(State& state, Scratch& scratch);
 
-/// Brings back, still asleep, what a body belongs to and all that touches it.
+/// Brings back, still asleep, the rigid thing of a body and all that touches it.
 void bringBackAround(State& state, Scratch& scratch, BodyId body);
 
 /// Brings back all of them, for whoever looks at the lists.
 void bringAllBack(State& state, Scratch& scratch);
 
-/// Brings back what something acts on in this step: impulses, loads, or what the user has changed.
+/// Brings back the bodies that something acts on in this step: impulses, loads, or a user's change.
 void bringBackActedOn(State& state, const Scratch& scratch);
 
-/// Brings back what is touched by something that is not parked.
+/// Brings back all that is touched by something that is not parked.
 void bringBackTouched(State& state);
 
 }  // namespace merge2d

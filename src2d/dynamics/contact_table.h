@@ -71,7 +71,7 @@ struct ContactTable {
   std::vector<Slot> free_slots;
   std::vector<Slot> order;     ///< ascending by key
   std::vector<IdlePair> idle;  ///< likewise; no key is in both
-  /// Those of what is parked, which are in neither list.
+  /// Those of parked bodies, which are in neither list.
   ParkedPairs<Slot> parked;
   ParkedPairs<IdlePair> parked_idle;
 

@@ -167,7 +167,7 @@ ContactBlock innerBlock(const State& state, const RowSource& source) {
   return k;
 }
 
-/// Takes back what the last step noted for the bodies of its islands, and for no others.
+/// Takes back the notes of the last step about the bodies of its islands, and about no others.
 void clearMarks(Scratch& scratch) {
   const auto clear = [&](std::uint32_t r) {
     if (r < scratch.colours.size()) scratch.colours[r] = 0;

@@ -197,7 +197,7 @@ struct SweepChange {
   double total = 0.0;
 };
 
-/// What one task of the contact detection found, where several threads search.
+/// The findings of one task of the contact detection, where several threads search.
 struct FoundByTask {
   std::vector<ContactKey> candidates;
   std::vector<NearPair> near;

@@ -9,7 +9,7 @@ namespace {
 /// wake it takes longer than most jobs.
 constexpr std::chrono::microseconds kPatience{200};
 
-/// Waits a moment without giving the processor away: what it waits for comes soon.
+/// Waits a moment without giving the processor away, as the wait is short.
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
   __builtin_ia32_pause();

@@ -143,7 +143,7 @@ void findDoubts(State& state, Scratch& scratch) {
   }
 }
 
-/// Where a search has found motion, the full solve of the same step says what moves.
+/// Where a search has found motion, the full solve of the same step finds the moving welds.
 void solveDoubted(State& state, Scratch& scratch) {
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) != Doubt::Search) continue;

@@ -1,4 +1,4 @@
-/// What sleeps for long is in no list of the stages, and nobody can tell.
+/// A body that sleeps for long is in no list of the stages, and nobody can tell.
 
 #include "src2d/contact/parking.h"
 
