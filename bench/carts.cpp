@@ -4,7 +4,8 @@
 ///   carts [--family carts|columns] [--cases N] [--seed N] [--rule default|paper|decided] [--quiet]
 ///
 /// A cart floats on springs, hangs on two rods, stands on springs or is pulled by a force. The
-/// reference of the columns is a converged one: contacts ten times as hard, 100 sweeps.
+/// reference is a converged one: contacts ten times as hard, 100 sweeps. A softer one can topple
+/// where statics say that the tower stands.
 
 #include <fmt/format.h>
 
@@ -183,13 +184,11 @@ void run(const Cases& cases, bool columns) {
     Scene scene = columns ? column(random) : cart(random);
     scene.settings.unmerging.rule = cases.rule;
     Scene hard = scene;
-    if (columns) {
-      hard.settings.solver.iterations = 100;
-      hard.settings.solver.compliance *= 0.1;
-    }
+    hard.settings.solver.iterations = 100;
+    hard.settings.solver.compliance *= 0.1;
     const double reference = timeOfFall(hard, Mode::Reference, until);
     if (reference > until - 2.0) continue;
-    const double soft = columns ? timeOfFall(scene, Mode::Reference, until) : reference;
+    const double soft = timeOfFall(scene, Mode::Reference, until);
     const double merged = timeOfFall(scene, Mode::Merge, until);
     ++tip;
     const bool stands = merged == kNever, is_late = !stands && merged > reference + kLate;
