@@ -6,8 +6,6 @@
 namespace merge2d {
 namespace {
 
-constexpr int kGap = 8;  // [px]
-
 /// The mean of a block of pixels; colours count by how opaque they are.
 Color meanOf(const Picture& picture, int left, int top, int side) {
   std::array<int, 4> sum{};
@@ -50,10 +48,10 @@ Picture contactSheet(std::span<const Picture> pictures, int columns, Color backg
   const int count = static_cast<int>(pictures.size());
   const int across = std::min(columns, count), down = (count + columns - 1) / columns;
   const int width = pictures[0].width, height = pictures[0].height;
-  Picture sheet(across * width + (across - 1) * kGap, down * height + (down - 1) * kGap,
+  Picture sheet(across * width + (across - 1) * kSheetGap, down * height + (down - 1) * kSheetGap,
                 background);
   for (int i = 0; i < count; ++i) {
-    const int left = i % columns * (width + kGap), top = i / columns * (height + kGap);
+    const int left = i % columns * (width + kSheetGap), top = i / columns * (height + kSheetGap);
     const Picture& from = pictures[static_cast<std::size_t>(i)];
     for (int y = 0; y < height; ++y) {
       std::copy_n(from.rgba.begin() + static_cast<std::ptrdiff_t>(from.offset(0, y)), 4 * width,

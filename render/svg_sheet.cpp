@@ -6,13 +6,12 @@
 #include <charconv>
 #include <string_view>
 
+#include "render/contact_sheet.h"
 #include "src2d/core/assert.h"
 #include "src2d/core/utf8.h"
 
 namespace merge2d {
 namespace {
-
-constexpr int kGap = 8;  // [px]
 
 /// A document of toSvg without its declaration: the attributes of its <svg>, and its content.
 struct SvgParts {
@@ -71,8 +70,8 @@ std::string svgSheet(std::span<const std::string> documents, int columns, int wi
   width = std::min(width, own_width);
   const int height = (own_height * width + own_width / 2) / own_width;
   const int across = std::min(columns, count), down = (count + columns - 1) / columns;
-  options.width = across * width + (across - 1) * kGap;
-  options.height = down * height + (down - 1) * kGap;
+  options.width = across * width + (across - 1) * kSheetGap;
+  options.height = down * height + (down - 1) * kSheetGap;
   Drawing empty;
   empty.background = background;
   std::string sheet = toSvg(empty, options);
@@ -81,8 +80,8 @@ std::string svgSheet(std::span<const std::string> documents, int columns, int wi
     const SvgParts parts = partsOf(documents[static_cast<std::size_t>(i)]);
     sheet += fmt::format(
         "<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\">\n{}</svg>\n",
-        i % columns * (width + kGap), i / columns * (height + kGap), width, height, own_width,
-        own_height, renamed(parts.content, fmt::format("m{}", i)));
+        i % columns * (width + kSheetGap), i / columns * (height + kSheetGap), width, height,
+        own_width, own_height, renamed(parts.content, fmt::format("m{}", i)));
   }
   return sheet + "</svg>\n";
 }

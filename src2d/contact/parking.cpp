@@ -164,7 +164,8 @@ void bringBackSets(State& state, std::vector<RigidId>& queue) {
     takeBack(state, id);
     table.parked.take(id, [&](ContactTable::Slot slot, RigidId other) {
       table.order.push_back(slot);
-      if (table[slot].count > 0 && other != table.parked.kNobody) queue.push_back(other);
+      if (table[slot].count > 0 && other != ParkedPairs<ContactTable::Slot>::kNobody)
+        queue.push_back(other);
     });
     table.parked_idle.take(id, [&](const IdlePair& pair, RigidId) { table.idle.push_back(pair); });
     state.broadphase.parked_near.take(id,
