@@ -21,7 +21,8 @@ class StagePictures {
   /// A state before the step that is drawn, in which collections may have got their colours.
   void note(const Snapshot& snapshot);
   /// Draws a stage, or without a record the state before the first step, into a file: vector
-  /// graphics where its name ends in .svg. Returns what it shows. Throws IoError.
+  /// graphics where its name ends in .svg. Returns the line that the stage tells about
+  /// its result. Throws IoError.
   std::string save(const StepRecord* record, Stage stage, const std::string& file);
 
   const FrameStyle& style() const { return style_; }

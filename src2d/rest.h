@@ -1,10 +1,11 @@
 #pragma once
 /// A world in which everything sleeps: its steps are left out, as they would change nothing.
 ///
-/// A step is a function of the state and of what acts in it. After a step in which everything slept
-/// and nothing happened, the state is compared with the one before: when they agree in all but the
-/// time, so will those of all steps to come, until something acts. What acts is known at the start
-/// of a step, so a step of a world at rest costs a look at that, whatever the number of bodies.
+/// A step is a function of the state and of the loads that act in it. After a step in which
+/// everything slept and nothing happened, the state is compared with the one before: when they
+/// agree in all but the time, so will those of all steps to come, until something acts. The loads
+/// are known at the start of a step, so a step of a world at rest costs a look at that, whatever
+/// the number of bodies.
 
 #include <cstdint>
 #include <optional>

@@ -220,7 +220,7 @@ void fields(Ar& ar, Some<ReadyPair> auto& r) {
   ar(pair, node_a, node_b, contacts, joint_at);
 }
 
-/// What moves of a state in which nothing is parked; constants come from the scene, trees are
+/// The variables of a state in which nothing is parked; constants come from the scene, trees are
 /// built anew.
 template <class Ar>
 void fields(Ar& ar, Some<State> auto& state) {

@@ -47,7 +47,7 @@ bool isQuiet(const Collection& c) {
   return !c.stale && c.struck == 0 && c.stirred == 0 && c.jolted == 0 && c.since_blow >= kLongAgo;
 }
 
-/// True for what may become parked if all that touches it may.
+/// True for a rigid thing that may become parked if all that touch it may.
 bool mayRest(const State& state, RigidId id) {
   const Rigid& r = state[id];
   if (!r.asleep || r.resized || state.parked.slept[index(id)] < kSteps) return false;
@@ -55,7 +55,8 @@ bool mayRest(const State& state, RigidId id) {
   return !state.isCollection(id) || isQuiet(state.collection(id));
 }
 
-/// What takes part in something that the lists of contacts do not tell must rest anew.
+/// A body with a joint, a load or another tie that the lists of contacts do not tell must rest
+/// anew.
 void refuseHeld(State& state, const Scratch& scratch) {
   const auto refuse = [&](BodyId body) {
     std::uint8_t& steps = state.parked.slept[index(state[body].rigid)];

@@ -28,7 +28,8 @@ struct alignas(64) SolverVelocity {
   /// The change of the last step's velocity by the loads and the full solve [m/s, rad/s].
   std::array<float, 3> gained{};
 
-  /// What does not is never written to: many islands stand on it, each perhaps in another thread.
+  /// A body that does not is never written to: many islands stand on it, each perhaps in another
+  /// thread.
   bool responds() const { return inv_mass != 0.0; }
 };
 

@@ -73,7 +73,7 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   return change;
 }
 
-/// Islands share nothing but what is fixed. Joints are solved with a memory of their own, in order.
+/// Islands share fixed bodies alone. Joints are solved with a memory of their own, in order.
 void solveIslands(const State& state, Scratch& scratch) {
   constexpr std::size_t kGrain = 4;  // islands
   const auto& islands = scratch.islands;

@@ -23,7 +23,7 @@ struct Broadphase {
   std::vector<std::unique_ptr<AabbTree>> shape_trees;  ///< per rigid, where it has several shapes
   std::vector<int> shape_leaves;                       ///< per shape, in its rigid's tree, or −1
   std::vector<NearPair> near;                          ///< ascending
-  ParkedPairs<NearPair> parked_near;                   ///< those of what is parked
+  ParkedPairs<NearPair> parked_near;                   ///< those of parked things
 };
 
 struct TimedSpring {

@@ -8,40 +8,19 @@
 #include <limits>
 #include <thread>
 
+#include "api_testing.h"
+
 namespace {
 
 using merge2d::Body;
 using merge2d::Scene;
 using merge2d::Shape;
 using merge2d::World;
+using merge2d::testing_api::refusal;
+using merge2d::testing_api::towerOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-/// A pinned ground, body 0, and `boxes` unit boxes on it, one on the other.
-Scene towerOf(int boxes) {
-  Scene scene;
-  scene.add({.name = "ground",
-             .motion = merge2d::Motion::Pinned,
-             .position = {0.0, -0.5},
-             .shapes = {Shape::box(20.0, 1.0)}});
-  for (int i = 0; i < boxes; ++i) {
-    scene.add({.name = "box " + std::to_string(i),
-               .position = {0.0, 0.5 + i},
-               .shapes = {Shape::box(1.0, 1.0)}});
-  }
-  return scene;
-}
-
-template <class Work>
-std::string refusal(Work&& work) {
-  try {
-    work();
-  } catch (const merge2d::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(PublicWorld, ATowerBecomesOneCollection) {
   World world(towerOf(4));
@@ -314,71 +293,6 @@ TEST(PublicWorld, NullPointersAreErrors) {
   m2_scene_free(nullptr);
   m2_world_free(nullptr);
   m2_free(nullptr);
-}
-
-TEST(PublicScene, NamesTheFaultOfADescription) {
-  Scene scene;
-  EXPECT_THAT(refusal([&] { scene.add(merge2d::BodyDef{}); }), HasSubstr("shape"));
-  EXPECT_THAT(refusal([&] { scene.add({.shapes = {Shape::circle(-1.0)}}); }), HasSubstr("radius"));
-  EXPECT_THAT(refusal([&] { scene.add({.shapes = {Shape::circle(1.0)}, .mass = -1.0}); }),
-              HasSubstr("mass"));
-  EXPECT_THAT(refusal([&] {
-                scene.add({.shapes = {Shape::polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}})}});
-              }),
-              HasSubstr("cross"));
-  EXPECT_EQ(scene.bodyCount(), 0U);
-  auto spring = merge2d::springDef();
-  spring.body = 3;
-  EXPECT_THAT(refusal([&] { scene.add(spring); }), HasSubstr("no body 3"));
-}
-
-TEST(PublicScene, APolygonNeedNotBeConvexNorCounterClockwise) {
-  Scene scene;
-  // An L of three unit squares, clockwise.
-  scene.add({.shapes = {Shape::polygon({{0, 0}, {0, 2}, {1, 2}, {1, 1}, {2, 1}, {2, 0}})}});
-  World world(scene);
-  EXPECT_NEAR(world.info(0).mass, 3.0, 1e-9);
-  EXPECT_GE(world.pieces(0).size(), 2U);
-}
-
-TEST(PublicScene, LoadsWithChangesAndWritesItselfDown) {
-  const Scene scene = Scene::load("books", {"merging.velocity=0.03", "step=0.005"});
-  EXPECT_EQ(scene.get("merging.velocity"), "0.03");
-  const Scene again = Scene::parse(scene.toToml());
-  EXPECT_EQ(again.get("step"), "0.005");
-  EXPECT_EQ(again.bodyCount(), scene.bodyCount());
-  EXPECT_THAT(refusal([] { Scene::load("bokos"); }), HasSubstr("did you mean 'books'"));
-  EXPECT_THAT(refusal([] { Scene::parse("[[body]]\nbx = [1, 1]\n", "mine.toml"); }),
-              HasSubstr("mine.toml:2:1"));
-}
-
-TEST(PublicScene, LivesOnItsOwn) {
-  Scene scene = towerOf(1);
-  World world(scene);
-  scene = Scene();
-  world.step(10);
-  EXPECT_EQ(world.bodyCount(), 2U);
-  EXPECT_EQ(scene.bodyCount(), 0U);
-}
-
-TEST(PublicScene, VersionsOfHeaderAndLibraryAgree) {
-  EXPECT_EQ(merge2d::version(), std::to_string(M2_VERSION_MAJOR) + "." +
-                                    std::to_string(M2_VERSION_MINOR) + "." +
-                                    std::to_string(M2_VERSION_PATCH));
-}
-
-TEST(PublicScene, EmitsBodiesWhileItRuns) {
-  Scene scene;
-  scene.addEmitter({.name = "drop", .position = {0.0, 5.0}, .shapes = {Shape::circle(0.1)}}, 0.1,
-                   3);
-  World world(scene);
-  ASSERT_EQ(world.bodyCount(), 3U);
-  world.step(15);
-  EXPECT_TRUE(world.info(1).present);
-  EXPECT_FALSE(world.info(2).present);
-  EXPECT_STREQ(world.info(2).name, "drop[2]");
-  scene.addEmitter({.shapes = {Shape::circle(0.1)}}, -1.0, 3);
-  EXPECT_THAT(refusal([&] { World refused(scene); }), HasSubstr("every"));
 }
 
 TEST(PublicWorld, TellsWhatJointsBear) {

@@ -204,7 +204,7 @@ TEST_F(Usage, ErrorsHaveNoColourWhereStderrIsNoTerminal) {
 }
 
 #ifndef MERGE2D_SANITIZED  // whose reports name sources
-/// Debuggers need its folders: without what is for them.
+/// Debuggers need its folders: without the sections for them.
 TEST_F(Usage, TheProgramNamesNoFolderOfItsBuild) {
   const std::string stripped = (*this / "stripped").string();
   const std::string command =

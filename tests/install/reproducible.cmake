@@ -7,7 +7,7 @@ function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# Copies: of a checkout without what git ignores.
+# Copies: of a checkout without the files that git ignores.
 execute_process(COMMAND git -C ${SOURCE} ls-files --cached --others --exclude-standard
                 OUTPUT_VARIABLE files RESULT_VARIABLE no_git ERROR_QUIET)
 if(NOT no_git EQUAL 0)

@@ -13,30 +13,12 @@
 namespace merge2d {
 namespace {
 
-/// Of a world that is watched every stage of every step runs.
-class Watcher : public Observer {
- public:
-  void afterStage(Stage, const State&, const Scratch&) override {}
-};
-
-/// Two worlds of one scene, of which the second is watched.
-struct Twins {
-  World one, watched;
-  Watcher watcher;
-
-  Twins(const Scene& scene, Mode mode)
-      : one(scene, {.mode = mode}), watched(scene, {.mode = mode}) {
-    watched.observe(&watcher);
-  }
-  void change(const std::function<void(World&)>& by) {
-    by(one);
-    by(watched);
-  }
+struct Twins : WatchedTwins {
+  using WatchedTwins::WatchedTwins;
   /// Runs both, and compares all that matters for the steps to come.
   void run(int steps) {
     for (int i = 0; i < steps; ++i) {
-      one.step();
-      watched.step();
+      step();
       ASSERT_EQ(one.events().size(), watched.events().size()) << "step " << one.steps();
       ASSERT_EQ(one.stats().asleep, watched.stats().asleep) << "step " << one.steps();
     }

@@ -1,6 +1,7 @@
 #pragma once
 /// Worlds that tests change between two steps, and the parts that they add.
 
+#include <functional>
 #include <optional>
 #include <stdexcept>
 
@@ -60,5 +61,31 @@ inline Scene mixed() {
   scene.emitters.push_back(rain);
   return scene;
 }
+
+/// An observer that does nothing: a world that is watched runs every stage of every step for every
+/// body.
+class Onlooker : public Observer {
+ public:
+  void afterStage(Stage, const State&, const Scratch&) override {}
+};
+
+/// Two worlds of one scene, of which the second is watched.
+struct WatchedTwins {
+  World one, watched;
+  Onlooker onlooker;
+
+  WatchedTwins(const Scene& scene, Mode mode)
+      : one(scene, {.mode = mode}), watched(scene, {.mode = mode}) {
+    watched.observe(&onlooker);
+  }
+  void change(const std::function<void(World&)>& by) {
+    by(one);
+    by(watched);
+  }
+  void step() {
+    one.step();
+    watched.step();
+  }
+};
 
 }  // namespace merge2d

@@ -1,4 +1,4 @@
-// Lesson pages in Chromium, from a file, with the network cut: what the tests of pages share.
+// Lesson pages in Chromium, from a file, with the network cut: helpers that the tests of pages share.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';

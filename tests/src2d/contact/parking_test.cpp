@@ -14,12 +14,6 @@
 namespace merge2d {
 namespace {
 
-/// In a world that is watched nothing is parked.
-class Onlooker : public Observer {
- public:
-  void afterStage(Stage, const State&, const Scratch&) override {}
-};
-
 /// All that can be seen of a world without waking its lists.
 std::vector<double> seen(const World& world) {
   const std::size_t bodies = world.bodies().size();
@@ -44,22 +38,12 @@ std::vector<double> seen(const World& world) {
   return numbers;
 }
 
-/// Two worlds of one scene, of which the second is watched.
-struct Pair {
-  World one, watched;
-  Onlooker onlooker;
-
-  Pair(const Scene& scene, Mode mode) : one(scene, {.mode = mode}), watched(scene, {.mode = mode}) {
-    watched.observe(&onlooker);
-  }
-  void change(const std::function<void(World&)>& by) {
-    by(one);
-    by(watched);
-  }
+/// Nothing is parked in the one that is watched.
+struct Pair : WatchedTwins {
+  using WatchedTwins::WatchedTwins;
   void run(int steps) {
     for (int i = 0; i < steps; ++i) {
-      one.step();
-      watched.step();
+      step();
       ASSERT_TRUE(seen(one) == seen(watched)) << "step " << one.steps();
     }
   }

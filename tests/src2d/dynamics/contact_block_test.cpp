@@ -107,16 +107,21 @@ RC_GTEST_PROP(ContactBlock, WhatIsSolvedIsNotChangedBySolvingItAgain, ()) {
   RC_ASSERT(std::abs(k.lambda_n(1) - second) < 1e-10);
 }
 
-TEST(ContactBlock, AMagnetPullsAndHoldsSideways) {
-  SolverVelocity a;  // fixed
-  SolverVelocity b{.vx = 1.0, .vy = 1.0, .inv_mass = 1.0, .inv_inertia = 6.0};
+/// The two corners of a unit box on the ground.
+BlockGeometry boxOnGround() {
   BlockGeometry g;
   g.normal = {0, 1};
   g.count = 2;
   g.arm_a[0] = {-0.5, 0}, g.arm_a[1] = {0.5, 0};
   g.arm_b[0] = {-0.5, -0.5}, g.arm_b[1] = {0.5, -0.5};
+  return g;
+}
+
+TEST(ContactBlock, AMagnetPullsAndHoldsSideways) {
+  SolverVelocity a;  // fixed
+  SolverVelocity b{.vx = 1.0, .vy = 1.0, .inv_mass = 1.0, .inv_inertia = 6.0};
   ContactBlock k;
-  prepareBlock(k, g, a, b);
+  prepareBlock(k, boxOnGround(), a, b);
   k.bilateral = true;
   k.mu = 0.1;
   for (int i = 0; i < 100; ++i) solveBlock(k, k.nx, k.ny, a, b);
@@ -129,13 +134,8 @@ TEST(ContactBlock, AMagnetPullsAndHoldsSideways) {
 /// A box on the ground that is pushed along it at 0.1 m/s; one corner presses more.
 ContactBlock pushedBox(SolverVelocity& a, SolverVelocity& b) {
   b = {.vx = 0.1, .vy = -1.0, .omega = 0.5, .inv_mass = 1.0, .inv_inertia = 6.0};
-  BlockGeometry g;
-  g.normal = {0, 1};
-  g.count = 2;
-  g.arm_a[0] = {-0.5, 0}, g.arm_a[1] = {0.5, 0};
-  g.arm_b[0] = {-0.5, -0.5}, g.arm_b[1] = {0.5, -0.5};
   ContactBlock k;
-  prepareBlock(k, g, a, b);
+  prepareBlock(k, boxOnGround(), a, b);
   k.mu = 0.8;
   return k;
 }
