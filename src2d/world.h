@@ -60,9 +60,10 @@ class World {
   /// that takes them over continues bit for bit as this one does, also where bodies, joints or
   /// springs were added.
   std::string save() const;
-  /// Takes over the bytes that `save` gave. `source` names the bytes in messages. Settings, gravity, time
-  /// step and mode stay those of this world; with AnySettings the bytes may come from others.
-  /// Throws InputError when they are damaged, or of another version, scene, settings or mode.
+  /// Takes over the bytes that `save` gave. `source` names the bytes in messages. Settings,
+  /// gravity, time step and mode stay those of this world; with AnySettings the bytes may come from
+  /// others. Throws InputError when they are damaged, or of another version, scene, settings or
+  /// mode.
   void restore(std::string_view bytes, const std::string& source,
                SavedUnder under = SavedUnder::SameSettings);
 
