@@ -17,13 +17,6 @@ const BodyInfo& infoOf(const m2_world& world, m2_body body) {
   throw InputError(fmt::format("there is no body {}: the world has {}", body, bodies.size()));
 }
 
-/// Where a body's centre of mass is; throws InputError for one that is not in the world.
-Vec2 centerOf(m2_world& world, m2_body body) {
-  const std::string& name = infoOf(world, body).name;
-  if (const auto pose = world.places().pose(BodyId{body})) return pose->position;
-  throw InputError(fmt::format("body {} ('{}') is not in the world now", body, name));
-}
-
 m2_piece pieceOf(const ConvexShape& shape) {
   m2_piece piece{};
   if (const auto* circle = std::get_if<Circle>(&shape)) {
@@ -64,14 +57,7 @@ m2_status m2_world_body_info(m2_world* world, m2_body body, m2_body_info* info) 
 m2_status m2_world_find_body(m2_world* world, const char* name, m2_body* body) {
   return guarded([&] {
     const auto& bodies = given(world, "world").world.bodies();
-    const std::string wanted = &given(name, "name");
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (bodies[i].name != wanted) continue;
-      given(body, "body") = static_cast<m2_body>(i);
-      return;
-    }
-    throw merge2d::InputError(
-        fmt::format("there is no body '{}'{}", wanted, merge2d::Words(bodies).suggestion(wanted)));
+    given(body, "body") = merge2d::bodyCalled(bodies, &given(name, "name"));
   });
 }
 
@@ -130,10 +116,10 @@ m2_status m2_world_remove_joint(m2_world* world, m2_joint joint) {
 m2_status m2_world_drag(m2_world* world, m2_body body, m2_vec grip, m2_spring* spring) {
   return change(world, [&](m2_world& w) {
     m2_spring& out = given(spring, "spring");
-    merge2d::centerOf(w, body);
+    const merge2d::Vec2 anchor = w.world.toBodyFrame(BodyId{body}, toVec(grip));
     const double mass = merge2d::infoOf(w, body).mass;
     out = w.world.addSpring({.body = body,
-                             .anchor = w.world.toBodyFrame(BodyId{body}, toVec(grip)),
+                             .anchor = anchor,
                              .to = toVec(grip),
                              .to_body = std::nullopt,
                              .stiffness = mass * merge2d::kHandSwing * merge2d::kHandSwing,

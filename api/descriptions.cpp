@@ -41,6 +41,9 @@ void requireLength(double length, const char* what) {
 Script toScript(const m2_script& script) {
   switch (enumerator<m2_script_kind>(script.kind, 3, "kind of script")) {
     case M2_SINUSOID:
+      if (script.amplitude == 0.0 && script.period == 0.0) {  // as in m2_body_def_default
+        throw InputError("a scripted body needs a script: a sinusoid, key frames or a velocity");
+      }
       return Sinusoid{toVec(script.axis), script.amplitude, script.period};
     case M2_STEADY:
       return SteadyMotion{toVec(script.velocity), script.spin};
@@ -168,8 +171,6 @@ m2_body_def m2_body_def_default() {
   def.density = 1.0;
   def.friction = 0.6;
   def.script.axis = {1.0, 0.0};
-  def.script.amplitude = 1.0;
-  def.script.period = 1.0;
   return def;
 }
 

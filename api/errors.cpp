@@ -1,5 +1,6 @@
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 #include "api/handles.h"
 
@@ -26,7 +27,11 @@ m2_status failure() noexcept {
   try {
     throw;
   } catch (const InputError& error) {
-    return failed(M2_INPUT_ERROR, error.what());
+    // A change "key=value" of the library is an option of the program.
+    constexpr std::string_view kOption = "--set ";
+    const std::string_view message = error.what();
+    const std::size_t skipped = message.starts_with(kOption) ? kOption.size() : 0;
+    return failed(M2_INPUT_ERROR, error.what() + skipped);
   } catch (const IoError& error) {
     return failed(M2_IO_ERROR, error.what());
   } catch (const SimulationError& error) {

@@ -7,14 +7,15 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
-#include "lessons/words.h"
 #include "merge2d/merge2d.h"
 #include "render/frame.h"
 #include "src2d/body_locator.h"
 #include "src2d/core/error.h"
+#include "src2d/core/suggest.h"
 #include "src2d/world.h"
 
 struct m2_scene {
@@ -86,6 +87,18 @@ template <class T>
 T& given(T* pointer, const char* name) {
   if (pointer == nullptr) throw InputError(fmt::format("{} is a null pointer", name));
   return *pointer;
+}
+
+/// The body of that name, in the descriptions of a scene or the bodies of a world; throws
+/// InputError with a suggestion.
+template <class Bodies>
+m2_body bodyCalled(const Bodies& bodies, const std::string& name) {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].name == name) return static_cast<m2_body>(i);
+    names.emplace_back(bodies[i].name);
+  }
+  throw InputError(fmt::format("there is no body '{}'{}", name, didYouMean(name, names)));
 }
 
 /// Does something to a world, which has changed then even when it fails.

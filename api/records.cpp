@@ -3,6 +3,7 @@
 
 #include "api/handles.h"
 #include "lessons/why.h"
+#include "lessons/words.h"
 
 using merge2d::given;
 using merge2d::guarded;

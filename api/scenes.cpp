@@ -170,16 +170,20 @@ m2_status m2_scene_follow(m2_scene* scene, m2_body body) {
   return guarded([&] {
     merge2d::Scene& s = given(scene, "scene").scene;
     if (body == M2_NO_BODY) return s.follow.reset();
-    if (body >= s.bodies.size()) {
-      throw merge2d::InputError(
-          fmt::format("there is no body {}: the scene has {}", body, s.bodies.size()));
-    }
+    merge2d::requireBody(s, body);
     s.follow = body;
   });
 }
 
 size_t m2_scene_body_count(const m2_scene* scene) {
   return scene == nullptr ? 0 : scene->scene.bodies.size();
+}
+
+m2_status m2_scene_find_body(const m2_scene* scene, const char* name, m2_body* body) {
+  return guarded([&] {
+    const auto& bodies = given(scene, "scene").scene.bodies;
+    given(body, "body") = merge2d::bodyCalled(bodies, &given(name, "name"));
+  });
 }
 
 m2_status m2_scene_to_toml(const m2_scene* scene, char** toml) {

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "api/handles.h"
 #include "api/settings.h"
 #include "src2d/scene/check.h"
@@ -6,6 +8,12 @@ using merge2d::change;
 using merge2d::given;
 using merge2d::guarded;
 using merge2d::toVec;
+
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // of no world
+
+}  // namespace
 
 m2_status m2_world_new(const m2_scene* scene, m2_mode mode, m2_world** world) {
   return guarded([&] {
@@ -24,21 +32,32 @@ m2_status m2_world_step(m2_world* world, uint64_t count) {
   });
 }
 
-int64_t m2_world_steps(const m2_world* world) { return world->world.steps(); }
-double m2_world_time(const m2_world* world) { return world->world.time(); }
-double m2_world_time_step(const m2_world* world) { return world->world.timeStep(); }
+int64_t m2_world_steps(const m2_world* world) {
+  return world == nullptr ? -1 : world->world.steps();
+}
+double m2_world_time(const m2_world* world) {
+  return world == nullptr ? kNothing : world->world.time();
+}
+double m2_world_time_step(const m2_world* world) {
+  return world == nullptr ? kNothing : world->world.timeStep();
+}
 
 m2_status m2_world_set_time_step(m2_world* world, double h) {
   return change(world, [&](m2_world& w) { w.world.setTimeStep(h); });
 }
 
-m2_mode m2_world_mode(const m2_world* world) { return static_cast<m2_mode>(world->world.mode()); }
+m2_mode m2_world_mode(const m2_world* world) {
+  return world == nullptr ? M2_REFERENCE : static_cast<m2_mode>(world->world.mode());
+}
 
 m2_status m2_world_set_mode(m2_world* world, m2_mode mode) {
   return change(world, [&](m2_world& w) { w.world.setMode(merge2d::toMode(mode)); });
 }
 
-m2_vec m2_world_gravity(const m2_world* world) { return merge2d::fromVec(world->world.gravity()); }
+m2_vec m2_world_gravity(const m2_world* world) {
+  if (world == nullptr) return {kNothing, kNothing};
+  return merge2d::fromVec(world->world.gravity());
+}
 
 m2_status m2_world_set_gravity(m2_world* world, m2_vec gravity) {
   return change(world, [&](m2_world& w) { w.world.setGravity(toVec(gravity)); });

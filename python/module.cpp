@@ -9,7 +9,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <variant>
+#include <optional>
+#include <type_traits>
 
 namespace py = pybind11;
 
@@ -17,9 +18,82 @@ namespace {
 
 using merge2d::Body;
 using merge2d::Vec2;
-using Pair = std::pair<double, double>;
+
+/// A place, a velocity or another pair of numbers.
+struct Pair {
+  double first, second;
+};
 /// A body by its number or its name.
-using BodyArg = std::variant<std::int64_t, std::string>;
+struct BodyArg {
+  std::int64_t number;
+  std::optional<std::string> name;
+};
+
+/// An object as a message shows it.
+std::string shown(const py::handle& object) {
+  constexpr std::size_t kLongest = 60;
+  std::string text = py::repr(object);
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  return text;
+}
+
+/// The number, or nothing for an object that is none.
+std::optional<double> numberOf(const py::handle& object) {
+  const double number = PyFloat_AsDouble(object.ptr());
+  if (number != -1.0 || PyErr_Occurred() == nullptr) return number;
+  PyErr_Clear();
+  return std::nullopt;
+}
+
+Pair pairOf(const py::handle& object, const std::string& what) {
+  if (PySequence_Check(object.ptr()) != 0 && PySequence_Size(object.ptr()) == 2) {
+    const auto sequence = py::reinterpret_borrow<py::sequence>(object);
+    const auto first = numberOf(sequence[0]), second = numberOf(sequence[1]);
+    if (first && second) return {*first, *second};
+  }
+  PyErr_Clear();  // of an object whose size cannot be told
+  throw py::type_error(what + " must be a pair of numbers, not " + shown(object));
+}
+
+BodyArg bodyArgOf(const py::handle& object) {
+  if (py::isinstance<py::str>(object)) return {0, py::cast<std::string>(object)};
+  if (PyIndex_Check(object.ptr()) != 0 && !py::isinstance<py::bool_>(object)) {
+    const py::ssize_t number = PyNumber_AsSsize_t(object.ptr(), nullptr);
+    if (PyErr_Occurred() == nullptr) return {number, std::nullopt};
+    PyErr_Clear();
+  }
+  throw py::type_error("a body goes by its number or its name, not by " + shown(object));
+}
+
+}  // namespace
+
+/// Arguments of these types are refused in words that name no C++ types.
+namespace pybind11::detail {
+
+template <>
+struct type_caster<Pair> {
+  PYBIND11_TYPE_CASTER(Pair, const_name("Tuple[float, float]"));
+  bool load(handle object, bool) {
+    value = pairOf(object, "a place, a velocity or a force");
+    return true;
+  }
+  static handle cast(const Pair& pair, return_value_policy, handle) {
+    return make_tuple(pair.first, pair.second).release();
+  }
+};
+
+template <>
+struct type_caster<BodyArg> {
+  PYBIND11_TYPE_CASTER(BodyArg, const_name("Union[int, str]"));
+  bool load(handle object, bool) {
+    value = bodyArgOf(object);
+    return true;
+  }
+};
+
+}  // namespace pybind11::detail
+
+namespace {
 
 Vec2 vec(const Pair& p) { return {p.first, p.second}; }
 
@@ -53,14 +127,15 @@ class PyWorld {
 
 using Use = PyWorld::Use;
 
-Body bodyOf(const merge2d::World& world, const BodyArg& body) {
-  if (const auto* name = std::get_if<std::string>(&body)) return world.find(*name);
-  const std::int64_t number = std::get<std::int64_t>(body);
-  if (number >= 0 && number < static_cast<std::int64_t>(world.bodyCount())) {
-    return static_cast<Body>(number);
-  }
-  throw py::index_error("there is no body " + std::to_string(number) + ": the world has " +
-                        std::to_string(world.bodyCount()));
+/// A body of a world or a scene.
+template <class Home>
+Body bodyOf(const Home& home, const BodyArg& body) {
+  if (body.name) return home.find(*body.name);
+  const auto count = static_cast<std::int64_t>(home.bodyCount());
+  if (body.number >= 0 && body.number < count) return static_cast<Body>(body.number);
+  constexpr bool kIsWorld = std::is_same_v<Home, merge2d::World>;
+  throw py::index_error("there is no body " + std::to_string(body.number) + ": the " +
+                        (kIsWorld ? "world" : "scene") + " has " + std::to_string(count));
 }
 
 /// Many steps at once, such that Ctrl-C is heard.
@@ -212,17 +287,42 @@ merge2d::Mode modeOf(const std::string& name) {
   return static_cast<merge2d::Mode>(mode);
 }
 
+template <class T>
+constexpr const char* kKindOf = "made of other numbers";  // key frames
+template <>
+constexpr const char* kKindOf<double> = "a number";
+template <>
+constexpr const char* kKindOf<std::string> = "a text";
+template <>
+constexpr const char* kKindOf<bool> = "True or False";
+
+/// An argument of a function that takes many; TypeError names it.
+template <class T>
+T argument(const py::dict& args, const char* name) {
+  const py::object object = args[name];
+  if constexpr (std::is_same_v<T, Pair>) {
+    return pairOf(object, "'" + std::string(name) + "'");
+  } else {
+    try {
+      return py::cast<T>(object);
+    } catch (const py::cast_error&) {
+      throw py::type_error("'" + std::string(name) + "' must be " + kKindOf<T> + ", not " +
+                           shown(object));
+    }
+  }
+}
+
 m2_script scriptOf(const py::dict& script) {
   m2_script out = m2_body_def_default().script;
-  const std::string kind = py::cast<std::string>(script["kind"]);
+  const std::string kind = argument<std::string>(script, "kind");
   out.kind = kind == "steady" ? M2_STEADY : M2_SINUSOID;
   if (kind == "steady") {
-    out.velocity = vec(py::cast<Pair>(script["velocity"]));
-    out.spin = py::cast<double>(script["spin"]);
+    out.velocity = vec(argument<Pair>(script, "velocity"));
+    out.spin = argument<double>(script, "spin");
   } else {
-    out.axis = vec(py::cast<Pair>(script["axis"]));
-    out.amplitude = py::cast<double>(script["amplitude"]);
-    out.period = py::cast<double>(script["period"]);
+    out.axis = vec(argument<Pair>(script, "axis"));
+    out.amplitude = argument<double>(script, "amplitude");
+    out.period = argument<double>(script, "period");
   }
   return out;
 }
@@ -240,24 +340,24 @@ template <class Add>
 Body addBodyTo(const py::dict& args, Add&& add) {
   merge2d::BodyDef def;
   std::vector<m2_key> keys;
-  def.name = py::cast<std::string>(args["name"]);
-  def.motion = motionOf(py::cast<std::string>(args["motion"]));
-  def.position = vec(py::cast<Pair>(args["at"]));
-  def.angle = py::cast<double>(args["angle"]);
-  def.velocity = vec(py::cast<Pair>(args["velocity"]));
-  def.spin = py::cast<double>(args["spin"]);
+  def.name = argument<std::string>(args, "name");
+  def.motion = motionOf(argument<std::string>(args, "motion"));
+  def.position = vec(argument<Pair>(args, "at"));
+  def.angle = argument<double>(args, "angle");
+  def.velocity = vec(argument<Pair>(args, "velocity"));
+  def.spin = argument<double>(args, "spin");
   def.shapes = py::cast<std::vector<merge2d::Shape>>(args["shapes"]);
-  def.mass = py::cast<double>(args["mass"]);
-  def.density = py::cast<double>(args["density"]);
-  def.friction = py::cast<double>(args["friction"]);
-  def.restitution = py::cast<double>(args["restitution"]);
-  def.rolling = py::cast<double>(args["rolling"]);
-  def.surface_velocity = py::cast<double>(args["surface_velocity"]);
-  def.pinned_until = py::cast<double>(args["pinned_until"]);
+  def.mass = argument<double>(args, "mass");
+  def.density = argument<double>(args, "density");
+  def.friction = argument<double>(args, "friction");
+  def.restitution = argument<double>(args, "restitution");
+  def.rolling = argument<double>(args, "rolling");
+  def.surface_velocity = argument<double>(args, "surface_velocity");
+  def.pinned_until = argument<double>(args, "pinned_until");
   if (const py::object script = args["script"]; !script.is_none()) {
-    if (py::cast<std::string>(script["kind"]) == "keyframes") {
+    if (argument<std::string>(script, "kind") == "keyframes") {
       for (const auto& [t, x, y, angle] :
-           py::cast<std::vector<std::tuple<double, double, double, double>>>(script["keys"])) {
+           argument<std::vector<std::tuple<double, double, double, double>>>(script, "keyframes")) {
         keys.push_back({t, {x, y}, angle});
       }
       def.script.kind = M2_KEYFRAMES;
@@ -275,51 +375,58 @@ Body addBody(To& to, const py::dict& args) {
   return addBodyTo(args, [&](const merge2d::BodyDef& def) { return to.add(def); });
 }
 
-merge2d::SpringDef springDef(Body body, const Pair& anchor, const Pair& to,
-                             const std::optional<Body>& to_body, double stiffness, double damping,
-                             double rest_length) {
+/// Adds a spring to a scene or a world.
+template <class Home>
+merge2d::Spring addSpring(Home& home, const BodyArg& body, const Pair& anchor, const Pair& to,
+                          const std::optional<BodyArg>& to_body, double stiffness, double damping,
+                          double rest_length) {
   merge2d::SpringDef def = merge2d::springDef();
-  def.body = body;
+  def.body = bodyOf(home, body);
   def.anchor = vec(anchor);
   def.to = vec(to);
-  def.to_body = to_body.value_or(M2_NO_BODY);
+  if (to_body) def.to_body = bodyOf(home, *to_body);
   def.stiffness = stiffness;
   def.damping = damping;
   def.rest_length = rest_length;
-  return def;
+  return home.add(def);
 }
 
-/// From the keyword arguments of add_joint.
-merge2d::JointDef jointDef(const py::dict& args) {
+/// From the keyword arguments of add_joint, for a scene or a world.
+template <class Home>
+merge2d::JointDef jointDef(const Home& home, const py::dict& args) {
   static constexpr const char* kKinds[] = {"revolute", "weld", "distance", "prismatic"};
   merge2d::JointDef def = merge2d::jointDef();
-  const std::string kind = py::cast<std::string>(args["kind"]);
+  const std::string kind = argument<std::string>(args, "kind");
   const auto* found = std::find(std::begin(kKinds), std::end(kKinds), kind);
   if (found == std::end(kKinds)) {
     throw merge2d::InputError("there is no kind of joint '" + kind +
                               "': the kinds are revolute, weld, distance, prismatic");
   }
   def.kind = static_cast<m2_joint_kind>(found - std::begin(kKinds));
-  def.a = py::cast<Body>(args["a"]);
-  if (!args["b"].is_none()) def.b = py::cast<Body>(args["b"]);
-  def.at = vec(py::cast<Pair>(args["at"]));
-  def.to = vec(py::cast<Pair>(args["to"]));
-  def.axis = vec(py::cast<Pair>(args["axis"]));
-  def.length = py::cast<double>(args["length"]);
-  def.stiffness = py::cast<double>(args["stiffness"]);
-  def.damping = py::cast<double>(args["damping"]);
+  def.a = bodyOf(home, bodyArgOf(args["a"]));
+  if (!args["b"].is_none()) def.b = bodyOf(home, bodyArgOf(args["b"]));
+  def.at = vec(argument<Pair>(args, "at"));
+  def.to = vec(argument<Pair>(args, "to"));
+  def.axis = vec(argument<Pair>(args, "axis"));
+  def.length = argument<double>(args, "length");
+  def.stiffness = argument<double>(args, "stiffness");
+  def.damping = argument<double>(args, "damping");
   if (!args["limits"].is_none()) {
     def.limited = true;
-    std::tie(def.lower, def.upper) = py::cast<Pair>(args["limits"]);
+    const Pair limits = argument<Pair>(args, "limits");
+    def.lower = limits.first;
+    def.upper = limits.second;
   }
   if (!args["motor"].is_none()) {
     def.motor = true;
-    std::tie(def.motor_speed, def.motor_strength) = py::cast<Pair>(args["motor"]);
+    const Pair motor = argument<Pair>(args, "motor");
+    def.motor_speed = motor.first;
+    def.motor_strength = motor.second;
   }
-  def.compliance = py::cast<double>(args["compliance"]);
-  def.break_force = py::cast<double>(args["break_force"]);
-  def.break_torque = py::cast<double>(args["break_torque"]);
-  def.collide = py::cast<bool>(args["collide"]);
+  def.compliance = argument<double>(args, "compliance");
+  def.break_force = argument<double>(args, "break_force");
+  def.break_torque = argument<double>(args, "break_torque");
+  def.collide = argument<bool>(args, "collide");
   return def;
 }
 
@@ -331,13 +438,20 @@ void change(PyWorld& self, const BodyArg& body, Do&& work) {
 }
 
 void bindShapes(py::module_& m) {
-  py::class_<merge2d::Shape>(m, "Shape");
-  m.def("circle", [](double radius, const Pair& center) {
-    return merge2d::Shape::circle(radius, vec(center));
+  py::class_<merge2d::Shape>(m, "Shape").def("__repr__", [](const merge2d::Shape& shape) {
+    static constexpr const char* kKinds[] = {"circle", "box", "polygon"};
+    return std::string("<merge2d.Shape: ") + kKinds[shape.get().kind] + ">";
   });
-  m.def("box", [](double width, double height, const Pair& center, double angle) {
-    return merge2d::Shape::box(width, height, vec(center), angle);
-  });
+  m.def(
+      "circle",
+      [](double radius, const Pair& center) { return merge2d::Shape::circle(radius, vec(center)); },
+      py::arg("radius"), py::arg("center"));
+  m.def(
+      "box",
+      [](double width, double height, const Pair& center, double angle) {
+        return merge2d::Shape::box(width, height, vec(center), angle);
+      },
+      py::arg("width"), py::arg("height"), py::arg("center"), py::arg("angle"));
   m.def("polygon", [](const std::vector<Pair>& outline) {
     std::vector<Vec2> vertices;
     for (const Pair& p : outline) vertices.push_back(vec(p));
@@ -360,17 +474,17 @@ void bindScene(py::module_& m) {
            [](Scene& s, const std::string& key, const std::string& value) { s.set(key, value); })
       .def("get", [](const Scene& s, const std::string& key) { return s.get(key); })
       .def("add_body", &addBody<Scene>)
-      .def("add_spring",
-           [](Scene& s, Body body, const Pair& anchor, const Pair& to, std::optional<Body> to_body,
-              double stiffness, double damping, double rest_length) {
-             return s.add(springDef(body, anchor, to, to_body, stiffness, damping, rest_length));
+      .def("add_spring", &addSpring<Scene>)
+      .def("add_joint", [](Scene& s, const py::dict& args) { return s.add(jointDef(s, args)); })
+      .def("add_impulse",
+           [](Scene& s, const BodyArg& body, const Pair& at, const Pair& impulse, double time) {
+             s.addImpulse(bodyOf(s, body), vec(at), vec(impulse), time);
            })
-      .def("add_joint", [](Scene& s, const py::dict& args) { return s.add(jointDef(args)); })
-      .def("add_impulse", [](Scene& s, Body body, const Pair& at, const Pair& impulse,
-                             double time) { s.addImpulse(body, vec(at), vec(impulse), time); })
-      .def("add_force", [](Scene& s, Body body, const Pair& at, const Pair& force, double from,
-                           double until) { s.addForce(body, vec(at), vec(force), from, until); })
-      .def("add_magnet", &Scene::addMagnet)
+      .def("add_force",
+           [](Scene& s, const BodyArg& body, const Pair& at, const Pair& force, double from,
+              double until) { s.addForce(bodyOf(s, body), vec(at), vec(force), from, until); })
+      .def("add_magnet", [](Scene& s, const BodyArg& body, double from,
+                            double until) { s.addMagnet(bodyOf(s, body), from, until); })
       .def("add_emitter",
            [](Scene& s, const py::dict& args, double every, std::uint32_t count, double start,
               const Pair& spread, std::uint64_t seed) {
@@ -385,8 +499,14 @@ void bindScene(py::module_& m) {
           py::arg("center"), py::arg("height"),
           "The view of pictures: `height` metres about `center` [m].")
       .def(
-          "follow", [](Scene& s, std::optional<Body> body) { s.follow(body.value_or(M2_NO_BODY)); },
-          py::arg("body"), "The view moves with a body, by its number; None stops that.")
+          "follow",
+          [](Scene& s, const std::optional<BodyArg>& body) {
+            s.follow(body ? bodyOf(s, *body) : M2_NO_BODY);
+          },
+          py::arg("body"), "The view moves with a body, by its number or name; None stops that.")
+      .def(
+          "body", [](const Scene& s, const BodyArg& body) { return bodyOf(s, body); },
+          py::arg("body"), "The number of a body by its name; InputError suggests another.")
       .def("body_count", &Scene::bodyCount)
       .def("to_toml", &Scene::toToml)
       .def("warnings", &Scene::warnings)
@@ -407,7 +527,8 @@ void bindTime(py::class_<PyWorld>& c) {
       .def("steps", [](PyWorld& w) { return Use(w)->steps(); })
       .def("time", [](PyWorld& w) { return Use(w)->time(); })
       .def("time_step", [](PyWorld& w) { return Use(w)->timeStep(); })
-      .def("set_time_step", [](PyWorld& w, double h) { Use(w)->setTimeStep(h); })
+      .def(
+          "set_time_step", [](PyWorld& w, double h) { Use(w)->setTimeStep(h); }, py::arg("h"))
       .def("mode", [](PyWorld& w) { return m2_mode_name(static_cast<m2_mode>(Use(w)->mode())); })
       .def("set_mode", [](PyWorld& w, const std::string& mode) { Use(w)->setMode(modeOf(mode)); })
       .def("gravity",
@@ -419,9 +540,12 @@ void bindTime(py::class_<PyWorld>& c) {
       .def("set", [](PyWorld& w, const std::string& k, const std::string& v) { Use(w)->set(k, v); })
       .def("get", [](PyWorld& w, const std::string& key) { return Use(w)->get(key); })
       .def("save", [](PyWorld& w) { return py::bytes(Use(w)->save()); })
-      .def("restore", [](PyWorld& w, const py::bytes& bytes, bool other_settings) {
-        Use(w)->restore(std::string_view(bytes), other_settings);
-      });
+      .def(
+          "restore",
+          [](PyWorld& w, const py::bytes& bytes, bool other_settings) {
+            Use(w)->restore(std::string_view(bytes), other_settings);
+          },
+          py::arg("state"), py::arg("other_settings"));
 }
 
 void bindChanges(py::class_<PyWorld>& c) {
@@ -436,13 +560,13 @@ void bindChanges(py::class_<PyWorld>& c) {
               const std::optional<BodyArg>& to_body, double stiffness, double damping,
               double rest_length) {
              const Use world(w);
-             std::optional<Body> other;
-             if (to_body) other = bodyOf(*world, *to_body);
-             return world->add(springDef(bodyOf(*world, body), anchor, to, other, stiffness,
-                                         damping, rest_length));
+             return addSpring(*world, body, anchor, to, to_body, stiffness, damping, rest_length);
            })
       .def("add_joint",
-           [](PyWorld& w, const py::dict& args) { return Use(w)->add(jointDef(args)); })
+           [](PyWorld& w, const py::dict& args) {
+             const Use world(w);
+             return world->add(jointDef(*world, args));
+           })
       .def(
           "remove_body",
           [](PyWorld& w, const BodyArg& b) {
@@ -541,7 +665,7 @@ void bindViews(py::class_<PyWorld>& c) {
       .def("body_count", [](PyWorld& w) { return Use(w)->bodyCount(); })
       .def(
           "name",
-          [](PyWorld& w, std::int64_t body) {
+          [](PyWorld& w, const BodyArg& body) {
             const Use world(w);
             return std::string(world->info(bodyOf(*world, body)).name);
           },
@@ -603,18 +727,25 @@ void bindRecords(py::class_<PyWorld>& c) {
           "[rad].")
       .def("cast_ray", &castRay, py::arg("start"), py::arg("end"),
            "The first body on the way: body, collection, fraction, point, normal; or None.")
-      .def("render",
-           [](PyWorld& w, int width, int height, const std::string& overlays,
-              const std::string& theme, bool transparent,
-              const std::optional<std::tuple<double, double, double>>& camera) {
-             return render(w, {width, height, overlays, theme, transparent, camera});
-           })
-      .def("write_png", [](PyWorld& w, const std::string& path, int width, int height,
-                           const std::string& overlays, const std::string& theme, bool transparent,
-                           const std::optional<std::tuple<double, double, double>>& camera) {
-        const PictureArgs args{width, height, overlays, theme, transparent, camera};
-        Use(w)->writePng(path, args.def());
-      });
+      .def(
+          "render",
+          [](PyWorld& w, int width, int height, const std::string& overlays,
+             const std::string& theme, bool transparent,
+             const std::optional<std::tuple<double, double, double>>& camera) {
+            return render(w, {width, height, overlays, theme, transparent, camera});
+          },
+          py::arg("width"), py::arg("height"), py::arg("overlays"), py::arg("theme"),
+          py::arg("transparent"), py::arg("camera"))
+      .def(
+          "write_png",
+          [](PyWorld& w, const std::string& path, int width, int height,
+             const std::string& overlays, const std::string& theme, bool transparent,
+             const std::optional<std::tuple<double, double, double>>& camera) {
+            const PictureArgs args{width, height, overlays, theme, transparent, camera};
+            Use(w)->writePng(path, args.def());
+          },
+          py::arg("path"), py::arg("width"), py::arg("height"), py::arg("overlays"),
+          py::arg("theme"), py::arg("transparent"), py::arg("camera"));
 }
 
 }  // namespace

@@ -93,8 +93,9 @@ struct World::Impl {
       throw InputError(fmt::format("there is no body {}: the world has {}", index(body), count));
     }
     if (!setup.state[body].alive) {
-      throw InputError(
-          fmt::format("body {} ('{}') is not in the world now", index(body), nameOf(body)));
+      const std::string& name = nameOf(body);
+      throw InputError(fmt::format("body {}{} is not in the world now", index(body),
+                                   name.empty() ? name : " ('" + name + "')"));
     }
     return body;
   }

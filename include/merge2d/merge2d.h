@@ -15,7 +15,9 @@
  * world belongs to the world. Nothing that is passed in is kept.
  *
  * Errors: a function that can fail returns an `m2_status`, and then changes nothing but what is
- * said there. `m2_error()` has the message. No exception leaves the library.
+ * said there. `m2_error()` has the message. No exception leaves the library. A null pointer in
+ * place of a scene or a world is such an error; the few functions without a status give NaN, -1, 0
+ * or null for it.
  *
  * Threads: different worlds may be used by different threads at the same time. One world, or one
  * scene, may be used by one thread at a time, whether functions take it as const or not. A scene
@@ -168,7 +170,7 @@ typedef struct m2_body_def {
   m2_script script;        /**< of a scripted body */
 } m2_body_def;
 
-/** Dynamic at the origin, density 1, friction 0.6, all else 0; without a shape. */
+/** Dynamic at the origin, density 1, friction 0.6, all else 0; without a shape and a script. */
 M2_API m2_body_def m2_body_def_default(void);
 
 /** From a point of a body to a point of the world or of another body. */
@@ -269,6 +271,8 @@ M2_API m2_status m2_scene_follow(m2_scene* scene, m2_body body);
 
 /** How many bodies have been added. */
 M2_API size_t m2_scene_body_count(const m2_scene* scene);
+/** The body of that name; an unknown one is an error that suggests another. */
+M2_API m2_status m2_scene_find_body(const m2_scene* scene, const char* name, m2_body* body);
 /** The scene as a file that loads to the same scene again. */
 M2_API m2_status m2_scene_to_toml(const m2_scene* scene, char** toml);
 /** Warnings of loading, one a line; "" when there are none. */

@@ -5,9 +5,10 @@
  * <merge2d/merge2d.h>.
  *
  * A Scene or a World owns its object and can be moved. A moved-from one may only be
- * assigned or destroyed. Spans into a world are valid until it is stepped, changed or destroyed,
- * but for the watched ones, which live as long as the world. Failures are exceptions below; they
- * are thrown in your code, so that the library and your program may come from different compilers.
+ * assigned or destroyed: all else is an InputError. Spans into a world are valid until it is
+ * stepped, changed or destroyed, but for the watched ones, which live as long as the world.
+ * Failures are exceptions below; they are thrown in your code, so that the library and your program
+ * may come from different compilers.
  */
 
 #include <charconv>
@@ -124,6 +125,7 @@ using Decision = m2_decision;
 using Counts = m2_counts;
 /** See m2_joint_state. */
 using JointState = m2_joint_state;
+/** See m2_spring_state. */
 using SpringState = m2_spring_state;
 /** See m2_sums. */
 using Sums = m2_sums;
@@ -329,7 +331,16 @@ class Scene {
   void follow(Body body) { detail::check(m2_scene_follow(get(), body)); }
 
   /** See m2_scene_body_count(). */
-  std::size_t bodyCount() const { return m2_scene_body_count(get()); }
+  std::size_t bodyCount() const {
+    if (get() == nullptr) throw InputError("this scene was moved away");
+    return m2_scene_body_count(get());
+  }
+  /** See m2_scene_find_body(). */
+  Body find(const std::string& name) const {
+    Body body = M2_NO_BODY;
+    detail::check(m2_scene_find_body(get(), name.c_str(), &body));
+    return body;
+  }
   /** See m2_scene_to_toml(). */
   std::string toToml() const {
     char* text = nullptr;
@@ -366,18 +377,18 @@ class World {
   /** See m2_world_step(). */
   void step(std::uint64_t count = 1) { detail::check(m2_world_step(get(), count)); }
   /** See m2_world_steps(). */
-  std::int64_t steps() const { return m2_world_steps(get()); }
-  double time() const { return m2_world_time(get()); }           ///< [s]
-  double timeStep() const { return m2_world_time_step(get()); }  ///< h [s]
+  std::int64_t steps() const { return m2_world_steps(here()); }
+  double time() const { return m2_world_time(here()); }           ///< [s]
+  double timeStep() const { return m2_world_time_step(here()); }  ///< h [s]
   /** See m2_world_set_time_step(). */
   void setTimeStep(double h) { detail::check(m2_world_set_time_step(get(), h)); }
 
   /** See m2_world_mode(). */
-  Mode mode() const { return static_cast<Mode>(m2_world_mode(get())); }
+  Mode mode() const { return static_cast<Mode>(m2_world_mode(here())); }
   /** See m2_world_set_mode(). */
   void setMode(Mode mode) { detail::check(m2_world_set_mode(get(), static_cast<m2_mode>(mode))); }
   /** See m2_world_gravity(). */
-  Vec2 gravity() const { return m2_world_gravity(get()); }
+  Vec2 gravity() const { return m2_world_gravity(here()); }
   /** See m2_world_set_gravity(). */
   void setGravity(Vec2 gravity) { detail::check(m2_world_set_gravity(get(), gravity)); }
   /** See m2_world_set(). */
@@ -406,7 +417,7 @@ class World {
   }
 
   /** See m2_world_body_count(). */
-  std::size_t bodyCount() const { return m2_world_body_count(get()); }
+  std::size_t bodyCount() const { return m2_world_body_count(here()); }
   /** See m2_world_body_info(). */
   BodyInfo info(Body body) const {
     BodyInfo info{};
@@ -494,12 +505,12 @@ class World {
   void wake(Body body) { detail::check(m2_world_wake(get(), body)); }
 
   /** Rows of three: x, y [m], angle [rad]. Kept up to date from the first call on. */
-  std::span<const double> poses() { return rows(m2_world_watch_poses(get()), 3); }
+  std::span<const double> poses() { return rows(m2_world_watch_poses(here()), 3); }
   /** Rows of three: vx, vy [m/s], omega [rad/s]. */
-  std::span<const double> velocities() { return rows(m2_world_watch_velocities(get()), 3); }
+  std::span<const double> velocities() { return rows(m2_world_watch_velocities(here()), 3); }
   /** Ids of collections, or -1. */
   std::span<const std::int32_t> collectionIds() {
-    return rows(m2_world_watch_collections(get()), 1);
+    return rows(m2_world_watch_collections(here()), 1);
   }
 
   /** See m2_world_contacts(). */
@@ -580,8 +591,9 @@ class World {
 
   /** RGBA, rows from the top. */
   std::vector<std::uint8_t> draw(const PictureDef& def = pictureDef()) {
-    std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(def.width) *
-                                   static_cast<std::size_t>(def.height));
+    // Of sizes that the library refuses, nothing.
+    const auto pixels = [](int n) { return n < 0 || n > 16384 ? 0 : static_cast<std::size_t>(n); };
+    std::vector<std::uint8_t> rgba(4 * pixels(def.width) * pixels(def.height));
     detail::check(m2_world_draw(get(), &def, rgba.data(), rgba.size()));
     return rgba;
   }
@@ -594,6 +606,11 @@ class World {
   m2_world* get() const { return world_.get(); }
 
  private:
+  /** For functions that have no status. */
+  m2_world* here() const {
+    if (get() == nullptr) throw InputError("this world was moved away");
+    return get();
+  }
   static m2_world* made(const Scene& scene, Mode mode) {
     m2_world* world = nullptr;
     detail::check(m2_world_new(scene.get(), static_cast<m2_mode>(mode), &world));

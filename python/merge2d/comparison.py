@@ -1,9 +1,11 @@
 """One scene in the four modes."""
 
+import math
 from time import perf_counter
 
 import numpy as np
 
+from ._merge2d import InputError
 from .scenes import Scene
 from .worlds import MODES, World
 
@@ -57,6 +59,10 @@ def compare(scene, seconds=None, *, modes=MODES, **settings):
         scene = Scene(scene, **settings)
         settings = {}
     seconds = scene.get("duration") if seconds is None else seconds
+    if not 0.0 < seconds < math.inf:
+        raise InputError(f"'seconds' must be positive, but is {seconds}")
+    if isinstance(modes, str):
+        modes = [modes]
     modes = ["reference"] + [mode for mode in modes if mode != "reference"]
     worlds = {mode: World(scene, mode, **settings) for mode in modes}
     steps = max(1, round(seconds / worlds["reference"].time_step))

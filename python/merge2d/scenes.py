@@ -1,6 +1,7 @@
 """Scenes: the bodies, springs, joints and settings that a world begins with."""
 
 import math
+import numbers
 import os
 
 from . import _merge2d
@@ -29,7 +30,11 @@ def polygon(outline):
         if len(outline.interiors) > 0:
             raise _merge2d.InputError("a polygon with holes cannot be a shape: cut it first")
         outline = outline.exterior.coords
-    corners = [(float(p[0]), float(p[1])) for p in outline]
+    try:
+        corners = [(float(p[0]), float(p[1])) for p in outline]
+    except (TypeError, IndexError, ValueError):
+        raise TypeError("a shape is a circle, a box, a polygon, corners [(x, y), …] or a geometry of "
+                        f"Shapely, not {outline!r:.60}") from None
     if len(corners) > 1 and corners[0] == corners[-1]:
         corners.pop()
     return _merge2d.polygon(corners)
@@ -43,6 +48,8 @@ def _shapes(shapes):
         return [polygon(shapes)]
     if hasattr(shapes, "geoms"):
         return [polygon(part) for part in shapes.geoms]
+    if not hasattr(shapes, "__iter__"):
+        return [polygon(shapes)]  # which refuses it
     shapes = list(shapes)
     if shapes and not isinstance(shapes[0], _merge2d.Shape) and not hasattr(shapes[0], "exterior"):
         return [polygon(shapes)]  # one outline
@@ -53,8 +60,8 @@ def body_args(name, shapes, at, angle, motion, velocity, spin, mass, density, fr
               restitution, rolling, surface_velocity, pinned_until, script):
     """The arguments of `add_body` as the module takes them."""
     return {
-        "name": name, "shapes": _shapes(shapes), "at": tuple(at), "angle": angle,
-        "motion": motion if script is None else "scripted", "velocity": tuple(velocity),
+        "name": name, "shapes": _shapes(shapes), "at": at, "angle": angle,
+        "motion": motion if script is None else "scripted", "velocity": velocity,
         "spin": spin, "mass": 0.0 if mass is None else _positive("mass", mass),
         "density": density, "friction": friction, "restitution": restitution, "rolling": rolling,
         "surface_velocity": surface_velocity, "pinned_until": pinned_until,
@@ -63,12 +70,16 @@ def body_args(name, shapes, at, angle, motion, velocity, spin, mass, density, fr
 
 
 def _positive(what, value):
+    if not isinstance(value, numbers.Real):
+        raise TypeError(f"'{what}' must be a number, not {value!r:.60}")
     if not value > 0.0:
         raise _merge2d.InputError(f"'{what}' must be positive, but is {value}")
     return value
 
 
 def _script(script):
+    if not hasattr(script, "keys"):
+        raise TypeError(f"'script' must be a dictionary, not {script!r:.60}")
     script = dict(script)
     kinds = {"amplitude": "sinusoid", "keyframes": "keyframes", "velocity": "steady",
              "spin": "steady"}
@@ -81,11 +92,11 @@ def _script(script):
             "a script has axis, amplitude and period; or keyframes = [(t, x, y, angle), …]; or "
             f"velocity and spin; but not {sorted(wrong or script)}")
     if kind == "keyframes":
-        return {"kind": kind, "keys": [tuple(map(float, key)) for key in script["keyframes"]]}
+        return {"kind": kind, "keyframes": [tuple(key) for key in script["keyframes"]]}
     if kind == "steady":
-        return {"kind": kind, "velocity": tuple(script.get("velocity", (0.0, 0.0))),
+        return {"kind": kind, "velocity": script.get("velocity", (0.0, 0.0)),
                 "spin": script.get("spin", 0.0)}
-    return {"kind": kind, "axis": tuple(script.get("axis", (1.0, 0.0))),
+    return {"kind": kind, "axis": script.get("axis", (1.0, 0.0)),
             "amplitude": script["amplitude"], "period": script.get("period", 1.0)}
 
 
@@ -93,7 +104,7 @@ def joint_args(kind, a, b, at, to, axis, length, stiffness, damping, limits, mot
                break_force, break_torque, collide):
     """The arguments of `add_joint` as the module takes them."""
     return {
-        "kind": kind, "a": a, "b": b, "at": tuple(at), "to": tuple(to), "axis": tuple(axis),
+        "kind": kind, "a": a, "b": b, "at": at, "to": to, "axis": axis,
         "length": 0.0 if length is None else _positive("length", length), "stiffness": stiffness,
         "damping": damping, "limits": limits, "motor": motor, "compliance": compliance,
         "break_force": break_force, "break_torque": break_torque, "collide": collide,
@@ -130,6 +141,11 @@ def number_of(text):
     return text
 
 
+def _is_text(source):
+    """Whether a word is a scene itself, not its name or its path."""
+    return "\n" in source or ("=" in source or "[" in source) and not os.path.exists(source)
+
+
 class Scene(_merge2d.Scene):
     """Bodies, springs, joints and settings.
 
@@ -146,13 +162,15 @@ class Scene(_merge2d.Scene):
     <merge2d.Scene of 2 bodies>
     """
 
+    __slots__ = ()  # a misspelled name of an attribute is an AttributeError
+
     def __init__(self, source=None, **settings):
         changes = [f"{key_of(name)}={text_of(value)}" for name, value in settings.items()]
         if source is None:
             super().__init__()
             for name, value in settings.items():
                 self.set(key_of(name), value)
-        elif isinstance(source, str) and "\n" in source:
+        elif isinstance(source, str) and _is_text(source):
             super().__init__(_merge2d.Scene.parse(source, "scene", changes))
         else:
             super().__init__(_merge2d.Scene.load(os.fspath(source), changes))

@@ -40,6 +40,8 @@ class World(_merge2d.World):
     True
     """
 
+    __slots__ = ("_scene", "_noting")  # a misspelled name of an attribute is an AttributeError
+
     def __init__(self, scene, mode="merge+sleep", *, decisions=False, **settings):
         if not isinstance(scene, Scene):
             scene = Scene(scene, **settings)
@@ -97,7 +99,7 @@ class World(_merge2d.World):
 
     @gravity.setter
     def gravity(self, gravity):
-        super().set_gravity(tuple(gravity))
+        super().set_gravity(gravity)
 
     def set(self, key, value):
         """Changes a setting: `world.set("merging.velocity", 0.02)`."""
@@ -181,7 +183,6 @@ class World(_merge2d.World):
                   length=None, stiffness=0.0, damping=0.0, limits=None, motor=None,
                   compliance=0.0, break_force=math.inf, break_torque=math.inf, collide=False):
         """As Scene.add_joint."""
-        a, b = self.body(a), None if b is None else self.body(b)
         return super().add_joint(joint_args(kind, a, b, at, to, axis, length, stiffness, damping,
                                             limits, motor, compliance, break_force, break_torque,
                                             collide))

@@ -16,6 +16,7 @@ using merge2d::World;
 using merge2d::testing_api::refusal;
 using merge2d::testing_api::towerOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST(PublicScene, NamesTheFaultOfADescription) {
   Scene scene;
@@ -31,6 +32,30 @@ TEST(PublicScene, NamesTheFaultOfADescription) {
   auto spring = merge2d::springDef();
   spring.body = 3;
   EXPECT_THAT(refusal([&] { scene.add(spring); }), HasSubstr("no body 3"));
+}
+
+TEST(PublicScene, AScriptedBodyNeedsAScript) {
+  Scene scene;
+  merge2d::BodyDef lift{.motion = merge2d::Motion::Scripted, .shapes = {Shape::box(1.0, 1.0)}};
+  EXPECT_THAT(refusal([&] { scene.add(lift); }), HasSubstr("needs a script"));
+  lift.script.kind = M2_KEYFRAMES;
+  EXPECT_THAT(refusal([&] { scene.add(lift); }), HasSubstr("at least one key frame"));
+  lift.script.kind = M2_STEADY;
+  lift.script.velocity = {0.0, 1.0};
+  EXPECT_EQ(scene.add(lift), 0U);
+}
+
+TEST(PublicScene, FindsABodyByItsName) {
+  const Scene scene = Scene::load("books");
+  const merge2d::Body diary = scene.find("diary");
+  EXPECT_EQ(World(scene).find("diary"), diary);
+  EXPECT_THAT(refusal([&] { scene.find("dairy"); }), HasSubstr("did you mean 'diary'"));
+}
+
+TEST(PublicScene, RefusesAValueInWordsOfALibrary) {
+  Scene scene;
+  EXPECT_THAT(refusal([&] { scene.set("step", 0.0); }), StartsWith("step=0: 'step'"));
+  EXPECT_THAT(refusal([] { Scene::load("books", {"gravity=3"}); }), StartsWith("gravity=3: "));
 }
 
 TEST(PublicScene, APolygonNeedNotBeConvexNorCounterClockwise) {

@@ -62,7 +62,18 @@ TEST(PublicWorld, ABodyThatIsNotThereHasNoNumbers) {
   EXPECT_EQ(world.collectionIds()[1], -1);
   EXPECT_FALSE(world.info(1).present);
   EXPECT_TRUE(world.info(2).present);
-  EXPECT_THAT(refusal([&] { world.setPose(1, {0.0, 0.0}, 0.0); }), HasSubstr("not in the world"));
+  EXPECT_THAT(refusal([&] {
+                world.setPose(1, {0.0, 0.0}, 0.0);
+              }),
+              HasSubstr("body 1 ('box 0') is not in the world"));
+}
+
+TEST(PublicWorld, ABodyWithoutANameGoesByItsNumber) {
+  Scene scene;
+  scene.add({.shapes = {Shape::circle(0.5)}});
+  World world(scene);
+  world.removeBody(0);
+  EXPECT_THAT(refusal([&] { world.drag(0, {0.0, 0.0}); }), HasSubstr("body 0 is not in the world"));
 }
 
 TEST(PublicWorld, ContinuesFromASavedStateBitForBit) {
@@ -290,9 +301,38 @@ TEST(PublicWorld, NullPointersAreErrors) {
   EXPECT_EQ(m2_world_new(nullptr, M2_MERGE, nullptr), M2_INPUT_ERROR);
   EXPECT_EQ(m2_scene_load(nullptr, nullptr, 0, nullptr), M2_INPUT_ERROR);
   EXPECT_EQ(m2_world_watch_poses(nullptr), nullptr);
+  EXPECT_TRUE(std::isnan(m2_world_time(nullptr)));
+  EXPECT_TRUE(std::isnan(m2_world_time_step(nullptr)));
+  EXPECT_TRUE(std::isnan(m2_world_gravity(nullptr).y));
+  EXPECT_EQ(m2_world_steps(nullptr), -1);
+  EXPECT_EQ(m2_world_mode(nullptr), M2_REFERENCE);
+  EXPECT_EQ(m2_world_body_count(nullptr), 0U);
+  EXPECT_EQ(m2_scene_body_count(nullptr), 0U);
   m2_scene_free(nullptr);
   m2_world_free(nullptr);
   m2_free(nullptr);
+}
+
+TEST(PublicWorld, AMovedFromOneRefusesEverything) {
+  const auto take = [](auto& from) { return std::move(from); };
+  Scene scene = towerOf(1);
+  World world(scene);
+  const World kept = take(world);
+  EXPECT_EQ(kept.steps(), 0);
+  EXPECT_NE(refusal([&] { world.step(); }), "accepted");
+  EXPECT_NE(refusal([&] { world.time(); }), "accepted");
+  EXPECT_NE(refusal([&] { world.mode(); }), "accepted");
+  EXPECT_NE(refusal([&] { world.gravity(); }), "accepted");
+  EXPECT_NE(refusal([&] { world.bodyCount(); }), "accepted");
+  EXPECT_NE(refusal([&] { world.poses(); }), "accepted");
+  EXPECT_NE(refusal([&] { world.contacts(); }), "accepted");
+  EXPECT_NE(refusal([&] { world.draw(); }), "accepted");
+  const Scene moved = take(scene);
+  EXPECT_NE(refusal([&] { scene.bodyCount(); }), "accepted");
+  EXPECT_NE(refusal([&] { World refused(scene); }), "accepted");
+  world = World(moved);
+  world.step();
+  EXPECT_EQ(world.steps(), 1);
 }
 
 TEST(PublicWorld, TellsWhatJointsBear) {
@@ -328,6 +368,10 @@ TEST(PublicPictures, DrawTheWorld) {
   EXPECT_NE(world.draw(def), first);
   def.theme = "drak";
   EXPECT_THAT(refusal([&] { world.draw(def); }), HasSubstr("did you mean 'dark'"));
+  for (const int width : {-1, 0, 100'000}) {
+    def.width = width;
+    EXPECT_THAT(refusal([&] { world.draw(def); }), HasSubstr("16 to 16384 pixels"));
+  }
 }
 
 }  // namespace

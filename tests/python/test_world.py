@@ -91,6 +91,72 @@ def test_errors_are_also_what_python_calls_them():
         world.step(-1)
 
 
+@pytest.mark.parametrize("mistake, says", [
+    (lambda s, w: s.add_body(merge2d.box(1, 1)), r"'name' must be a text, not <merge2d.Shape: box>"),
+    (lambda s, w: s.add_body("b", 3), "a shape is .* not 3"),
+    (lambda s, w: s.add_body("b", [1, 2]), r"a shape is .* not \[1, 2\]"),
+    (lambda s, w: s.add_body("b", merge2d.box(1, 1), at=3), "'at' must be a pair of numbers, not 3"),
+    (lambda s, w: s.add_body("b", merge2d.box(1, 1), at="xy"), "'at' must be a pair .* not 'xy'"),
+    (lambda s, w: s.add_body("b", merge2d.box(1, 1), angle="x"), "'angle' must be a number, not 'x'"),
+    (lambda s, w: s.add_body("b", merge2d.box(1, 1), mass="x"), "'mass' must be a number, not 'x'"),
+    (lambda s, w: s.add_body("b", merge2d.box(1, 1), script=3), "'script' must be a dictionary"),
+    (lambda s, w: s.add_body("b", merge2d.box(1, 1), script={"keyframes": [(0, 1)]}), "'keyframes'"),
+    (lambda s, w: s.add_joint("revolute", 1.5), "by its number or its name, not by 1.5"),
+    (lambda s, w: s.add_joint("revolute", 0, limits=1), "'limits' must be a pair"),
+    (lambda s, w: s.add_joint("revolute", 0, collide="x"), "'collide' must be True or False"),
+    (lambda s, w: w.apply_impulse(0, (0, 0), (1,)), r"must be a pair of numbers, not \(1,\)"),
+    (lambda s, w: w.apply_impulse(None, (0, 0), (1, 0)), "not by None"),
+    (lambda s, w: w.at(0), "must be a pair of numbers, not 0"),
+    (lambda s, w: setattr(w, "gravity", 3), "must be a pair of numbers, not 3"),
+])
+def test_a_wrong_type_is_refused_in_words(mistake, says):
+    scene = tower(1)
+    with pytest.raises(TypeError, match=says):
+        mistake(scene, merge2d.World(scene))
+
+
+@pytest.mark.parametrize("mistake, says", [
+    (lambda: merge2d.Scene().add_body("b", merge2d.box(1, 1), motion="scripted"), "needs a script"),
+    (lambda: merge2d.World("books", gravity=3), "^gravity=3: "),
+    (lambda: merge2d.Scene("x = = 3"), "^scene:1:"),
+    (lambda: merge2d.compare("books", seconds=-1), "'seconds' must be positive"),
+    (lambda: merge2d.World("books").render(-3, 3), "16 to 16384 pixels"),
+    (lambda: merge2d.World("books").render(10**5, 10**5), "16 to 16384 pixels"),
+])
+def test_a_value_without_meaning_is_an_input_error(mistake, says):
+    with pytest.raises(merge2d.InputError, match=says):
+        mistake()
+
+
+def test_a_misspelled_attribute_is_an_error():
+    world = merge2d.World(tower(1))
+    with pytest.raises(AttributeError, match="timestep"):
+        world.timestep = 0.1
+    with pytest.raises(AttributeError, match="gravty"):
+        world.scene = merge2d.Scene().gravty
+
+
+def test_one_mode_is_compared_with_the_reference():
+    assert list(merge2d.compare("books", 0.1, modes="merge").seconds) == ["reference", "merge"]
+
+
+def test_bodies_of_a_scene_go_by_number_or_name():
+    scene = tower(2)
+    scene.add_joint("weld", "box 0", "box 1", at=(0, 1))
+    scene.add_spring("box 1", (0, 0), (0, 9), to_body=None, stiffness=1.0)
+    scene.add_impulse("box 1", (0, 1.5), (0.1, 0), 0.05)
+    scene.add_force("box 0", (0, 0), (0, 1))
+    scene.add_magnet("box 0")
+    scene.follow("box 1")
+    assert scene.body("box 1") == 2
+    joint, = merge2d.World(scene).joints
+    assert (joint["a"], joint["b"]) == (1, 2)
+    with pytest.raises(merge2d.InputError, match="did you mean 'box 1'"):
+        scene.add_joint("weld", "bxo 1")
+    with pytest.raises(IndexError, match="no body 7: the scene has 3"):
+        scene.add_impulse(7, (0, 0), (1, 0), 0)
+
+
 def test_bodies_go_by_number_or_name():
     world = merge2d.World(tower())
     world.set_velocity("box 2", (1.0, 0.0), 0.5)
@@ -252,7 +318,7 @@ def test_a_camera_follows_a_body():
     assert "follow" in scene.to_toml()
     scene.follow(None)
     assert "follow" not in scene.to_toml()
-    with pytest.raises(merge2d.InputError, match="there is no body 999"):
+    with pytest.raises(IndexError, match="there is no body 999"):
         scene.follow(999)
 
 
