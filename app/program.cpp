@@ -19,20 +19,20 @@ namespace merge2d {
 namespace {
 
 constexpr const char* kProgramExamples = R"(Examples:
-  merge2d list                          the built-in scenes
-  merge2d run tower-platform            simulate one, and sum it up
-  merge2d render tower-platform         draw it to frames/tower-platform/
-  merge2d compare dominoes              how fast each mode is, and how near the reference
-  merge2d study grid.toml -o thresholds run it many times, with parameters that vary
-  merge2d lesson tower-platform         write a page to step through it in a browser
-  merge2d step books                    walk through it, stage by stage, and back
-  merge2d explain tower-platform --at 118
-                                        why pairs merged, came apart, or did not
-  merge2d validate my-scene.toml        check a scene of your own
+  merge2d list                             the built-in scenes
+  merge2d run tower-platform               simulate one, and sum it up
+  merge2d render tower-platform            draw it to frames/tower-platform/
+  merge2d compare dominoes                 how fast each mode is, and how near the reference
+  merge2d study grid.toml -o thresholds    run it many times, with parameters that vary
+  merge2d lesson tower-platform            write a page to step through it in a browser
+  merge2d step books                       walk through it, stage by stage, and back
+  merge2d explain tower-platform --at 118  why pairs merged, came apart, or did not
+  merge2d validate my-scene.toml           check a scene of your own
 
 'merge2d COMMAND --help' tells more. The result goes to the standard output, messages to the
 standard error. Exit codes: 0 fine, 1 a check or the simulation failed, 2 wrong usage, 3 bad scene or
-graph, 4 rendering, reading or writing failed.)";
+graph, 4 rendering, reading or writing failed. Pages such as docs/studies.md are installed in
+share/doc/merge2d.)";
 
 void addCommands(CLI::App& program, Action& action) {
   program.name("merge2d");

@@ -41,11 +41,11 @@ constexpr const char* kRenderExamples = R"(Examples:
   merge2d render books --seconds 3 -s --format svg -o figure
   merge2d render tower-platform --stages --at 599 --format svg
 
-The pictures are called frame_000000.png, frame_000001.png, …; frame k shows the time k / fps, and
-the last one the end of the run. Beside them, run.json tells how they were made and captions.vtt
-what happens; those of --stages have captions in step_000599.vtt, a second for each picture. A
-folder is used only when it is empty or holds an earlier rendering, which is replaced; --force puts
-the frames among other files.)";
+The pictures are called frame_000000.png, frame_000001.png and so on; frame k shows the time k /
+fps, and the last one the end of the run. Beside them, run.json tells how they were made and
+captions.vtt what happens; those of --stages have captions in step_000599.vtt, a second for each
+picture. A folder is used only when it is empty or holds an earlier rendering, which is replaced;
+--force puts the frames among other files.)";
 
 using RenderClock = std::chrono::steady_clock;
 

@@ -15,6 +15,9 @@ if(MERGE2D_APP)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/merge2d/lessons COMPONENT program
           FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN web EXCLUDE)
   include(cmake/manual.cmake)
+  # The pages that messages and the manual name.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+          FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.txt" PATTERN "*.png" PATTERN "*.svg")
 endif()
 if(TARGET merge2d_shared)
   # merge2d::merge2d is the shared library.
@@ -27,6 +30,10 @@ if(TARGET merge2d_shared)
   install(FILES ${PROJECT_BINARY_DIR}/api/libmerge2d.a DESTINATION ${CMAKE_INSTALL_LIBDIR}
           COMPONENT development)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+          COMPONENT development)
+
+  file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*.c*)
+  install(FILES ${examples} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmerge2d-dev/examples
           COMPONENT development)
 
   configure_package_config_file(cmake/merge2dConfig.cmake.in ${PROJECT_BINARY_DIR}/merge2dConfig.cmake

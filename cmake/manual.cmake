@@ -28,8 +28,9 @@ function(merge2d_man_page name summary)
             ${HELP2MAN} --no-info "--version-string=merge2d ${PROJECT_VERSION}" "--name=${summary}"
             --output=${output} "$<TARGET_FILE:merge2d> ${ARGN}"
     COMMAND sed -i -e "/^.SH NAME/{n" -e "s/^merge2d/${name}/" -e "}" ${output}
+    COMMAND sed -i -f ${PROJECT_SOURCE_DIR}/cmake/manual.sed ${output}
     COMMAND ${GZIP} -9nf ${output}
-    DEPENDS merge2d VERBATIM)
+    DEPENDS merge2d ${PROJECT_SOURCE_DIR}/cmake/manual.sed VERBATIM)
   install(FILES ${output}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
   set(manual_files ${manual_files} ${output}.gz PARENT_SCOPE)
 endfunction()

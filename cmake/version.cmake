@@ -2,6 +2,7 @@
 # only where that state has changed.
 #   cmake -DOUTPUT=FILE -DSOURCE_DIR=DIR -P version.cmake
 # Without a repository of its own (a source package), or without git, the state is empty.
+cmake_minimum_required(VERSION 3.25)
 set(describe "")
 find_program(GIT git)
 if(GIT AND EXISTS ${SOURCE_DIR}/.git)

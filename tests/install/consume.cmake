@@ -1,4 +1,5 @@
 # Builds and runs the consumer as a user would, against the tree TREE: "build" or "install".
+cmake_minimum_required(VERSION 3.25)
 set(work ${MERGE2D_BINARY_DIR}/tests/consumer-${TREE})
 set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})

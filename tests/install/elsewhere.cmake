@@ -1,5 +1,6 @@
 # Runs the program as it is found on another machine, in a fresh folder: from the tree that
 # `cmake --install` makes, from the Debian package, and as a lone file.
+cmake_minimum_required(VERSION 3.25)
 set(work ${MERGE2D_BINARY_DIR}/tests/elsewhere)
 file(REMOVE_RECURSE ${work})
 file(MAKE_DIRECTORY ${work}/packages ${work}/lone ${work}/home)

@@ -7,7 +7,7 @@ function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# Copies: of a checkout without the files that git ignores.
+# Copies of the checkout without the files that git ignores, both before the first build.
 execute_process(COMMAND git -C ${SOURCE} ls-files --cached --others --exclude-standard
                 OUTPUT_VARIABLE files RESULT_VARIABLE no_git ERROR_QUIET)
 if(NOT no_git EQUAL 0)
@@ -22,6 +22,8 @@ foreach(copy one another/deeper/one)
       file(COPY ${SOURCE}/${file} DESTINATION ${folder})
     endif()
   endforeach()
+endforeach()
+foreach(copy one another/deeper/one)
   run(${CMAKE_COMMAND} -S ${WORK}/${copy} -B ${WORK}/${copy}/build -G ${GENERATOR}
       -DCMAKE_BUILD_TYPE=Release -DMERGE2D_TESTS=OFF)
   run(${CMAKE_COMMAND} --build ${WORK}/${copy}/build --target merge2d merge2d_shared)
