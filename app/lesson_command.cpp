@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <future>
 #include <memory>
 #include <optional>
 
@@ -58,19 +62,46 @@ void refuseUnknownName(const std::string& name) {
                   name, didYouMean(name, names)));
 }
 
-/// Runs a scene in one mode.
-Recording recorded(const Scene& scene, Mode mode, Detail detail, const Console& console) {
-  const std::int64_t steps = stepCount(scene);
-  Progress progress(console, "step", steps);
-  const auto step_done = [&](std::int64_t step) {
-    stopIfInterrupted();
-    progress.update(step);
-  };
-  Recording recording =
-      record(scene, {.mode = mode, .detail = detail, .steps = steps, .progress = step_done});
-  if (detail == Detail::Full) lookInside(recording, {}, step_done);
+/// Runs a scene in full.
+Recording recorded(const Scene& scene, Mode mode, const std::function<void(std::int64_t)>& done) {
+  Recording recording = record(scene, {.mode = mode, .steps = stepCount(scene), .progress = done});
+  lookInside(recording, {}, done);
   return recording;
 }
+
+/// Runs the reference for its motion alone, while another run goes on. It ends early when nobody
+/// waits for it any more.
+class Ghost {
+ public:
+  explicit Ghost(const Scene& scene)
+      : run_(std::async(std::launch::async, [this, &scene] { return recordMotion(scene); })) {}
+  ~Ghost() { unwanted_ = true; }
+  Ghost(const Ghost&) = delete;
+  Ghost& operator=(const Ghost&) = delete;
+
+  std::int64_t steps() const { return steps_; }
+  bool ready() const {
+    return run_.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
+  }
+  Recording get() { return run_.get(); }
+
+ private:
+  Recording recordMotion(const Scene& scene) {
+    const auto done = [this](std::int64_t step) {
+      stopIfInterrupted();
+      if (unwanted_) throw Interrupted("the page is not made");
+      steps_ = step;
+    };
+    return record(scene, {.mode = Mode::Reference,
+                          .detail = Detail::Motion,
+                          .steps = stepCount(scene),
+                          .progress = done});
+  }
+
+  std::atomic<bool> unwanted_ = false;
+  std::atomic<std::int64_t> steps_ = 0;
+  std::future<Recording> run_;
+};
 
 /// Names a page that was written: its path, or with --json an object in a line.
 void printPage(const LessonOptions& options, const std::string& path) {
@@ -108,11 +139,17 @@ PageContent scenePage(const LessonOptions& options, const Console& console,
   const Scene scene = loadScene(options, console);
   file.emplace(options, scene.name);
   PageContent content{.title = scene.title, .lesson = "null", .traces = {}};
-  content.traces.push_back(
-      {std::string(name(options.mode)), recorded(scene, options.mode, Detail::Full, console)});
-  if (options.mode != Mode::Reference) {
-    content.traces.push_back(
-        {"reference", recorded(scene, Mode::Reference, Detail::Motion, console)});
+  std::optional<Ghost> ghost;
+  if (options.mode != Mode::Reference) ghost.emplace(scene);
+  Progress progress(console, "step", stepCount(scene));
+  const auto tell = [&](std::int64_t step) {
+    stopIfInterrupted();
+    progress.update(ghost ? std::min(step, ghost->steps()) : step);
+  };
+  content.traces.push_back({std::string(name(options.mode)), recorded(scene, options.mode, tell)});
+  if (ghost) {
+    while (!ghost->ready()) tell(ghost->steps());
+    content.traces.push_back({"reference", ghost->get()});
   }
   return content;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// How far a long command is, on terminals only.
+/// How far a long command is.
 
 #include <chrono>
 #include <cstdint>
@@ -9,8 +9,9 @@
 
 namespace merge2d {
 
-/// One line on stderr that is written over and over, and gone at the end. Where nobody watches
-/// (no terminal, CI, --quiet) it does nothing.
+/// On a terminal one line on stderr that is written over and over, and gone at the end. In a log a
+/// line every ten seconds, so that whoever reads it later knows how far the command came. With
+/// --quiet nothing.
 class Progress {
  public:
   /// `unit` is what is counted: "step", "frame".
@@ -24,7 +25,10 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool shown_;
+  std::string text(std::int64_t done, Clock::time_point now) const;
+
+  bool quiet_;
+  bool terminal_;
   std::string unit_;
   std::int64_t total_;
   Clock::time_point start_ = Clock::now(), next_ = start_;

@@ -19,7 +19,7 @@ class Encoder {
  public:
   Encoder(const Recording& recording, const Encoding& encoding)
       : r_(recording), most_impulses_(encoding.impulses) {
-    legend_.every = encoding.contacts_every;
+    legend_.every = recording.every * encoding.contacts_every;
     legend_.length.quantum = cameraOf(recording).height / encoding.positions;
     legend_.angle.quantum = 4.0 / encoding.positions;
     legend_.amount.steps = encoding.decades;
@@ -33,6 +33,7 @@ class Encoder {
       packInside();
     }
     packStats();
+    if (r_.every > 1) packEvents();
     EncodedTrace out;
     legend_.inside = insideKept();
     out.head = headOf(r_, legend_);
@@ -68,12 +69,13 @@ class Encoder {
   void packBodies() {
     for (const BodyTrack& t : r_.tracks) {
       packer_.number(t.first);
+      if (r_.every > 1) packer_.column(t.at);
       lengths(t.x);
       lengths(t.y);
       angles(t.angle);
       runs(t.collection);
       runs(t.asleep);
-      if (r_.detail == Detail::Motion) continue;
+      if (r_.detail == Detail::Motion || r_.every > 1) continue;
       amounts(t.vx);
       amounts(t.vy);
       amounts(t.omega);
@@ -84,11 +86,12 @@ class Encoder {
   void chooseSamples(const std::vector<Span>& spans) {
     kept_.clear();
     kept_spans_.clear();
+    const std::int64_t every = legend_.every / r_.every;
     std::size_t sample = 0;
     for (const Span& span : spans) {
-      for (std::int64_t step = span.first; step < span.first + span.count; ++step, ++sample) {
-        if (step % legend_.every != 0) continue;
-        const std::int64_t at = step / legend_.every;
+      for (std::int64_t i = span.first; i < span.first + span.count; ++i, ++sample) {
+        if (i % every != 0) continue;
+        const std::int64_t at = i / every;
         if (kept_spans_.empty() || kept_spans_.back().first + kept_spans_.back().count != at) {
           kept_spans_.push_back({at, 0});
         }
@@ -199,7 +202,10 @@ class Encoder {
 
   template <class Get>
   void statistic(Get get) {
-    column(r_.stats, get);
+    codes_.clear();
+    const auto every = static_cast<std::size_t>(r_.every);
+    for (std::size_t i = 0; i < r_.stats.size(); i += every) codes_.push_back(get(r_.stats[i]));
+    packer_.column(codes_);
   }
   void packStats() {
     const Logarithmic fine{.floor = 1e-6, .steps = 1024.0};
@@ -214,6 +220,20 @@ class Encoder {
     statistic([&](const Stats& s) { return fine.code(s.momentum.x()); });
     statistic([&](const Stats& s) { return fine.code(s.momentum.y()); });
     statistic([&](const Stats& s) { return fine.code(s.angular_momentum); });
+  }
+
+  template <class Get>
+  void ofEvents(Get get) {
+    column(r_.events, [&](const TimedEvent& e) { return static_cast<std::int32_t>(get(e)); });
+  }
+  /// Those of a long run are so many that the head would be most of the page.
+  void packEvents() {
+    ofEvents([](const TimedEvent& e) { return e.step; });
+    ofEvents([](const TimedEvent& e) { return e.event.type; });
+    ofEvents([](const TimedEvent& e) { return index(e.event.a); });
+    ofEvents([](const TimedEvent& e) { return index(e.event.b); });
+    ofEvents([](const TimedEvent& e) { return value(e.event.collection); });
+    ofEvents([](const TimedEvent& e) { return e.event.reason; });
   }
 
   const Recording& r_;

@@ -1,5 +1,6 @@
 #include "lessons/encode_head.h"
 
+#include <array>
 #include <utility>
 
 #include "lessons/body_text.h"
@@ -11,6 +12,13 @@
 
 namespace merge2d {
 namespace {
+
+constexpr std::array kEventTypes = {EventType::Merge, EventType::Unmerge, EventType::Sleep,
+                                    EventType::Wake,  EventType::Impact,  EventType::Emit,
+                                    EventType::Break};
+constexpr std::array kEventReasons = {EventReason::None,    EventReason::Broken,
+                                      EventReason::Sliding, EventReason::RelativeMotion,
+                                      EventReason::Cycle,   EventReason::User};
 
 /// Points are given in the body's own frame, the page knows the one at its centre of mass.
 Vec2 fromCentre(const Scene& scene, BodyIndex body, const Vec2& point) {
@@ -37,6 +45,20 @@ void writeLoads(JsonText& out, const Scene& scene) {
   });
 }
 
+/// Of a long run the names alone: its events are packed columns, which hold indices of names.
+void writeEvents(JsonText& out, const Recording& r) {
+  static const std::vector<TimedEvent> kNone;
+  const bool packed = r.every > 1;
+  out.array("events", packed ? kNone : r.events, [&](const TimedEvent& e) {
+    out.row(e.step, name(e.event.type), e.event.a, e.event.b, e.event.collection,
+            name(e.event.reason));
+  });
+  if (!packed) return;
+  out.field("keyframes", r.every);
+  out.array("event_types", kEventTypes, [&](EventType type) { out.value(name(type)); });
+  out.array("event_reasons", kEventReasons, [&](EventReason reason) { out.value(name(reason)); });
+}
+
 }  // namespace
 
 std::string headOf(const Recording& r, const ColumnLegend& legend) {
@@ -57,10 +79,7 @@ std::string headOf(const Recording& r, const ColumnLegend& legend) {
     out.field("equation", t->equation).field("threshold", t->threshold);
     out.field("needed", t->needed).close('}');
   });
-  out.array("events", r.events, [&](const TimedEvent& e) {
-    out.row(e.step, name(e.event.type), e.event.a, e.event.b, e.event.collection,
-            name(e.event.reason));
-  });
+  writeEvents(out, r);
   out.array("colors", r.colors, [&](const CollectionColor& c) { out.row(c.id, c.slot); });
   out.array("ledger", r.ledger, [&](const LedgerEntry& e) { writeLedger(out, e); });
   out.array("orders", r.orders, [&](const SweepOrder& order) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <sstream>
 
@@ -22,23 +23,11 @@ constexpr std::array<std::string_view, 4> kOfPair = {"force", "friction", "gap",
 
 double degreesOf(double radians) { return radians * 180.0 / std::numbers::pi; }
 
-/// The sample of a track at a step, or nothing.
-std::optional<std::size_t> sampleAt(const std::vector<Span>& spans, std::int64_t step) {
-  std::int64_t before = 0;
-  for (const Span& span : spans) {
-    if (step >= span.first && step < span.first + span.count) {
-      return static_cast<std::size_t>(before + step - span.first);
-    }
-    before += span.count;
-  }
-  return std::nullopt;
-}
-
 /// Whether a collection is welded to a body that does not respond to forces.
 bool holds(const Recording& r, BodyId fixed, CollectionId collection, std::int64_t step) {
   return std::ranges::any_of(r.contacts, [&](const ContactTrack& c) {
     if (c.a != fixed && c.b != fixed) return false;
-    const auto i = sampleAt(c.spans, step);
+    const auto i = r.sampleAt(c.spans, step);
     return i && c.internal[*i] != 0 && r.collection(c.a == fixed ? c.b : c.a, step) == collection;
   });
 }
@@ -50,8 +39,8 @@ Quantity::Quantity(const Value& place, const Scene& scene) : text_(place.text())
   std::string of, a, conjunction, b, rest;
   in >> kind_ >> of >> a >> conjunction >> b >> rest;
   std::vector<std::string_view> known(kOfAll.begin(), kOfAll.end());
-  known.insert(known.end(), kOfBody.begin(), kOfBody.end());
-  known.insert(known.end(), kOfPair.begin(), kOfPair.end());
+  std::ranges::copy(kOfBody, std::back_inserter(known));
+  std::ranges::copy(kOfPair, std::back_inserter(known));
   if (!isAmong(kind_, known)) {
     place.fail(fmt::format("'{}' cannot be measured{}; there are {}", kind_,
                            didYouMean(kind_, known), fmt::join(known, ", ")));
@@ -92,7 +81,7 @@ double Quantity::at(const Recording& r, std::int64_t step) const {
   int points = 0;
   for (const ContactTrack& c : r.contacts) {
     if (c.a != a_ || c.b != b_) continue;
-    const auto i = sampleAt(c.spans, step);
+    const auto i = r.sampleAt(c.spans, step);
     if (!i) continue;
     ++points;
     sum += static_cast<double>(kind_ == "force" ? c.lambda_n[*i] : c.lambda_t[*i]);

@@ -12,19 +12,6 @@
 namespace merge2d {
 namespace {
 
-using TrackKey = std::tuple<BodyId, BodyId, std::uint32_t>;
-
-/// Which track a contact belongs to.
-using TrackIndex = std::map<TrackKey, std::int32_t>;
-
-TrackIndex tracksOf(const Recording& recording) {
-  TrackIndex out;
-  for (const ContactTrack& t : recording.contacts) {
-    out.emplace(TrackKey{t.a, t.b, t.feature}, static_cast<std::int32_t>(out.size()));
-  }
-  return out;
-}
-
 /// How many contacts there are after each step.
 std::vector<std::size_t> contactsPerStep(const Recording& recording) {
   std::vector<std::size_t> out(static_cast<std::size_t>(recording.steps) + 1);
@@ -68,11 +55,11 @@ std::vector<std::int64_t> byWorth(const Recording& recording,
 }
 
 /// A contact of a stage, by its track.
-std::map<std::int32_t, const ContactView*> byTrack(const Snapshot& seen, const TrackIndex& tracks) {
+std::map<std::int32_t, const ContactView*> byTrack(const Snapshot& seen,
+                                                   const ContactTracks& tracks) {
   std::map<std::int32_t, const ContactView*> out;
   for (const ContactView& c : seen.contacts) {
-    const auto found = tracks.find({c.a, c.b, c.feature});
-    if (found != tracks.end()) out.emplace(found->second, &c);
+    if (const auto track = tracks.of(c)) out.emplace(*track, &c);
   }
   return out;
 }
@@ -82,7 +69,22 @@ void append(const ContactView& c, std::vector<float>& normal, std::vector<float>
   tangent.push_back(static_cast<float>(c.lambda_t));
 }
 
-ImpulsesInside impulsesOf(const StepRecord& record, const TrackIndex& tracks) {
+}  // namespace
+
+void ContactTracks::update(const Recording& recording) {
+  for (std::size_t i = index_.size(); i < recording.contacts.size(); ++i) {
+    const ContactTrack& t = recording.contacts[i];
+    index_.emplace(std::tuple{t.a, t.b, t.feature}, static_cast<std::int32_t>(i));
+  }
+}
+
+std::optional<std::int32_t> ContactTracks::of(const ContactView& contact) const {
+  const auto found = index_.find({contact.a, contact.b, contact.feature});
+  if (found == index_.end()) return std::nullopt;
+  return found->second;
+}
+
+ImpulsesInside impulsesInside(const StepRecord& record, const ContactTracks& tracks) {
   ImpulsesInside out{.step = record.step,
                      .sweeping = !record[Stage::SingleIterationPGS].own.empty(),
                      .contact = {},
@@ -107,14 +109,10 @@ ImpulsesInside impulsesOf(const StepRecord& record, const TrackIndex& tracks) {
   return out;
 }
 
-}  // namespace
-
-ImpulsesInside impulsesInside(const StepRecord& record, const Recording& recording) {
-  return impulsesOf(record, tracksOf(recording));
-}
-
 void lookInside(Recording& recording, const std::vector<std::int64_t>& wanted,
                 const std::function<void(std::int64_t)>& progress) {
+  if (recording.every > 1) return;  // they were kept when it was recorded
+
   // Which steps.
   const std::vector<std::size_t> contacts = contactsPerStep(recording);
   std::vector<std::int64_t> worth = byWorth(recording, wanted);
@@ -129,7 +127,8 @@ void lookInside(Recording& recording, const std::vector<std::int64_t>& wanted,
   for (std::size_t i = 0; i < worth.size(); ++i) place[worth[i]] = i;
 
   // The run once more: it gives the same numbers bit for bit.
-  const TrackIndex tracks = tracksOf(recording);
+  ContactTracks tracks;
+  tracks.update(recording);
   Recorder recorder(recording.scene, recording.mode);
   recording.inside.assign(worth.size(), {});
   for (const auto& [step, i] : place) {
@@ -137,7 +136,7 @@ void lookInside(Recording& recording, const std::vector<std::int64_t>& wanted,
       recorder.skip();
       if (progress) progress(recorder.world().steps());
     }
-    recording.inside[i] = impulsesOf(recorder.record(), tracks);
+    recording.inside[i] = impulsesInside(recorder.record(), tracks);
     if (progress) progress(step);
   }
 }

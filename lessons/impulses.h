@@ -4,7 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <optional>
+#include <tuple>
 #include <vector>
+
+#include "src2d/trace/snapshot.h"
 
 namespace merge2d {
 
@@ -30,13 +35,26 @@ inline constexpr std::size_t kMostImpulses = 250'000;
 
 struct StepRecord;
 
-/// The impulses inside one recorded step, for the contacts that `recording` has tracks of.
-ImpulsesInside impulsesInside(const StepRecord& record, const Recording& recording);
+/// Which track a contact belongs to.
+class ContactTracks {
+ public:
+  /// Of the tracks that `recording` has now; it may gain more.
+  void update(const Recording& recording);
+  /// Index into Recording::contacts, if there is one.
+  std::optional<std::int32_t> of(const ContactView& contact) const;
+
+ private:
+  std::map<std::tuple<BodyId, BodyId, std::uint32_t>, std::int32_t> index_;
+};
+
+/// The impulses inside one recorded step, for the contacts that have tracks.
+ImpulsesInside impulsesInside(const StepRecord& record, const ContactTracks& tracks);
 
 /// Looks into a recorded run once more and keeps the impulses inside its steps in
 /// `recording.inside`: of `wanted` steps first, then of those in which most bodies met, merged or
 /// came apart, then of all others, as long as there are no more than kMostImpulses. `progress` is
-/// called after each step and may throw. Throws SimulationError.
+/// called after each step and may throw. A run in keyframes is left as it was recorded. Throws
+/// SimulationError.
 void lookInside(Recording& recording, const std::vector<std::int64_t>& wanted = {},
                 const std::function<void(std::int64_t)>& progress = nullptr);
 

@@ -97,6 +97,29 @@ li p {{ margin: 2px 0 0; }} small {{ color: #525b66; }} a {{ color: inherit; fon
 </html>
 )";
 
+/// The page in the finest encoding in which it has at most `bytes`, or in the coarsest. Nearly all
+/// fit in the finest one; for the others half of the encodings are left out at a time, as each try
+/// of a long run takes seconds.
+template <class PageAs>
+std::string finestThatFits(PageAs pageAs, std::size_t bytes) {
+  const std::vector<Encoding>& all = encodings();
+  std::string page = pageAs(all.front());
+  if (page.size() <= bytes) return page;
+  std::size_t too_large = 0, fits = all.size() - 1;
+  page = pageAs(all.back());
+  while (fits - too_large > 1) {
+    const std::size_t middle = (too_large + fits) / 2;
+    std::string tried = pageAs(all[middle]);
+    if (tried.size() > bytes) {
+      too_large = middle;
+    } else {
+      fits = middle;
+      page = std::move(tried);
+    }
+  }
+  return page;
+}
+
 }  // namespace
 
 std::string escapedHtml(std::string_view text) {
@@ -146,16 +169,14 @@ std::string makePage(const PageContent& content, bool live) {
   const std::string engine = live ? block("engine-licences", texts.read("engine.txt")) +
                                         block("engine", player.read("engine.b64"))
                                   : std::string();
-  std::string page;
-  for (const Encoding& encoding : encodings()) {
-    page = fmt::format(kPage, fmt::arg("policy", live ? kLivePolicy : kPolicy),
+  const auto pageAs = [&](const Encoding& encoding) {
+    return fmt::format(kPage, fmt::arg("policy", live ? kLivePolicy : kPolicy),
                        fmt::arg("title", escapedHtml(content.title)), fmt::arg("style", style),
                        fmt::arg("data", forScript(dataOf(content, encoding))),
                        fmt::arg("licences", licences), fmt::arg("engine", engine),
                        fmt::arg("program", program));
-    if (page.size() <= kPageBytes + engine.size()) break;
-  }
-  return page;
+  };
+  return finestThatFits(pageAs, kPageBytes + engine.size());
 }
 
 }  // namespace merge2d

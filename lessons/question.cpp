@@ -22,9 +22,7 @@ std::string unitOf(std::string_view criterion) { return criterion == "breathing"
 std::set<std::pair<BodyId, BodyId>> touchingPairs(const Recording& r, std::int64_t step) {
   std::set<std::pair<BodyId, BodyId>> pairs;
   for (const ContactTrack& c : r.contacts) {
-    for (const Span& s : c.spans) {
-      if (step >= s.first && step < s.first + s.count) pairs.insert({c.a, c.b});
-    }
+    if (r.sampleAt(c.spans, step)) pairs.insert({c.a, c.b});
   }
   return pairs;
 }
@@ -141,25 +139,20 @@ Question::Answer Question::measured(const Recording& r, std::int64_t step) const
 Question::Answer Question::aboveOrBelow(const Recording& r, std::int64_t step) const {
   for (const DecisionTrack& t : r.decisions) {
     if (t.a != pair_[0] || t.b != pair_[1] || t.criterion != criterion_) continue;
-    std::size_t sample = 0;
-    for (const Span& span : t.spans) {
-      if (step >= span.first && step < span.first + span.count) {
-        const double value = std::abs(
-            static_cast<double>(t.value[sample + static_cast<std::size_t>(step - span.first)]));
-        const bool above = value >= t.threshold;
-        const double ratio = above ? value / t.threshold : t.threshold / std::max(value, 1e-12);
-        const std::string unit = unitOf(criterion_);
-        return {{{"above the limit", {}, above}, {"below the limit", {}, !above}},
-                false,
-                fmt::format("It is {:.3g} {}, {} the limit of {:.3g} {}{} ({}).", value, unit,
-                            above ? "above" : "below", t.threshold, unit,
-                            ratio < 1e4 ? fmt::format(", {:.2g} times {}", ratio,
-                                                      above ? "as large" : "smaller")
-                                        : std::string(),
-                            t.equation.starts_with("(") ? "Eq. " + t.equation : t.equation)};
-      }
-      sample += static_cast<std::size_t>(span.count);
-    }
+    const auto sample = r.sampleAt(t.spans, step);
+    if (!sample) continue;
+    const double value = std::abs(static_cast<double>(t.value[*sample]));
+    const bool above = value >= t.threshold;
+    const double ratio = above ? value / t.threshold : t.threshold / std::max(value, 1e-12);
+    const std::string unit = unitOf(criterion_);
+    return {{{"above the limit", {}, above}, {"below the limit", {}, !above}},
+            false,
+            fmt::format("It is {:.3g} {}, {} the limit of {:.3g} {}{} ({}).", value, unit,
+                        above ? "above" : "below", t.threshold, unit,
+                        ratio < 1e4 ? fmt::format(", {:.2g} times {}", ratio,
+                                                  above ? "as large" : "smaller")
+                                    : std::string(),
+                        t.equation.starts_with("(") ? "Eq. " + t.equation : t.equation)};
   }
   place_->fail(fmt::format("'{}' is not tested for this pair at step {}", criterion_, step));
 }

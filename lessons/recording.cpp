@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lessons/long_recording.h"
 #include "lessons/snapshot_feed.h"
 #include "src2d/dynamics/state.h"
 #include "src2d/world.h"
@@ -59,27 +60,10 @@ class Ledger : public Observer {
   std::size_t events_ = 0;
 };
 
-void keepOrder(const Notes& notes, Recording& out) {
-  if (notes.seeds.empty() || out.orders.size() >= Recording::kMostOrders) return;
-  SweepOrder order{.step = out.steps, .visits = {}};
-  for (const NotedVisit& visit : notes.order) {
-    if (visit.depth > 0 && order.visits.size() < Recording::kMostVisits) {
-      order.visits.push_back(visit);
-    }
-  }
-  if (!order.visits.empty()) out.orders.push_back(std::move(order));
-}
-
-}  // namespace
-
-Recording record(const Scene& scene, const RecordOptions& options) {
+/// Runs the world of `out`, and keeps each step in full.
+void recordInFull(Recording& out, const RecordOptions& options) {
   const bool full = options.detail == Detail::Full;
-  World world(scene, {.mode = options.mode, .timings = false, .decisions = full});
-  Recording out;
-  out.scene = scene;
-  out.mode = options.mode;
-  out.detail = options.detail;
-  out.bodies = world.bodies();
+  World world(out.scene, {.mode = options.mode, .timings = false, .decisions = full});
   SnapshotFeed feed(out);
   Ledger ledger(out.ledger);
   world.observe(&ledger);
@@ -91,8 +75,60 @@ Recording record(const Scene& scene, const RecordOptions& options) {
     world.capture(snapshot);
     feed.add(snapshot);
     ++out.steps;
-    if (full) keepOrder(world.notes(), out);
+    if (full) keepOrder(world.notes(), out.steps, out);
     if (options.progress) options.progress(out.steps);
+  }
+}
+
+}  // namespace
+
+void BodyTrack::append(const BodyState& body) {
+  x.push_back(body.x.x());
+  y.push_back(body.x.y());
+  angle.push_back(body.angle);
+  vx.push_back(static_cast<float>(body.v.x()));
+  vy.push_back(static_cast<float>(body.v.y()));
+  omega.push_back(static_cast<float>(body.omega));
+  collection.push_back(value(body.collection));
+  asleep.push_back(body.asleep ? 1 : 0);
+}
+
+void keepOrder(const Notes& notes, std::int64_t step, Recording& out) {
+  if (notes.seeds.empty() || out.orders.size() >= Recording::kMostOrders) return;
+  SweepOrder order{.step = step, .visits = {}};
+  for (const NotedVisit& visit : notes.order) {
+    if (visit.depth > 0 && order.visits.size() < Recording::kMostVisits) {
+      order.visits.push_back(visit);
+    }
+  }
+  if (!order.visits.empty()) out.orders.push_back(std::move(order));
+}
+
+std::optional<std::size_t> Recording::sampleAt(const std::vector<Span>& spans,
+                                               std::int64_t step) const {
+  const std::int64_t sample = step / every;
+  std::int64_t before = 0;
+  for (const Span& span : spans) {
+    if (sample >= span.first && sample < span.first + span.count) {
+      return static_cast<std::size_t>(before + sample - span.first);
+    }
+    before += span.count;
+  }
+  return std::nullopt;
+}
+
+Recording record(const Scene& scene, const RecordOptions& options) {
+  Recording out;
+  out.scene = scene;
+  out.mode = options.mode;
+  out.detail = options.detail;
+  out.bodies = World(scene, {.mode = options.mode}).bodies();
+  const std::int64_t states = options.steps * static_cast<std::int64_t>(out.bodies.size());
+  if (states <= options.most_in_full) {
+    recordInFull(out, options);
+  } else {
+    out.every = std::max<std::int64_t>(2, states / options.most_with_contacts);
+    recordInKeyframes(out, options.steps, options.progress);
   }
   return out;
 }

@@ -1,8 +1,10 @@
 #pragma once
 /// A run as a lesson needs it: every time step, kept small enough to hold thousands of them.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,19 +16,24 @@
 
 namespace merge2d {
 
-/// Consecutive samples of something that comes and goes: the first step, and how many.
+/// Consecutive samples of something that comes and goes: the first one, and how many. Sample i is
+/// of step i * Recording::every.
 struct Span {
   std::int64_t first = 0;
   std::int64_t count = 0;
 };
 
-/// A body from its first step on.
+/// A body from its first step on: a sample for each step, or keyframes (lessons/keyframes.h).
 struct BodyTrack {
   std::int64_t first = 0;
+  std::vector<std::int32_t> at;      ///< steps of the keyframes; empty: each step from `first` on
   std::vector<double> x, y, angle;   ///< centre of mass [m], [rad]
   std::vector<float> vx, vy, omega;  ///< [m/s], [rad/s]
   std::vector<std::int32_t> collection;
   std::vector<std::uint8_t> asleep;
+
+  /// One more sample.
+  void append(const BodyState& body);
 };
 
 /// A contact point while it exists. Its place is kept in the frame of body a, where it rests while
@@ -97,6 +104,9 @@ struct Recording {
   Mode mode = Mode::MergeSleep;
   Detail detail = Detail::Full;
   std::int64_t steps = 0;
+  /// Above 1 for a long run: bodies are kept in keyframes, and contacts, decisions, the ledger and
+  /// the impulses inside steps for steps that are multiples of it.
+  std::int64_t every = 1;
   std::vector<BodyInfo> bodies;
   std::vector<BodyTrack> tracks;  ///< per body
   std::vector<ContactTrack> contacts;
@@ -112,11 +122,20 @@ struct Recording {
 
   bool present(BodyId body, std::int64_t step) const {
     const BodyTrack& track = tracks[index(body)];
-    return step >= track.first && step < track.first + static_cast<std::int64_t>(track.x.size());
+    const std::int64_t end = track.at.empty()
+                                 ? track.first + static_cast<std::int64_t>(track.x.size())
+                                 : track.at.back() + std::int64_t{1};
+    return step >= track.first && step < end;
   }
+  /// The sample of a step in which the body is present: of keyframes the last one up to it.
   std::size_t sample(BodyId body, std::int64_t step) const {
-    return static_cast<std::size_t>(step - tracks[index(body)].first);
+    const BodyTrack& track = tracks[index(body)];
+    if (track.at.empty()) return static_cast<std::size_t>(step - track.first);
+    const auto after = std::ranges::upper_bound(track.at, step);
+    return static_cast<std::size_t>(after - track.at.begin()) - 1;
   }
+  /// The sample of a contact or decision at a step, in a long run at the last step that was kept.
+  std::optional<std::size_t> sampleAt(const std::vector<Span>& spans, std::int64_t step) const;
   CollectionId collection(BodyId body, std::int64_t step) const {
     if (!present(body, step)) return kNoCollection;
     return CollectionId{tracks[index(body)].collection[sample(body, step)]};
@@ -128,7 +147,14 @@ struct RecordOptions {
   Detail detail = Detail::Full;
   std::int64_t steps = 0;
   std::function<void(std::int64_t)> progress = nullptr;  ///< called after each step; may throw
+  /// Steps times bodies up to which each step is kept in full; longer runs are kept in keyframes.
+  std::int64_t most_in_full = 3'000'000;
+  /// Of a longer run, as many states of a body are kept together with their contacts.
+  std::int64_t most_with_contacts = 600'000;
 };
+
+/// Notes the order of the sweep of a step with something new, as long as there is room.
+void keepOrder(const Notes& notes, std::int64_t step, Recording& out);
 
 /// Runs a scene and keeps what it does. Throws SimulationError.
 Recording record(const Scene& scene, const RecordOptions& options);

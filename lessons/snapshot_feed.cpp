@@ -9,14 +9,21 @@
 namespace merge2d {
 namespace {
 
-/// Adds one sample at `step` to the spans of a track.
-void extend(std::vector<Span>& spans, std::int64_t step) {
-  if (spans.empty() || spans.back().first + spans.back().count != step) spans.push_back({step, 0});
+/// Adds a sample to the spans of a track.
+void extend(std::vector<Span>& spans, std::int64_t sample) {
+  if (spans.empty() || spans.back().first + spans.back().count != sample) {
+    spans.push_back({sample, 0});
+  }
   ++spans.back().count;
 }
 
-bool sampledAt(const std::vector<Span>& spans, std::int64_t step) {
-  return !spans.empty() && spans.back().first + spans.back().count == step + 1;
+bool holdsSample(const std::vector<Span>& spans, std::int64_t sample) {
+  return !spans.empty() && spans.back().first + spans.back().count == sample + 1;
+}
+
+/// Of a body that is there.
+Pose poseOf(const Snapshot& seen, BodyId body) {
+  return std::ranges::lower_bound(seen.bodies, body, {}, &BodyState::id)->pose();
 }
 
 /// The criteria that compare a measured number with a limit: what charts and questions are about.
@@ -33,11 +40,14 @@ bool parts(std::string_view verdict) {
 
 }  // namespace
 
-SnapshotFeed::SnapshotFeed(Recording& out) : out_(out) { out_.tracks.resize(out_.bodies.size()); }
+SnapshotFeed::SnapshotFeed(Recording& out) : out_(out) {
+  out_.tracks.resize(out_.bodies.size());
+  if (out_.every > 1) keyframes_.emplace(out);
+}
 
 void SnapshotFeed::add(const Snapshot& seen) {
   addBodies(seen);
-  if (out_.detail == Detail::Full) {
+  if (out_.detail == Detail::Full && seen.step % out_.every == 0) {
     addContacts(seen);
     for (const Decision& decision : seen.decisions) addDecision(seen.step, decision);
   }
@@ -52,26 +62,27 @@ void SnapshotFeed::add(const Snapshot& seen) {
 
 void SnapshotFeed::addBodies(const Snapshot& seen) {
   for (const BodyState& b : seen.bodies) {
+    if (keyframes_) {
+      keyframes_->add(seen.step, b);
+      continue;
+    }
     BodyTrack& track = out_.tracks[index(b.id)];
     if (track.x.empty()) track.first = seen.step;
-    track.x.push_back(b.x.x());
-    track.y.push_back(b.x.y());
-    track.angle.push_back(b.angle);
-    track.vx.push_back(static_cast<float>(b.v.x()));
-    track.vy.push_back(static_cast<float>(b.v.y()));
-    track.omega.push_back(static_cast<float>(b.omega));
-    track.collection.push_back(value(b.collection));
-    track.asleep.push_back(b.asleep ? 1 : 0);
+    track.append(b);
   }
 }
 
+void SnapshotFeed::finish() {
+  if (keyframes_) keyframes_->finish();
+}
+
 void SnapshotFeed::addContacts(const Snapshot& seen) {
+  const std::int64_t sample = seen.step / out_.every;
   for (const ContactView& c : seen.contacts) {
-    const BodyTrack& body = out_.tracks[index(c.a)];
-    const Pose frame = Pose::at({body.x.back(), body.y.back()}, body.angle.back());
     ContactTrack& track = contactTrack(c);
-    if (sampledAt(track.spans, seen.step)) continue;
-    extend(track.spans, seen.step);
+    if (holdsSample(track.spans, sample)) continue;
+    extend(track.spans, sample);
+    const Pose frame = poseOf(seen, c.a);
     const Vec2 at = frame.inverse() * c.x;
     const Vec2 normal = frame.rotation.inverse() * c.normal;
     track.x.push_back(static_cast<float>(at.x()));
@@ -120,8 +131,8 @@ void SnapshotFeed::addDecision(std::int64_t step, Decision d) {
   const auto number = static_cast<float>(d.value);
   const auto count = static_cast<std::uint8_t>(std::clamp(d.count, 0, 255));
   const std::uint8_t passed = parts(d.verdict) ? 0 : 1;
-  if (!sampledAt(track.spans, step)) {
-    extend(track.spans, step);
+  if (const std::int64_t sample = step / out_.every; !holdsSample(track.spans, sample)) {
+    extend(track.spans, sample);
     track.value.push_back(number);
     track.count.push_back(count);
     track.passed.push_back(passed);

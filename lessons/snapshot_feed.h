@@ -2,9 +2,11 @@
 /// Snapshots into a recording.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 
+#include "lessons/keyframes.h"
 #include "lessons/recording.h"
 #include "render/palette.h"
 
@@ -14,7 +16,10 @@ namespace merge2d {
 class SnapshotFeed {
  public:
   explicit SnapshotFeed(Recording& out);
+  /// Contacts and decisions are kept in steps that are multiples of Recording::every.
   void add(const Snapshot& seen);
+  /// To be called after the last step of a run that is kept in keyframes.
+  void finish();
 
  private:
   void addBodies(const Snapshot& seen);
@@ -24,6 +29,7 @@ class SnapshotFeed {
 
   Recording& out_;
   CollectionColors colors_;
+  std::optional<KeyframeFilter> keyframes_;  ///< of a long run
   std::map<std::tuple<std::size_t, std::size_t, std::uint32_t>, std::size_t> contact_of_;
   std::map<std::tuple<std::size_t, std::size_t, std::string, std::string>, std::size_t>
       decision_of_;

@@ -113,7 +113,9 @@ std::string stepText(const StepRecord& record, const std::vector<BodyInfo>& bodi
   out.open('{');
   writeState(out, r, record.after);
   writeColors(out, colors);
-  writeInside(out, impulsesInside(record, r));
+  ContactTracks tracks;
+  tracks.update(r);
+  writeInside(out, impulsesInside(record, tracks));
   writeOrder(out, record.notes);
   out.key("ledger").open('[');
   for (const LedgerEntry& entry : ledgerOf(record, bodies)) writeLedger(out, entry);

@@ -222,6 +222,12 @@ void World::capture(Snapshot& out) const {
   out.groups = impl_->notes.groups;
 }
 
+void World::captureMotion(Snapshot& out) const {
+  merge2d::captureMotion(impl_->wholeState(), impl_->setup.actions, impl_->scratch, out);
+  out.decisions.clear();
+  out.groups.clear();
+}
+
 Snapshot World::capture() const {
   Snapshot snapshot;
   capture(snapshot);

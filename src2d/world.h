@@ -72,6 +72,8 @@ class World {
   /// Fills `out` with what can be seen now, reusing its memory.
   void capture(Snapshot& out) const;
   Snapshot capture() const;
+  /// The same without contacts, welds, joints and decisions: what a long run can afford each step.
+  void captureMotion(Snapshot& out) const;
   /// Statistics and events of the last step alone: cheap.
   const Stats& stats() const;
   const std::vector<Event>& events() const;

@@ -221,6 +221,21 @@ void captureState(const State& state, const Actions& actions, const Scratch& scr
   measure(state, actions, out, out.stats);
 }
 
+void captureMotion(const State& state, const Actions& actions, const Scratch& scratch,
+                   Snapshot& out) {
+  out.step = state.step;
+  out.time = state.time;
+  captureBodies(state, out);
+  captureCollections(state, out);
+  out.contacts.clear();
+  out.welds.clear();
+  out.joints.clear();
+  out.springs = scratch.springs;
+  out.events = scratch.events;
+  out.stats = scratch.stats;
+  measure(state, actions, out, out.stats);
+}
+
 void countBodies(const State& state, Scratch& scratch) {
   Stats& stats = scratch.stats;
   stats.active_bodies = stats.internal_contacts = 0;

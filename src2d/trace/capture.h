@@ -10,6 +10,11 @@ namespace merge2d {
 void captureState(const State& state, const Actions& actions, const Scratch& scratch,
                   Snapshot& out);
 
+/// The same without contacts, welds and joints: what moves, at a fraction of the cost. The deepest
+/// overlap is not measured.
+void captureMotion(const State& state, const Actions& actions, const Scratch& scratch,
+                   Snapshot& out);
+
 /// The cheap part of the statistics: counts of the step that just ended.
 void countBodies(const State& state, Scratch& scratch);
 

@@ -2,6 +2,7 @@
 import { h, plural, svg } from './dom';
 import type { State } from './state';
 import type { Trace } from './trace';
+import { stepOf } from './tracks';
 
 interface Life {
   id: number;
@@ -25,16 +26,19 @@ function livesOf(trace: Trace): { lives: Life[]; links: Link[] } {
   const links = new Map<string, Link>();
   const sizes = new Map<number, number>();
   const members = Int32Array.from(trace.bodies, () => -1);
-  const changes = new Set<number>([0]);
-  for (const track of trace.bodies) {
-    for (let i = 1; i < track.collection.length; ++i) {
-      if (track.collection[i] !== track.collection[i - 1]) changes.add(track.first + i);
+  const changes = new Map<number, number[]>(); // bodies by steps
+  trace.bodies.forEach((track, body) => {
+    for (let i = 0; i < track.collection.length; ++i) {
+      if (i > 0 && track.collection[i] === track.collection[i - 1]) continue;
+      const step = stepOf(track, i);
+      const list = changes.get(step);
+      if (list) list.push(body);
+      else changes.set(step, [body]);
     }
-    if (track.first > 0) changes.add(track.first);
-  }
-  for (const step of [...changes].sort((a, b) => a - b)) {
+  });
+  for (const [step, bodies] of [...changes].sort((a, b) => a[0] - b[0])) {
     const touched = new Set<number>();
-    for (let body = 0; body < members.length; ++body) {
+    for (const body of bodies) {
       const now = trace.collection(body, step);
       const was = members[body];
       if (now === was) continue;

@@ -26,7 +26,11 @@ export interface Head {
   full: boolean;
   h: number;
   steps: number;
-  every: number;
+  every: number; // steps between two samples of contacts and decisions
+  /** Of a long run: bodies are kept in keyframes, and statistics every so many steps. */
+  keyframes?: number;
+  event_types?: string[];
+  event_reasons?: string[];
   gravity: Vec;
   camera: [number, number, number];
   length: number;

@@ -3,7 +3,7 @@ import { chart, type Series } from './chart';
 import { h, number, plural } from './dom';
 import { contactsOfStage } from './inside';
 import type { State } from './state';
-import type { DecisionTrack } from './tracks';
+import { type DecisionTrack, endOf } from './tracks';
 
 const kNames: Record<string, [string, string]> = {
   'relative-motion': ['Fastest relative motion', 'm/s'],
@@ -98,7 +98,7 @@ function bodyView(state: State, id: number): HTMLElement[] {
   const track = trace.bodies[id];
   const speed: Series = { label: 'Speed', unit: 'm/s', points: [] };
   const every = Math.max(1, Math.floor(state.steps / 600));
-  for (let s = track.first; s < track.first + track.x.length; ++s) {
+  for (let s = track.first; s < endOf(track); ++s) {
     if (s % every !== 0 && s !== state.step) continue;
     const w = trace.velocity(id, s);
     speed.points.push([s, Math.hypot(w.vx, w.vy)]);

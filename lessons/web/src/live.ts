@@ -61,7 +61,7 @@ export class LiveTrace extends Trace {
 
   constructor(private readonly run: World, prepared: Trace, readonly fork: number, label: string, mode = prepared.head.mode) {
     const head: Head = {
-      ...prepared.head, mode, every: 1, length: 1, angle: 1, bodies: [...prepared.head.bodies], steps: Math.max(prepared.head.steps, fork),
+      ...prepared.head, mode, every: 1, keyframes: undefined, length: 1, angle: 1, bodies: [...prepared.head.bodies], steps: Math.max(prepared.head.steps, fork),
       events: prepared.head.events.filter(([step]) => step <= fork),
       colors: [...prepared.head.colors],
       ledger: prepared.head.ledger?.filter(([step]) => step <= fork),
@@ -258,9 +258,10 @@ function newBody(first: number): LiveBody {
   return { first, ...columns(kBodyColumns) };
 }
 
-/** A body of the prepared run up to a step, in metres. */
+/** A body of the prepared run up to a step, in metres; of a long run that step alone, since all would not fit into memory. */
 function bodyUpTo(prepared: Trace, body: number, last: number): LiveBody {
-  const track = newBody(prepared.bodies[body].first);
+  const { first } = prepared.bodies[body];
+  const track = newBody(prepared.head.keyframes === undefined ? first : Math.max(first, last));
   for (let step = track.first; step <= last && prepared.present(body, step); ++step) {
     const { x, y, angle } = prepared.pose(body, step);
     const { vx, vy, omega } = prepared.velocity(body, step);

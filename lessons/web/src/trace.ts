@@ -1,7 +1,7 @@
 // A recorded run: places, contacts and decisions at each time step.
 import type { Criterion, EventRow, Head, Packed } from './head';
 import { type ShortName, shortNames, withShortNames, written } from './names';
-import { type BodyTrack, ByPair, type Column, type ContactTrack, type DecisionTrack, type Inside, readBody, readContact, readDecision, readInside } from './tracks';
+import { type BodyTrack, ByPair, type Column, type ContactTrack, type DecisionTrack, type Inside, endOf, placeIn, readBody, readContact, readDecision, readEvents, readInside, stepOf } from './tracks';
 import { Unpacker } from './unpack';
 
 /** A quantity that is kept in codes: some spread evenly, some over many decades. */
@@ -98,7 +98,8 @@ export function partsOf(packed: Packed): TraceParts {
     head, label, world, bodies: [], contacts: [], decisions: [], insides: new Map(), stats: [],
     amount: logarithmic(head.amount[0], head.amount[1]), fine: logarithmic(1e-6, 1024),
   };
-  for (let i = 0; i < head.bodies.length; ++i) parts.bodies.push(readBody(read, full));
+  const long = head.keyframes !== undefined;
+  for (let i = 0; i < head.bodies.length; ++i) parts.bodies.push(readBody(read, full, long));
   if (full) {
     for (let n = read.number(), i = 0; i < n; ++i) parts.contacts.push(readContact(read, every, i));
     for (let n = read.number(); n > 0; --n) parts.decisions.push(readDecision(read, every, criteria));
@@ -108,6 +109,7 @@ export function partsOf(packed: Packed): TraceParts {
     }
   }
   for (let i = 0; i < kStats; ++i) parts.stats.push(read.column());
+  if (long) head.events = readEvents(read, head.event_types ?? [], head.event_reasons ?? []);
   return parts;
 }
 
@@ -194,42 +196,44 @@ export class Trace {
 
   present(body: number, step: number): boolean {
     const track = this.bodies[body];
-    return step >= track.first && step < track.first + track.x.length;
+    return step >= track.first && step < endOf(track);
   }
 
   pose(body: number, step: number): Pose {
     const track = this.bodies[body];
-    const i = step - track.first;
+    const [i, part] = placeIn(track, step);
+    const between = (column: Column) => (part === 0 ? column[i] : column[i] + part * (column[i + 1] - column[i]));
     return {
-      x: track.x[i] * this.head.length,
-      y: track.y[i] * this.head.length,
-      angle: track.angle[i] * this.head.angle,
+      x: between(track.x) * this.head.length,
+      y: between(track.y) * this.head.length,
+      angle: between(track.angle) * this.head.angle,
     };
   }
 
   velocity(body: number, step: number): { vx: number; vy: number; omega: number } {
     const track = this.bodies[body];
-    const i = step - track.first;
+    const [i] = placeIn(track, step);
     if (track.vx && track.vy && track.omega) {
       return { vx: this.amount(track.vx[i]), vy: this.amount(track.vy[i]), omega: this.amount(track.omega[i]) };
     }
-    const j = Math.max(0, i - 1);
-    const dt = Math.max(1, i - j) * this.head.h;
+    // Of the way that ends at this step; of keyframes the way that this step lies on.
+    const [from, to] = track.at && track.at[i] < step ? [i, Math.min(i + 1, track.x.length - 1)] : [Math.max(0, i - 1), i];
+    const dt = Math.max(1, stepOf(track, to) - stepOf(track, from)) * this.head.h;
     return {
-      vx: ((track.x[i] - track.x[j]) * this.head.length) / dt,
-      vy: ((track.y[i] - track.y[j]) * this.head.length) / dt,
-      omega: ((track.angle[i] - track.angle[j]) * this.head.angle) / dt,
+      vx: ((track.x[to] - track.x[from]) * this.head.length) / dt,
+      vy: ((track.y[to] - track.y[from]) * this.head.length) / dt,
+      omega: ((track.angle[to] - track.angle[from]) * this.head.angle) / dt,
     };
   }
 
   collection(body: number, step: number): number {
     const track = this.bodies[body];
-    return this.present(body, step) ? track.collection[step - track.first] : -1;
+    return this.present(body, step) ? track.collection[placeIn(track, step)[0]] : -1;
   }
 
   asleep(body: number, step: number): boolean {
     const track = this.bodies[body];
-    return this.present(body, step) && track.asleep[step - track.first] === 1;
+    return this.present(body, step) && track.asleep[placeIn(track, step)[0]] === 1;
   }
 
   slot(collection: number): number {
@@ -238,7 +242,7 @@ export class Trace {
 
   stats(step: number): Stats {
     const [active, collections, asleep, contacts, internal, penetration, kinetic, potential, px, py, angular] =
-      this.statColumns.map((column) => column[step] ?? 0);
+      this.statColumns.map((column) => column[Math.floor(step / (this.head.keyframes ?? 1))] ?? 0);
     const fine = this.fine;
     return {
       active, collections, asleep, contacts, internal,

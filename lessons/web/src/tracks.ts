@@ -1,5 +1,5 @@
 // The columns of a recorded run: lessons/encode.cpp writes them, these read them.
-import type { Criterion } from './head';
+import type { Criterion, EventRow } from './head';
 import type { Unpacker } from './unpack';
 
 /** A quantity over samples: codes of a packed run, numbers of a live one. */
@@ -61,6 +61,7 @@ export class Spans implements Samples {
 
 export interface BodyTrack {
   first: number;
+  at?: Column; // steps of the keyframes; without them there is a sample for each step
   x: Column;
   y: Column;
   angle: Column;
@@ -114,22 +115,54 @@ export interface Inside {
   inner: Column; // inside a collection during the sweep
 }
 
-/** With velocities where the whole run is recorded. */
-export function readBody(read: Unpacker, full: boolean): BodyTrack {
+/** With velocities where each step of a run is recorded in full. */
+export function readBody(read: Unpacker, full: boolean, keyframes: boolean): BodyTrack {
   const track: BodyTrack = {
     first: read.number(),
+    ...(keyframes ? { at: read.column() } : {}),
     x: read.column(),
     y: read.column(),
     angle: read.column(),
     collection: read.runs(),
     asleep: read.runs(),
   };
-  if (full) {
+  if (full && !keyframes) {
     track.vx = read.column();
     track.vy = read.column();
     track.omega = read.column();
   }
   return track;
+}
+
+/** Where a step is among the samples of a body: the last one up to it, and how far it is to the next. */
+export function placeIn(track: BodyTrack, step: number): [sample: number, part: number] {
+  const { at } = track;
+  if (!at) return [step - track.first, 0];
+  let low = 0;
+  let high = at.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (at[middle] <= step) low = middle + 1;
+    else high = middle;
+  }
+  const i = low - 1;
+  return i + 1 < at.length ? [i, (step - at[i]) / (at[i + 1] - at[i])] : [i, 0];
+}
+
+/** The first step after the last sample. */
+export function endOf(track: BodyTrack): number {
+  return track.at ? (track.at[track.at.length - 1] ?? -1) + 1 : track.first + track.x.length;
+}
+
+/** The step of a sample. */
+export function stepOf(track: BodyTrack, sample: number): number {
+  return track.at ? track.at[sample] : track.first + sample;
+}
+
+/** The events of a long run, which are packed: in a head they would be most of the page. */
+export function readEvents(read: Unpacker, types: string[], reasons: string[]): EventRow[] {
+  const [steps, type, a, b, collection, reason] = Array.from({ length: 6 }, () => read.column());
+  return Array.from(steps, (step, i) => [step, types[type[i]], a[i], b[i], collection[i], reasons[reason[i]]]);
 }
 
 export function readContact(read: Unpacker, every: number, id: number): ContactTrack {

@@ -278,3 +278,24 @@ test('a symbol of an equation lights up its number', async () => {
   assert.equal(await page.getAttribute('html', 'data-lit'), 'λn');
   await close();
 });
+
+test('a long run moves between its keyframes, and has its events in the steps in which they were', async () => {
+  const { page, close } = await open('long');
+  const head = await page.$eval('#data', (data) => JSON.parse(data.textContent).traces[0].head);
+  assert.ok(head.keyframes > 1);
+  assert.equal(head.events.length, 0); // they are packed
+  const lines = execFileSync(merge2d, ['run', 'funnel', '--steps', '2200', '--trace', '-', '--quiet'], { encoding: 'utf8', maxBuffer: 2 ** 30 })
+    .trim().split('\n').map((line) => JSON.parse(line)).filter(({ step }) => step !== undefined);
+  const merged = lines.findLast(({ events }) => events?.some(({ type }) => type === 'merge'));
+  for (const step of [1001, 1717, merged.step]) {
+    await page.locator('.slider').fill(String(step));
+    const { bodies } = lines.find((line) => line.step === step);
+    const drawn = await page.$$eval('.picture.interactive .body', (all) => all.filter(({ style }) => style.display !== 'none').length);
+    assert.ok(Math.abs(drawn - bodies.length) <= 1, `${drawn} bodies are drawn of ${bodies.length}`);
+  }
+  assert.match(await page.textContent('.now .events'), /merged/);
+  await page.locator('.slider').fill('300');
+  await page.click('button[aria-label=Play]');
+  await page.waitForFunction(() => Number(document.querySelector('.slider').value) > 320);
+  await close();
+});

@@ -25,6 +25,7 @@ const kMade = {
   'tower-platform': ['tower-platform', '--steps', '400'],
   small: ['long-names.toml', '--no-live'],
   cycles: ['cycles', '--embed'],
+  long: ['funnel', '--steps', '2200'],
 };
 
 /** A page, made when it is first asked for; "course" is the list of all lessons, "course/NAME" one of them. */
