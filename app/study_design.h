@@ -5,12 +5,18 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src2d/scene/load.h"
 #include "src2d/scene/settings.h"
 
 namespace merge2d {
+
+/// A place in the text of a study.
+struct StudyPlace {
+  std::uint32_t line = 0, column = 0;  ///< from 1
+};
 
 /// A quantity that a study varies, and the values it takes: texts as `--set` understands them. A
 /// random design draws from a range between its bounds instead.
@@ -23,6 +29,7 @@ struct StudyAxis {
     bool whole = false;  ///< whole numbers only
   };
   std::optional<Range> range{};
+  StudyPlace place{};
 };
 
 /// How runs are chosen.
@@ -37,7 +44,9 @@ struct Study {
   static constexpr std::size_t kMostRuns = 1'000'000;
 
   std::string title{};
+  std::string name{}, text{};         ///< of its file
   std::vector<std::string> scenes{};  ///< names, or files as they are found from here
+  StudyPlace scenes_place{};
   std::vector<Mode> modes{};
   std::vector<StudyAxis> axes{};  ///< [parameters], then the seed where it varies
   StudyDesign design = StudyDesign::Grid;
@@ -60,6 +69,9 @@ struct StudyRun {
 
 /// Reads a study file. Throws InputError with the place of a mistake, IoError.
 Study readStudy(const std::filesystem::path& file);
+
+/// Throws the InputError `sentence` at a place of a study's file.
+[[noreturn]] void failAt(const Study& study, const StudyPlace& place, std::string_view sentence);
 
 /// The runs in their order: scene by scene, mode by mode, the last axis fastest; of samples, one
 /// after another. More samples of one seed begin with the same ones, but for Latin hypercubes.

@@ -112,10 +112,16 @@ StudyAxis readRange(const std::string& key, const Value& value, const toml::node
   return axis;
 }
 
+StudyPlace placeOf(const toml::node& node) {
+  return {node.source().begin.line, node.source().begin.column};
+}
+
 StudyAxis readAxis(const std::string& key, const Value& value, const toml::node& node,
                    bool random) {
-  if (node.is_table()) return readRange(key, value, node, random);
   StudyAxis axis{.key = key};
+  if (node.is_table()) axis = readRange(key, value, node, random);
+  axis.place = placeOf(node);
+  if (node.is_table()) return axis;
   const auto* array = node.as_array();
   if (array == nullptr) {
     axis.values.push_back(overrideText(value, node));
@@ -238,17 +244,27 @@ void readModes(TableReader& root, Study& study) {
 
 }  // namespace
 
+void failAt(const Study& study, const StudyPlace& place, std::string_view sentence) {
+  const SourceText source(study.name, study.text);
+  throw InputError(source.message({place.line, place.column}, sentence));
+}
+
 Study readStudy(const fs::path& file) {
   const std::string bytes = readFile(file, {.what = "a study file"});
   const SourceText source(nameOfFile(file), bytes);
   const toml::table table = parseToml(source);
   TableReader root(source, table, "the study");
   Study study;
+  study.name = source.name();
+  study.text = bytes;
   study.title = file.stem().string();
   std::int64_t format = 1;
   root.read("format", format, Range{1.0, 1.0, "1, the one version there is"});
   root.read("title", study.title);
-  if (const auto scenes = root.require("scenes")) study.scenes = readTexts(*scenes);
+  if (const auto scenes = root.require("scenes")) {
+    study.scenes = readTexts(*scenes);
+    study.scenes_place = placeOf(*table.get("scenes"));
+  }
   for (std::string& scene : study.scenes) scene = sceneFromHere(scene, file);
   readModes(root, study);
   readLength(root, study);

@@ -69,27 +69,58 @@ void describeStudy(const fs::path& folder, const Study& study) {
             json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.everything = true});
 }
 
+/// A scene or a lesson's, as the runs load it.
+Scene loadQuietly(const std::string& scene, const Overrides& changes = {}) {
+  MessageOptions silent;
+  silent.quiet = true;
+  SceneOptions options;
+  options.scene = scene;
+  options.overrides = changes;
+  return loadScene(options, Console(silent));
+}
+
+/// A scene as it is without changes.
+Scene loaded(const Study& study, const std::string& scene) {
+  try {
+    return loadQuietly(scene);
+  } catch (const InputError& error) {
+    std::error_code ignored;
+    if (fs::exists(scene, ignored)) throw;  // the mistake is in that file
+    failAt(study, study.scenes_place, error.what());
+  }
+}
+
+/// Throws an InputError at the first axis whose first value `scene` does not take.
+void failWhereItStands(const Study& study, const std::string& scene, const Overrides& changes) {
+  for (std::size_t i = 0; i < study.axes.size(); ++i) {
+    try {
+      loadQuietly(scene, {changes[i]});
+    } catch (const InputError& error) {
+      const std::string place = fmt::format("--set {}={}: ", changes[i].first, changes[i].second);
+      std::string_view sentence = error.what();
+      if (sentence.starts_with(place)) sentence.remove_prefix(place.size());
+      failAt(study, study.axes[i].place, fmt::format("{}, in {}", sentence, scene));
+    }
+  }
+}
+
 }  // namespace
 
 fs::path endsFolder(const fs::path& folder) { return folder / "ends"; }
 
 RunKeys::RunKeys(const Study& study) : study_(study) {
-  MessageOptions silent;
-  silent.quiet = true;
-  const Console console(silent);
   std::vector<std::string> first;
   for (const StudyAxis& axis : study.axes) {
     first.push_back(axis.values.empty() ? fmt::format("{}", axis.range->from) : axis.values[0]);
   }
   for (const std::string& scene : study.scenes) {
-    SceneOptions options;
-    options.scene = scene;
-    digests_[scene] = digestOfScene(loadScene(options, console));
-    options.overrides = overridesOf(study, {.scene = scene, .values = first});
+    digests_[scene] = digestOfScene(loaded(study, scene));
+    const Overrides changes = overridesOf(study, {.scene = scene, .values = first});
     try {
-      loadScene(options, console);
+      loadQuietly(scene, changes);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", scene, error.what()));
+      failWhereItStands(study, scene, changes);
+      throw InputError(fmt::format("{}: {}", scene, error.what()));  // only together
     }
   }
 }

@@ -300,10 +300,18 @@ TEST_F(StudyCommand, SaysWhatIsWrongInAStudyFileAndWhere) {
   };
   EXPECT_THAT(error("scene = [\"pile\"]\n"),
               HasSubstr("bad.toml:1:1: unknown key 'scene' in the study (did you mean 'scenes'?)"));
-  EXPECT_THAT(error("scenes = [\"pil\"]\n"), HasSubstr("did you mean 'pile'?"));
+  EXPECT_THAT(error("steps = 1\nscenes = [\"pil\"]\n"),
+              AllOf(HasSubstr("bad.toml:2:10: no built-in scene is called 'pil'"),
+                    HasSubstr("did you mean 'pile'?")));
+  EXPECT_THAT(error("scenes = [\"no/such.toml\"]\n"),
+              HasSubstr("bad.toml:1:10: there is no file no/such.toml"));
   EXPECT_THAT(error("scenes = [\"pile\"]\nmodes = [\"merg\"]\n"), HasSubstr("did you mean"));
   EXPECT_THAT(error("scenes = [\"pile\"]\n[parameters]\nmerging.velocty = [1]\n"),
-              HasSubstr("pile: --set merging.velocty=1: unknown key 'velocty'"));
+              HasSubstr("bad.toml:3:19: unknown key 'velocty' in [merging] (did you mean "
+                        "'velocity'?), in pile"));
+  EXPECT_THAT(
+      error("scenes = [\"books\"]\n[parameters]\nstep = [0.01]\nbody.diry.mass = [1]\n"),
+      HasSubstr("bad.toml:4:18: no body is called 'diry' (did you mean 'diary'?), in books"));
   EXPECT_THAT(error("scenes = [\"pile\"]\n[parameters]\nstep = { from = 1, to = 2.5 }\n"),
               HasSubstr("needs a 'count' or a 'by'"));
   EXPECT_THAT(error("scenes = [\"pile\"]\n[parameters]\nstep = { from = 2, to = 1 }\n"),
@@ -340,6 +348,13 @@ TEST_F(StudyCommand, FindsSceneFilesBesideTheStudy) {
   write("inner/grid.toml", "scenes = [\"my.toml\"]\nsteps = 2\n");
   EXPECT_EQ(run({"study", "inner/grid.toml", "-o", "out"}).code, 0);
   EXPECT_EQ(table().at(0).at("scene"), "inner/my.toml");
+}
+
+TEST_F(StudyCommand, RunsTheSceneOfALesson) {
+  write("lesson.toml", "scenes = [\"one-step\"]\nsteps = 2\n");
+  const Outcome outcome = run({"study", "lesson.toml", "-o", "out"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(table().at(0).at("scene"), "one-step");
 }
 
 TEST_F(StudyCommand, GivesItsCountsAsJson) {
