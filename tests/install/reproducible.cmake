@@ -25,8 +25,9 @@ foreach(copy one another/deeper/one)
 endforeach()
 foreach(copy one another/deeper/one)
   run(${CMAKE_COMMAND} -S ${WORK}/${copy} -B ${WORK}/${copy}/build -G ${GENERATOR}
-      -DCMAKE_BUILD_TYPE=Release -DMERGE2D_TESTS=OFF)
-  run(${CMAKE_COMMAND} --build ${WORK}/${copy}/build --target merge2d merge2d_shared)
+      -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=20
+      -DMERGE2D_TESTS=OFF)
+  run(${CMAKE_COMMAND} --build ${WORK}/${copy}/build --target merge2d merge2d_shared -j 2)
 endforeach()
 file(GLOB_RECURSE products RELATIVE ${WORK}/one/build
      ${WORK}/one/build/merge2d ${WORK}/one/build/api/libmerge2d.so.*.*.*)
