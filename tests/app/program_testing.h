@@ -98,6 +98,8 @@ class ProgramTest : public testing::Test {
 
   /// Starts the program and does not wait.
   pid_t start(const Words& arguments) const {
+    // Also of a run that is killed before it has begun.
+    for (const char* name : {"out", "err"}) std::ofstream(root_ / name, std::ios::trunc);
     const pid_t child = fork();
     if (child != 0) return child;
     redirect(STDIN_FILENO, input_.empty() ? fs::path("/dev/null") : input_, O_RDONLY);
