@@ -54,6 +54,10 @@ double turnOfRod(const JointPlace& now, const JointPlace& then) {
   return length > 0.0 ? (after - before).norm() / length : 0.0;
 }
 
+SolverVelocity changeOf(const SolverVelocity& now, const SolverVelocity& before) {
+  return {now.vx - before.vx, now.vy - before.vy, now.omega - before.omega};
+}
+
 std::uint32_t moverA(const State& state, const Scratch& scratch, const Joint& joint) {
   return static_cast<std::uint32_t>(moverOf(state, scratch, joint.a));
 }
@@ -207,6 +211,31 @@ bool allowForBends(const State& state, std::span<JointBlock> joints,
     if (k.limit && k.lambda[kLimitRow] != 0.0) allow(kLimitRow);
   }
   return any;
+}
+
+void rememberMotion(std::span<const JointBlock> joints, const std::vector<SolverVelocity>& u,
+                    std::vector<JointMotion>& motion) {
+  motion.clear();
+  for (const JointBlock& k : joints) motion.push_back({u[k.a], u[k.b]});
+}
+
+bool correctionHolds(const State& state, std::span<const JointBlock> joints,
+                     const std::vector<SolverVelocity>& u, const std::vector<JointMotion>& before,
+                     double corrected) {
+  double bent = 0.0;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const JointBlock& k = joints[j];
+    const Joint& joint = state.joints[k.joint];
+    const SolverVelocity a = changeOf(u[k.a], before[j].a), b = changeOf(u[k.b], before[j].b);
+    const JointPlace now = placeIn(state, joint, k);
+    const JointErrors here = errorsOf(joint, now);
+    const JointErrors there = errorsOf(joint, afterStep(now, a, b, state.h));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(k.coupled); ++i) {
+      const double straight = state.h * jointVelocity(k.rows[i], {}, a, b);
+      bent = std::max(bent, std::abs(there[i] - here[i] - straight));
+    }
+  }
+  return bent <= 0.25 * corrected;
 }
 
 void storeJointImpulses(State& state, Scratch& scratch) {

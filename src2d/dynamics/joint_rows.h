@@ -32,6 +32,21 @@ void warmStartJoints(std::span<const JointBlock> joints, std::vector<SolverVeloc
 bool allowForBends(const State& state, std::span<JointBlock> joints,
                    const std::vector<SolverVelocity>& u, std::vector<JointErrors>& bends);
 
+/// The velocities of the two bodies of a joint.
+struct JointMotion {
+  SolverVelocity a, b;
+};
+void rememberMotion(std::span<const JointBlock> joints, const std::vector<SolverVelocity>& u,
+                    std::vector<JointMotion>& motion);
+
+/// True when the change of the velocities since `before` is a correction: its own bend, of second
+/// order, is no larger than the errors of `corrected` [m] at most that it takes back. A straight
+/// chain between two fixed ends has no room for one: the smallest error asks for a fast motion
+/// across, which makes a larger one, and adds energy in each step.
+bool correctionHolds(const State& state, std::span<const JointBlock> joints,
+                     const std::vector<SolverVelocity>& u, const std::vector<JointMotion>& before,
+                     double corrected);
+
 /// Hands the impulses back to the joints, and breaks those that bear too much.
 void storeJointImpulses(State& state, Scratch& scratch);
 

@@ -5,9 +5,10 @@
 namespace merge2d {
 namespace {
 
-/// A pivot below this part of its row's own K says nothing new, and the row then gets this part of
-/// K as softness.
-constexpr double kDependent = 1e-13, kSoftened = 1e-4;
+/// A pivot below this part of its row's own K says nothing new, and the row then gets the other
+/// part of K as softness. A pivot p leaves rounding of 1e-16 / p to those after it, which must tell
+/// nothing from something still.
+constexpr double kDependent = 1e-7, kSoftened = 1e-4;
 
 bool isInsideBounds(const JointBlock& k, std::size_t i) {
   return k.lambda[i] > k.rows[i].lower && k.lambda[i] < k.rows[i].upper;
@@ -261,6 +262,18 @@ bool JointSolver::isExact() const {
            return (!k.motor || solvesBound(k, kMotorRow)) &&
                   (!k.limit || solvesBound(k, kLimitRow));
          });
+}
+
+void JointSolver::correct() {
+  for (JointBlock& k : joints_) {
+    k.forEachRow([&](std::size_t i) {
+      JointRow& r = k.rows[i];
+      const double error = i < static_cast<std::size_t>(k.coupled) ? r.bias : 0.0;
+      r.bias = error - r.softness * k.lambda[i] - jointVelocity(r, {}, u_[k.a], u_[k.b]);
+    });
+  }
+  findChange();
+  applyChange();
 }
 
 void JointSolver::sweep() {

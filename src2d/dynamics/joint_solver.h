@@ -49,6 +49,8 @@ class JointSolver {
 
   /// Solves every joint once.
   void sweep();
+  /// Adds the motion by which the errors of the joints are taken back, and no other.
+  void correct();
   /// True when a sweep solves all of them for good, unless something else changes velocities.
   bool isExact() const;
 

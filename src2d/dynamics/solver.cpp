@@ -27,6 +27,91 @@ void warmStart(std::span<const ContactBlock> blocks, std::vector<SolverVelocity>
 /// bend by the first one.
 constexpr int kSweepsForBends = 2, kTimesForBends = 2;
 
+/// The solution of an island, to go back to.
+class IslandSolution {
+ public:
+  void keep(std::span<const ContactBlock> blocks, std::span<const JointBlock> joints,
+            std::span<const std::uint32_t> bodies, const std::vector<SolverVelocity>& u) {
+    u_.clear();
+    impulses_.clear();
+    for (const std::uint32_t b : bodies) u_.push_back(u[b]);
+    for (const ContactBlock& k : blocks) impulses_.push_back(k.lambda);
+    joints_.assign(joints.begin(), joints.end());
+  }
+  void restore(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
+               std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u) const {
+    for (std::size_t i = 0; i < bodies.size(); ++i) u[bodies[i]] = u_[i];
+    for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].lambda = impulses_[i];
+    std::ranges::copy(joints_, joints.begin());
+  }
+
+ private:
+  std::vector<SolverVelocity> u_;
+  std::vector<Impulses> impulses_;
+  std::vector<JointBlock> joints_;
+};
+
+/// The bodies, contacts and joints of one island.
+struct IslandParts {
+  std::span<ContactBlock> blocks;
+  std::span<JointBlock> joints;
+  std::span<const std::uint32_t> bodies;
+};
+
+/// Memory of the corrections, which is kept.
+struct CorrectionMemory {
+  std::vector<JointErrors> bends;
+  std::vector<JointMotion> before;
+  IslandSolution uncorrected;
+};
+
+CorrectionMemory& correctionMemory() {
+  thread_local CorrectionMemory memory;
+  return memory;
+}
+
+/// Leaves the errors of joints that no small motion takes back (joint_rows.h).
+void dropFutileCorrections(const State& state, const IslandParts& island,
+                           std::vector<SolverVelocity>& u, JointSolver& together) {
+  CorrectionMemory& m = correctionMemory();
+  double error = 0.0;
+  for (const JointBlock& k : island.joints) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(k.coupled); ++i) {
+      error = std::max(error, state.h * std::abs(k.rows[i].bias));
+    }
+  }
+  rememberMotion(island.joints, u, m.before);
+  m.uncorrected.keep(island.blocks, island.joints, island.bodies, u);
+  together.correct();
+  const bool holds = correctionHolds(state, island.joints, u, m.before, error);
+  m.uncorrected.restore(island.blocks, island.joints, island.bodies, u);
+  if (holds) return;
+  for (JointBlock& k : island.joints) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(k.coupled); ++i) k.rows[i].bias = 0.0;
+  }
+}
+
+/// Calls `solve` with the bends of the joints allowed for, where that is a correction.
+template <class Solve>
+void solveBends(const State& state, const IslandParts& island, std::vector<SolverVelocity>& u,
+                Solve&& solve) {
+  CorrectionMemory& m = correctionMemory();
+  m.bends.assign(island.joints.size(), {});
+  rememberMotion(island.joints, u, m.before);
+  m.uncorrected.keep(island.blocks, island.joints, island.bodies, u);
+  double error = 0.0;  // of the motion that is to be corrected
+  for (int i = 0; i < kTimesForBends && allowForBends(state, island.joints, u, m.bends); ++i) {
+    for (const JointErrors& bend : m.bends) {
+      for (const double part : bend) {
+        if (i == 0) error = std::max(error, state.h * std::abs(part));
+      }
+    }
+    solve();
+  }
+  if (error == 0.0 || correctionHolds(state, island.joints, u, m.before, error)) return;
+  m.uncorrected.restore(island.blocks, island.joints, island.bodies, u);
+}
+
 /// Far-away bodies do not matter: each island has its own ρ.
 SweepChange solveIsland(const State& state, Scratch& scratch, const Island& island,
                         NncgBuffers& buffers) {
@@ -52,6 +137,8 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
     return iteration.run(settings.iterations, accelerate);
   }
   JointSolver together(joints, u, scratch.joint_memory);
+  const IslandParts parts{blocks, joints, bodies};
+  dropFutileCorrections(state, parts, u, together);
   Nncg iteration(
       blocks.size() + joints.size(),
       [&](std::size_t i) -> Impulses& {
@@ -65,11 +152,7 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
       buffers);
   const auto done = [&] { return blocks.empty() && together.isExact(); };
   SweepChange change = iteration.run(settings.iterations, accelerate, done);
-  thread_local std::vector<JointErrors> bends;  // its memory is kept
-  bends.assign(joints.size(), {});
-  for (int i = 0; i < kTimesForBends && allowForBends(state, joints, u, bends); ++i) {
-    change = iteration.run(kSweepsForBends, false, done);
-  }
+  solveBends(state, parts, u, [&] { change = iteration.run(kSweepsForBends, false, done); });
   return change;
 }
 

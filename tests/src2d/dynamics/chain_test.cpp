@@ -119,6 +119,49 @@ TEST(Chain, KeepsItsEnergyWhileItSwings) {
   });
 }
 
+/// A bridge of `n` planks of 1 m and 1 kg between two points of the world that are `n` metres
+/// apart, and a load of `mass` that falls on it from 1 cm.
+std::string bridge(int n, double mass) {
+  std::string toml, joined;
+  for (int i = 0; i < n; ++i) {
+    toml += fmt::format(
+        "[[body]]\nname = \"plank{0}\"\nat = [{1}, 0]\nbox = [0.9, 0.1]\nmass = 1\n"
+        "[[joint]]\nkind = \"revolute\"\nbodies = [{2}\"plank{0}\"]\nat = [{0}, 0]\n",
+        i, i + 0.5, joined);
+    joined = fmt::format("\"plank{}\", ", i);
+  }
+  toml += fmt::format("[[joint]]\nkind = \"revolute\"\nbodies = [\"plank{}\"]\nat = [{}, 0]\n",
+                      n - 1, n);
+  if (mass > 0.0) {
+    toml += fmt::format("[[body]]\nname = \"load\"\nat = [{}, 0.56]\nbox = [1, 1]\nmass = {}\n",
+                        0.5 * n, mass);
+  }
+  return toml;
+}
+
+// It cannot sag without stretching, and nothing in it holds it level: it hangs by a hair. Its
+// joints open by less than 2 % of a plank under ten times its own weight, and it comes to rest; a
+// plank that falls from there is faster than 1 m/s.
+TEST(Chain, ABridgeWithoutSlackStaysWhereItIs) {
+  for (const int planks : {2, 4, 12}) {
+    for (const double mass : {0.0, 10.0}) {
+      inEachModeAndStep([&](Mode mode, double h) {
+        SCOPED_TRACE(::testing::Message() << planks << " planks, " << mass << " kg");
+        World world = worldOf(bridge(planks, mass), mode, h);
+        double widest = 0.0, highest = 0.0;
+        while (world.time() < 6.0) {
+          world.step();
+          widest = std::max(widest, widestGap(world));
+          highest = std::max(highest, see(world, "plank0").x.y());
+        }
+        EXPECT_LT(widest, 0.02);
+        EXPECT_LT(highest, 0.05);
+        EXPECT_LT(fastest(world), 1.4);
+      });
+    }
+  }
+}
+
 TEST(Chain, GivesWayByItsCompliance) {
   inEachModeAndStep([](Mode mode, double h) {
     World world = worldOf(R"(
