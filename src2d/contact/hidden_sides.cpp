@@ -38,6 +38,13 @@ struct Cover {
   SeamScale scale;
 
   bool contains(const Vec2& p) const { return signedDistance(shape, frame * p) <= scale.skin; }
+  bool risesAbove(const Vec2& p, const Vec2& n) const {
+    const Vec2 at = frame * p, up = frame.rotation * n;
+    for (int i = 0; i < shape.count(); ++i) {
+      if (up.dot(shape.vertex(i) - at) > scale.skin) return true;
+    }
+    return false;
+  }
 };
 
 /// True when a shape with these bounds may hide sides at `p`, which is in the bounds' frame.
@@ -62,11 +69,26 @@ bool isHidden(const Collider& shape, const Vec2& p, const Vec2& normal, const Co
     if (at < -skin || at > length + skin) continue;
     const auto covered = [&](double place) {
       const Vec2 on = begin + std::clamp(place, 0.0, length) * along;
-      return cover.contains(on + cover.scale.ahead * outward);
+      return cover.contains(on + cover.scale.ahead * outward) ||
+             (cover.contains(on) && cover.risesAbove(on, outward));
     };
     if (covered(at - cover.scale.beside) && covered(at + cover.scale.beside)) return true;
   }
   return false;
+}
+
+/// True when `p` is a corner of the shape, `normal` leads between those of its sides there, and the
+/// cover, to which the corner belongs too, rises above it: both together have no such corner. So it
+/// is where two shapes meet along a slanted side.
+bool isCornerUnder(const Collider& shape, const Vec2& p, const Vec2& normal, const Cover& cover) {
+  constexpr double kAlong = 1e-9;  // a normal of a side is none of a corner
+  const double skin = cover.scale.skin;
+  bool corner = false;
+  for (int i = 0; i < shape.count(); ++i) {
+    corner |= (shape.vertex(i) - p).squaredNorm() <= skin * skin;
+    if (shape.normal(i).dot(normal) > 1.0 - kAlong) return false;
+  }
+  return corner && cover.contains(p) && cover.risesAbove(p, normal);
 }
 
 bool bears(const Contact& contact) {
@@ -183,7 +205,11 @@ bool hides(const State& state, const SeamContact& t, const SeamContact& s, const
   if (!mayHide(state, t, s, scale)) return false;
   const Cover cover{state.collider(cover_shape), to_cover, scale};
   for (std::size_t k = 0; k < static_cast<std::size_t>(side.count); ++k) {
-    if (!isHidden(state.collider(shape), side.points[k], side.normal, cover)) return false;
+    const Vec2& p = side.points[k];
+    if (!isHidden(state.collider(shape), p, side.normal, cover) &&
+        !isCornerUnder(state.collider(shape), p, side.normal, cover)) {
+      return false;
+    }
   }
   return true;
 }

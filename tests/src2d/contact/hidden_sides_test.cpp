@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/support/contact_runs.h"
 
 namespace merge2d {
@@ -83,6 +85,36 @@ TEST(Seams, NothingTripsInsideACompound) {
       addSmooth(scene, named("slider", moving(body, {speed, 0})));
       SCOPED_TRACE(speed);
       inAllModesAndSteps(scene, [&](World& world) { expectGlides(world, 1.0, speed, 0.3); });
+    }
+  }
+}
+
+/// Two plates that meet at `x` = 0 along a side that leads down to `foot`.
+std::array<Polygon, 2> meetingAt(const Vec2& foot) {
+  return {Polygon{{{-50, 0}, {-50, -1}, foot, {0, 0}}}, Polygon{{{0, 0}, foot, {50, -1}, {50, 0}}}};
+}
+
+/// The side between two plates leans to either hand, in one body and between two.
+TEST(Seams, NothingTripsWhereTheSideOfTheSeamLeans) {
+  for (const double lean : {-3.0, -0.5, 0.5, 3.0}) {
+    for (const bool one_body : {true, false}) {
+      for (const double speed : {0.5, 5.0, 20.0}) {
+        for (const BodyDesc& body :
+             {disc(0.3, {-0.5 * speed, 0.3}), box(0.6, 0.6, {-0.5 * speed, 0.3})}) {
+          Scene scene = frictionless();
+          BodyDesc floor;
+          for (const Polygon& plate : meetingAt({lean, -2})) {
+            floor.shapes.emplace_back(plate);
+            if (one_body) continue;
+            addSmooth(scene, pinned(floor));
+            floor = {};
+          }
+          if (one_body) addSmooth(scene, pinned(floor));
+          addSmooth(scene, named("slider", moving(body, {speed, 0})));
+          SCOPED_TRACE(::testing::Message() << lean << " m, " << speed << " m/s");
+          inAllModesAndSteps(scene, [&](World& world) { expectGlides(world, 1.0, speed, 0.3); });
+        }
+      }
     }
   }
 }
