@@ -99,6 +99,12 @@ Approaches::Motion Approaches::of(RigidId id) const {
 
 double Approaches::between(RigidId a, RigidId b) const { return between(of(a), of(b)); }
 
+double Approaches::byTurning(RigidId id) const {
+  const Motion motion = of(id);
+  const double way = state_.h * motion.turning, turn = state_.h * std::abs(motion.omega);
+  return turn > 2.0 ? way * 2.0 / turn : way;
+}
+
 double Approaches::between(BodyId a, BodyId b) const {
   const RigidId rigid_a = state_[a].rigid, rigid_b = state_[b].rigid;
   const bool alone = !state_.isCollection(rigid_a) && !state_.isCollection(rigid_b);

@@ -35,6 +35,8 @@ class Approaches {
   double between(BodyId a, BodyId b) const;
   /// The same for any two things.
   double farthest() const { return farthest_; }
+  /// How far the turn of a thing can carry any of its points: at most to the other side [m].
+  double byTurning(RigidId id) const;
 
  private:
   struct Motion {

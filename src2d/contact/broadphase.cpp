@@ -22,9 +22,11 @@ Aabb worldBounds(const State& state, const Rigid& r) {
   return placed(r.frame(), state.extent(r).bounds);
 }
 
-/// Where a rigid thing is, and where it can be at the end of this step.
-Aabb sweptBounds(const State& state, const Rigid& r, const Vec2& way) {
-  const Aabb now = worldBounds(state, r);
+/// Where a rigid thing is, and where it can be until the end of this step. Small turns are left to
+/// the room that shapes are given.
+Aabb sweptBounds(const State& state, const Rigid& r, const Vec2& way, double by_turning) {
+  Aabb now = worldBounds(state, r);
+  if (by_turning > kNear) now = now.grown(by_turning);
   Aabb swept = now;
   swept.include(Aabb{now.lower + way, now.upper + way});
   return swept;
@@ -78,7 +80,7 @@ Aabb shapeBounds(const State& state, RigidId id, std::uint32_t shape) {
 }
 
 /// Follows what moved; fills `moved`.
-void moveLeaves(State& state, Scratch& scratch) {
+void moveLeaves(State& state, Scratch& scratch, const Approaches& approaches) {
   resizeTightly(scratch.moved_flag, state.rigids.size());
   for (const RigidId id : scratch.moved) {
     if (index(id) < state.rigids.size()) scratch.moved_flag[index(id)] = 0;
@@ -88,7 +90,8 @@ void moveLeaves(State& state, Scratch& scratch) {
     Rigid& r = state[id];
     if (!moves(r) && !r.resized) continue;
     const Vec2 way = state.h * startMotion(state, scratch, id).v;
-    const bool left = state.broadphase.tree.move(r.leaf, sweptBounds(state, r, way), way);
+    const Aabb swept = sweptBounds(state, r, way, approaches.byTurning(id));
+    const bool left = state.broadphase.tree.move(r.leaf, swept, way);
     if (!left && !r.resized) continue;
     scratch.moved.push_back(id);
     scratch.moved_flag[index(id)] = r.resized ? kResized : kMoved;
@@ -329,7 +332,7 @@ void rebuildTree(State& state) {
 void dropShapeTree(State& state, RigidId id) { state.broadphase.shape_trees[index(id)].reset(); }
 
 void updateBroadphase(State& state, Scratch& scratch, const Approaches& approaches) {
-  moveLeaves(state, scratch);
+  moveLeaves(state, scratch, approaches);
   findNeighbours(state, scratch);
   updateNearPairs(state, scratch);
   refineNearPairs(state, scratch, approaches);

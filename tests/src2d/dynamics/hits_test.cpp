@@ -222,6 +222,23 @@ TEST(Hits, ABallMetByAFastBatGetsItsSpeed) {
   }
 }
 
+/// A thin bat sweeps a half disc in its first steps: it finds what lies far beside it.
+TEST(Hits, ABatFindsABallAnywhereInItsSweep) {
+  for (const double at : {1.0, 1.7, 1.95}) {
+    Scene scene = noGravity();
+    SteadyMotion turn;
+    turn.spin = 6000 * kDegree;
+    add(scene, scripted(box(4, 0.02, {0, 0}), turn));
+    BodyDesc ball = named("ball", disc(0.02, {0, at}));
+    ball.friction = 0.0;
+    add(scene, ball);
+    inAllModesAndSteps(scene, [&](World& world) {
+      runSeconds(world, 0.035);  // 210 degrees
+      EXPECT_GE(see(world, "ball").v.norm(), 0.999 * turn.spin * at) << at << " m";
+    });
+  }
+}
+
 /// A steel ball of 1 cm falls 1 cm: its first bounce is right to 3 %. At 1/60 s it takes five steps
 /// to rise and to fall back.
 TEST(Hits, ATinyBallBounces) {
