@@ -83,6 +83,22 @@ double ownSoftness(const State& state, BodyId a, BodyId b) {
   return contactSoftness(state, a, b, ownInverseMass(state, a), ownInverseMass(state, b));
 }
 
+/// The most that a contact of a block may yield per impulse, lest a blow goes in deeper in this
+/// step than contacts are looked for: a bullet would come out on the other side of a plate. A blow
+/// of the speed s takes an impulse of m s.
+double mostUnderABlow(const State& state, const Scratch& scratch, const ContactKey& key,
+                      const ContactBlock& k) {
+  const SolverVelocity a = velocityAtStart(state, scratch, k.a);
+  const SolverVelocity b = velocityAtStart(state, scratch, k.b);
+  double speed = 0.0;
+  for (int i = 0; i < k.count; ++i) {
+    speed = std::max(speed, -contactVelocity(k, i, k.nx, k.ny, a, b).n);
+  }
+  const double inv_mass = ownInverseMass(state, key.a) + ownInverseMass(state, key.b);
+  constexpr double kNoBlow = std::numeric_limits<double>::infinity();
+  return speed > 0.0 ? state.settings.solver.margin * inv_mass / (state.h * speed) : kNoBlow;
+}
+
 /// Sets the bias of a point, or leaves it to the hits. True when it rests.
 bool aimRow(const State& state, const Scratch& scratch, const Contact& contact, ContactPoint& point,
             ContactBlock& k, int i, const Cast* cast) {
@@ -289,7 +305,9 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
     k.setRolling(rollingOf(state, contact.key.a, contact.key.b), rollingImpulse(state, contact));
   }
   // Only contacts that rest breathe: compliance would take speed from a bounce.
-  const double softness = rests ? ownSoftness(state, contact.key.a, contact.key.b) : 0.0;
+  const double softness = rests ? std::min(ownSoftness(state, contact.key.a, contact.key.b),
+                                           mostUnderABlow(state, scratch, contact.key, k))
+                                : 0.0;
   fillMasses(k, softness, scratch.u[k.a], scratch.u[k.b]);
   if (k.count < source.count()) {  // the second is too close to the first to count
     ContactPoint& point = state.contacts.point(source.points[1]);

@@ -93,6 +93,23 @@ TEST(Cast, ABulletNeverPassesAThinPlate) {
   }
 }
 
+/// What a contact yields at a blow is no part of the speed, but less than the 5 mm within which
+/// contacts are kept.
+TEST(Cast, ABulletStopsAtTheSurface) {
+  for (const double speed : {10.0, 300.0, 1000.0}) {
+    for (const BodyDesc& bullet : {disc(0.01, {-5.013, 0.3}), box(0.03, 0.02, {-5.013, 0.3})}) {
+      Scene scene = noGravity();
+      add(scene, pinned(box(0.005, 10, {0, 0})));
+      add(scene, named("bullet", moving(bullet, {speed, 0})));
+      const double half = std::holds_alternative<Circle>(bullet.shapes[0]) ? 0.01 : 0.015;
+      inAllModesAndSteps(scene, [&](World& world) {
+        runSeconds(world, 5.0 / speed + 0.2);
+        EXPECT_NEAR(see(world, "bullet").x.x(), -0.0025 - half, 5e-3) << speed << " m/s";
+      });
+    }
+  }
+}
+
 /// A plate that is free to move is carried along.
 TEST(Cast, ABulletNeverPassesAFreePlate) {
   for (const double speed : {99.0, 1000.0}) {
