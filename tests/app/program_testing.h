@@ -175,8 +175,8 @@ box = [1, 1]
 repeat = { count = [1, 3], spacing = [1, 1] }
 )";
 
-/// Two hinges at one place, about which a body turns 10⁹ times in a step: their rows are solved where
-/// they have long ceased to be.
+/// Two hinges at one place, about which a body turns 10⁹ times in a step: their rows are solved
+/// where they have long ceased to be.
 inline constexpr const char* kDiverging = R"(
 format = 1
 step = 0.1
