@@ -137,6 +137,7 @@ void World::Impl::step() {
   notes.clear();
   scratch.notes = options.decisions ? &notes : nullptr;
   scratch.tasks = tasks.get();
+  scratch.sweep_path = options.sweep_path;
   if (options.timings) lap();
   const bool watched = observer || options.decisions;
   if (watched) wholeState();

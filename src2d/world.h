@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src2d/core/sweep_path.h"
 #include "src2d/scene/scene.h"
 #include "src2d/trace/notes.h"
 #include "src2d/trace/snapshot.h"
@@ -30,6 +31,7 @@ struct WorldOptions {
   bool timings = true;     ///< measure the seconds per stage
   bool decisions = false;  ///< note every test of a criterion, and what else `notes` holds
   int threads = 1;         ///< that share the work of a step; the results do not depend on it
+  SweepPath sweep_path = kFastestPath;  ///< nor on this
 };
 
 /// Whether a state may be taken over that was saved under other settings or in another mode.

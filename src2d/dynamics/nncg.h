@@ -95,14 +95,11 @@ class Nncg {
 
   /// Four sums side by side, one per row of a block: always in the same order.
   SweepChange changeSince() const {
-    Impulses squared{}, total{};
+    Eigen::Array4d squared = Eigen::Array4d::Zero(), total = squared;
     for (std::size_t i = 0; i < blocks_; ++i) {
-      const Impulses &now = impulses_(i), &before = m_.before[i];
-      for (std::size_t r = 0; r < 4; ++r) {
-        const double d = now[r] - before[r];
-        squared[r] += d * d;
-        total[r] += now[r] * now[r];
-      }
+      const Eigen::Array4d now = rows(impulses_(i)), change = now - rows(m_.before[i]);
+      squared += change * change;
+      total += now * now;
     }
     return {(squared[0] + squared[1]) + (squared[2] + squared[3]),
             (total[0] + total[1]) + (total[2] + total[3])};

@@ -1,8 +1,10 @@
 /// The rows of the full solve: from contacts to blocks, grouped by island.
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "src2d/contact/approach.h"
@@ -193,11 +195,17 @@ void clearMarks(Scratch& scratch) {
   for (const std::uint32_t r : scratch.island_bodies) clear(r);
 }
 
-/// Sorts the blocks. Several threads take an island each: first the blocks of each are brought
-/// together, still by source.
+/// Sorts the blocks by island, then by colour, then by source, in which order they come: each pass
+/// counts, and keeps the order of the one before.
 void sortBlocks(Scratch& scratch) {
   auto& order = scratch.block_order;
-  if (!scratch.tasks) return std::sort(order.begin(), order.end());
+  thread_local std::vector<BlockOrder> by_colour;  // its memory serves all worlds of the thread
+  std::array<std::uint32_t, 65> place{};           // of the next block of each colour
+  for (const BlockOrder& block : order) ++place[block.colour() + 1];
+  std::partial_sum(place.begin(), place.end(), place.begin());
+  by_colour.resize(order.size());
+  for (const BlockOrder& block : order) by_colour[place[block.colour()]++] = block;
+
   auto& next = scratch.island_of;  // per root: first how many blocks, then where the next one goes
   auto& roots = scratch.island_roots;
   roots.clear();
@@ -208,15 +216,9 @@ void sortBlocks(Scratch& scratch) {
   std::ranges::sort(roots);
   std::int32_t first = 0;
   for (const std::uint32_t root : roots) first += std::exchange(next[root], first);
-  scratch.block_order_before = order;
-  for (const BlockOrder& block : scratch.block_order_before) {
+  for (const BlockOrder& block : by_colour) {
     order[static_cast<std::size_t>(next[block.island()]++)] = block;
   }
-  constexpr std::size_t kGrain = 4;  // islands
-  forEachIndex(scratch.tasks, roots.size(), kGrain, [&](std::size_t i, int) {
-    const auto begin = order.begin() + (i == 0 ? 0 : next[roots[i - 1]]);
-    std::sort(begin, order.begin() + next[roots[i]]);
-  });
 }
 
 /// Orders the blocks by island and, inside it, by colour: blocks of one colour share no body, so

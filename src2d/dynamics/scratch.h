@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src2d/core/assert.h"
+#include "src2d/core/sweep_path.h"
 #include "src2d/dynamics/collections.h"
 #include "src2d/dynamics/islands.h"
 #include "src2d/dynamics/joint_solver.h"
@@ -149,6 +150,7 @@ struct BlockOrder {
     return {std::uint64_t{island} << kIslandShift | std::uint64_t{colour} << kSourceBits | source};
   }
   std::uint32_t island() const { return static_cast<std::uint32_t>(packed >> kIslandShift); }
+  std::uint32_t colour() const { return static_cast<std::uint32_t>(packed >> kSourceBits) & 63U; }
   std::uint32_t source() const {
     return static_cast<std::uint32_t>(packed & ((std::uint64_t{1} << kSourceBits) - 1));
   }
@@ -215,6 +217,7 @@ struct Scratch {
   std::vector<Event> events;
   Notes* notes = nullptr;     ///< null: nobody asks
   TaskPool* tasks = nullptr;  ///< null: one thread
+  SweepPath sweep_path = kFastestPath;
   Stats stats;
 
   // ContactDetection
@@ -292,8 +295,7 @@ struct Scratch {
   std::vector<JointBlock> joint_blocks;  ///< by island
   JointMemory joint_memory;
   std::vector<BlockOrder> block_order;
-  std::vector<BlockOrder> block_order_before;  ///< where several threads sort it
-  std::vector<std::uint32_t> island_roots;     ///< the same
+  std::vector<std::uint32_t> island_roots;  ///< ascending
   std::vector<HitWay> hit_ways;
   NncgBuffers nncg;
   std::vector<NncgBuffers> nncg_of_threads;  ///< of those beside the caller's

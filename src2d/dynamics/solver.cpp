@@ -7,6 +7,7 @@
 #include "src2d/dynamics/newton.h"
 #include "src2d/dynamics/nncg.h"
 #include "src2d/dynamics/task_pool.h"
+#include "src2d/dynamics/wide_blocks.h"
 
 namespace merge2d {
 namespace {
@@ -112,6 +113,30 @@ void solveBends(const State& state, const IslandParts& island, std::vector<Solve
   m.uncorrected.restore(island.blocks, island.joints, island.bodies, u);
 }
 
+/// Islands of fewer blocks are swept one by one: packing them would cost as much.
+constexpr std::size_t kLeastWide = 8;
+
+/// The sweeps of an island without joints, four blocks at a time.
+SweepChange solveWide(Scratch& scratch, const Island& island, const SolverSettings& settings,
+                      NncgBuffers& buffers) {
+  thread_local WideBlocks wide;  // its memory is kept, and serves all worlds of the thread
+  const std::size_t size = island.last - island.first;
+  const std::span blocks(scratch.blocks.data() + island.first, size);
+  auto& u = scratch.u;
+  wide.pack(blocks, {scratch.block_order.data() + island.first, size}, u,
+            static_cast<std::uint32_t>(u.size() - 1));
+  Nncg iteration(
+      size, [&](std::size_t i) -> Impulses& { return wide.impulses()[i]; },
+      island.last_body - island.first_body,
+      [&](std::size_t i) -> SolverVelocity& {
+        return u[scratch.island_bodies[island.first_body + i]];
+      },
+      [&] { wide.sweep(blocks, u, scratch.sweep_path); }, buffers);
+  const SweepChange change = iteration.run(settings.iterations, isAccelerated(settings.method));
+  wide.storeImpulses(blocks);
+  return change;
+}
+
 /// Far-away bodies do not matter: each island has its own ρ.
 SweepChange solveIsland(const State& state, Scratch& scratch, const Island& island,
                         NncgBuffers& buffers) {
@@ -130,6 +155,10 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   }
   const auto body = [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; };
   const bool accelerate = isAccelerated(settings.method);
+  if (joints.empty() && scratch.sweep_path != SweepPath::OneByOne &&
+      settings.method != SolverMethod::Pgs && blocks.size() >= kLeastWide) {
+    return solveWide(scratch, island, settings, buffers);
+  }
   if (joints.empty()) {
     Nncg iteration(
         blocks.size(), [&](std::size_t i) -> Impulses& { return blocks[i].lambda; }, bodies.size(),

@@ -65,8 +65,7 @@ std::size_t bytesOfScratch(const Scratch& s) {
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order, s.hit_ways) +
          bytesOfParts(s.rigid_parts) + bytesOfBuffers(s.nncg) + s.sets.memoryBytes() +
-         bytesOf(s.ahead, s.found, s.nncg_of_threads, s.island_changes, s.block_order_before,
-                 s.island_roots);
+         bytesOf(s.ahead, s.found, s.nncg_of_threads, s.island_changes, s.island_roots);
 }
 
 }  // namespace

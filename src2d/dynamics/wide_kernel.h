@@ -1,0 +1,180 @@
+/// `solveBlock` for four blocks at once: the same operations in the same order in each lane, where
+/// `solveBlock` branches both sides and a choice. Included by wide_blocks.cpp once for each set of
+/// instructions, inside a namespace; so it includes nothing, and has no `#pragma once`.
+///
+/// GCC and clang make two or four machine instructions of one of these operations, as the processor
+/// has them: SSE2, AVX2, NEON, or plain numbers in WebAssembly.
+
+using Mask = decltype(Four{} < Four{});
+
+/// Four bodies' velocities, by components.
+struct FourVelocities {
+  Four vx, vy, omega, inv_mass;
+};
+
+/// Rows become columns.
+inline void transpose(Four& p, Four& q, Four& r, Four& s) {
+  const Four pq_low = __builtin_shufflevector(p, q, 0, 4, 2, 6);
+  const Four pq_high = __builtin_shufflevector(p, q, 1, 5, 3, 7);
+  const Four rs_low = __builtin_shufflevector(r, s, 0, 4, 2, 6);
+  const Four rs_high = __builtin_shufflevector(r, s, 1, 5, 3, 7);
+  p = __builtin_shufflevector(pq_low, rs_low, 0, 1, 4, 5);
+  q = __builtin_shufflevector(pq_high, rs_high, 0, 1, 4, 5);
+  r = __builtin_shufflevector(pq_low, rs_low, 2, 3, 6, 7);
+  s = __builtin_shufflevector(pq_high, rs_high, 2, 3, 6, 7);
+}
+
+inline void load(Four& to, const double* from) { __builtin_memcpy(&to, from, sizeof to); }
+inline void store(double* to, const Four& from) { __builtin_memcpy(to, &from, sizeof from); }
+
+inline void gather(FourVelocities& to, const SolverVelocity* u,
+                   const std::array<std::uint32_t, 4>& of) {
+  load(to.vx, &u[of[0]].vx);
+  load(to.vy, &u[of[1]].vx);
+  load(to.omega, &u[of[2]].vx);
+  load(to.inv_mass, &u[of[3]].vx);
+  transpose(to.vx, to.vy, to.omega, to.inv_mass);
+}
+
+/// Bodies that do not respond are left alone: other threads read them.
+inline void scatter(FourVelocities& from, SolverVelocity* u,
+                    const std::array<std::uint32_t, 4>& of) {
+  const Four inv_mass = from.inv_mass;
+  transpose(from.vx, from.vy, from.omega, from.inv_mass);
+  if (inv_mass[0] != 0.0) store(&u[of[0]].vx, from.vx);
+  if (inv_mass[1] != 0.0) store(&u[of[1]].vx, from.vy);
+  if (inv_mass[2] != 0.0) store(&u[of[2]].vx, from.omega);
+  if (inv_mass[3] != 0.0) store(&u[of[3]].vx, from.inv_mass);
+}
+
+inline bool allOf(const Mask& m) { return (m[0] & m[1] & m[2] & m[3]) != 0; }
+
+/// std::max(0.0, x)
+inline void notNegative(Four& x) { x = x > Four{} ? x : Four{}; }
+
+/// std::clamp(x, -limit, limit)
+inline void clamp(Four& x, const Four& limit) {
+  const Four least = -limit;
+  x = x < least ? least : (limit < x ? limit : x);
+}
+
+/// The pressures of two points as `solveNormalPair` finds them, where not both press.
+inline void solveByCases(const WideBlock& k, const Four& w1, const Four& w2, const Four& l1,
+                         const Four& l2, Four& x1, Four& x2) {
+  const Four zero{};
+  const Four q1 = w1 - k.k11 * l1 - k.k12 * l2, q2 = w2 - k.k12 * l1 - k.k22 * l2;
+  const Four only1 = -q1 / k.k11, leaves2 = k.k12 * only1 + q2;
+  const Four only2 = -q2 / k.k22, leaves1 = k.k12 * only2 + q1;
+  const Mask both = (x1 >= zero) & (x2 >= zero);
+  const Mask first = (only1 >= zero) & (leaves2 >= zero);
+  const Mask second = (only2 >= zero) & (leaves1 >= zero);
+  const Mask none = (q1 >= zero) & (q2 >= zero);
+  const Four miss1 = leaves2 < -q1 ? leaves2 : -q1, miss2 = leaves1 < -q2 ? leaves1 : -q2;
+  const Mask nearer1 = miss1 >= miss2;
+  Four least1 = only1, least2 = only2;
+  notNegative(least1);
+  notNegative(least2);
+  const Four missed1 = nearer1 ? least1 : zero, missed2 = nearer1 ? zero : least2;
+  const Four other1 = second ? zero : (none ? zero : missed1);
+  const Four other2 = second ? only2 : (none ? zero : missed2);
+  x1 = both ? x1 : (first ? only1 : other1);
+  x2 = both ? x2 : (first ? zero : other2);
+}
+
+inline void solvePairs(const WideBlock& k, Impulses* impulses, SolverVelocity* u) {
+  FourVelocities a, b;
+  gather(a, u, k.a);
+  gather(b, u, k.b);
+  Four l1, l2, t1, t2;
+  load(l1, impulses[k.block[0]].data());
+  load(l2, impulses[k.block[1]].data());
+  load(t1, impulses[k.block[2]].data());
+  load(t2, impulses[k.block[3]].data());
+  transpose(l1, l2, t1, t2);
+
+  const Four dx = b.vx - a.vx, dy = b.vy - a.vy;
+  const Four v_n = k.nx * dx + k.ny * dy;
+  const Four v_t = k.nx * dy - k.ny * dx + k.surface_a + k.surface_b;
+
+  // Both normals.
+  const Four w1 = v_n + k.arm_bn[0] * b.omega - k.arm_an[0] * a.omega + k.bias[0] + k.softness * l1;
+  const Four w2 = v_n + k.arm_bn[1] * b.omega - k.arm_an[1] * a.omega + k.bias[1] + k.softness * l2;
+  Four x1 = l1 - (k.k22 * w1 - k.k12 * w2) * k.inv_det;
+  Four x2 = l2 - (k.k11 * w2 - k.k12 * w1) * k.inv_det;
+  if (!allOf((x1 >= Four{}) & (x2 >= Four{}))) solveByCases(k, w1, w2, l1, l2, x1, x2);
+  const Four p1 = x1 - l1, p2 = x2 - l2;
+  const Four p_n = p1 + p2;
+  a.omega -= k.inv_inertia_a * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
+  b.omega += k.inv_inertia_b * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
+
+  // Their friction.
+  Four y1 = t1 - k.inv_kt[0] * (v_t + k.arm_bt[0] * b.omega - k.arm_at[0] * a.omega);
+  clamp(y1, k.mu * x1);
+  const Four f1 = y1 - t1;
+  Four y2 = t2 - k.inv_kt[1] * (v_t + k.arm_bt[1] * b.omega - k.arm_at[1] * a.omega + k.kt12 * f1);
+  clamp(y2, k.mu * x2);
+  const Four f2 = y2 - t2;
+  const Four p_t = f1 + f2;
+  a.omega -= k.inv_inertia_a * (k.arm_at[0] * f1 + k.arm_at[1] * f2);
+  b.omega += k.inv_inertia_b * (k.arm_bt[0] * f1 + k.arm_bt[1] * f2);
+
+  const Four px = k.nx * p_n - k.ny * p_t, py = k.ny * p_n + k.nx * p_t;
+  a.vx -= a.inv_mass * px;
+  a.vy -= a.inv_mass * py;
+  b.vx += b.inv_mass * px;
+  b.vy += b.inv_mass * py;
+  scatter(a, u, k.a);
+  scatter(b, u, k.b);
+  transpose(x1, x2, y1, y2);
+  store(impulses[k.block[0]].data(), x1);
+  store(impulses[k.block[1]].data(), x2);
+  store(impulses[k.block[2]].data(), y1);
+  store(impulses[k.block[3]].data(), y2);
+}
+
+/// Of single points; what else stands in their impulses stays.
+inline void solveSingles(const WideBlock& k, Impulses* impulses, SolverVelocity* u) {
+  FourVelocities a, b;
+  gather(a, u, k.a);
+  gather(b, u, k.b);
+  Four l, unused_n, t, unused_t;
+  load(l, impulses[k.block[0]].data());
+  load(unused_n, impulses[k.block[1]].data());
+  load(t, impulses[k.block[2]].data());
+  load(unused_t, impulses[k.block[3]].data());
+  transpose(l, unused_n, t, unused_t);
+
+  const Four dx = b.vx - a.vx, dy = b.vy - a.vy;
+  const Four v_n = k.nx * dx + k.ny * dy;
+  const Four v_t = k.nx * dy - k.ny * dx + k.surface_a + k.surface_b;
+  const Four w = v_n + k.arm_bn[0] * b.omega - k.arm_an[0] * a.omega + k.bias[0] + k.softness * l;
+  Four x = l - w / k.k11;
+  notNegative(x);
+  const Four p_n = x - l;
+  a.omega -= k.inv_inertia_a * k.arm_an[0] * p_n;
+  b.omega += k.inv_inertia_b * k.arm_bn[0] * p_n;
+  Four y = t - k.inv_kt[0] * (v_t + k.arm_bt[0] * b.omega - k.arm_at[0] * a.omega);
+  clamp(y, k.mu * x);
+  const Four p_t = y - t;
+  a.omega -= k.inv_inertia_a * k.arm_at[0] * p_t;
+  b.omega += k.inv_inertia_b * k.arm_bt[0] * p_t;
+
+  const Four px = k.nx * p_n - k.ny * p_t, py = k.ny * p_n + k.nx * p_t;
+  a.vx -= a.inv_mass * px;
+  a.vy -= a.inv_mass * py;
+  b.vx += b.inv_mass * px;
+  b.vy += b.inv_mass * py;
+  scatter(a, u, k.a);
+  scatter(b, u, k.b);
+  transpose(x, unused_n, y, unused_t);
+  store(impulses[k.block[0]].data(), x);
+  store(impulses[k.block[1]].data(), unused_n);
+  store(impulses[k.block[2]].data(), y);
+  store(impulses[k.block[3]].data(), unused_t);
+}
+
+inline void sweepWide(const WideBlock* first, const WideBlock* end_of_pairs, const WideBlock* last,
+                      Impulses* impulses, SolverVelocity* u) {
+  for (; first != end_of_pairs; ++first) solvePairs(*first, impulses, u);
+  for (; first != last; ++first) solveSingles(*first, impulses, u);
+}
