@@ -59,11 +59,19 @@ export function describe(state: State): string {
   return `${head} ${plural(s.active, 'body is simulated', 'bodies are simulated')}, ${plural(s.collections, 'collection')}, ${plural(s.contacts, 'contact')} solved, ${s.internal} inside collections, ${s.asleep} asleep. ${told}${more}${inside && ` ${inside}`}`;
 }
 
+/** Where the numbers of contacts are those of an earlier step, which one: of a long run not every step is kept whole. */
+function keptAt(state: State): string {
+  const { keyframes: every } = state.trace.head;
+  if (every === undefined || state.step % every === 0) return '';
+  return `Contacts and numbers are those of step ${state.step - (state.step % every)}: of this long run every step whose number is a multiple of ${every} is kept whole.`;
+}
+
 export function nowCard(state: State): HTMLElement {
   const title = h('h2', {});
   const what = h('p', { class: 'what' });
   const section = h('span', { class: 'section' });
   const facts = h('div', { class: 'facts' });
+  const kept = h('p', { class: 'hint' });
   const events = h('ul', { class: 'events' });
   const live = h('div', { class: 'visually-hidden', 'aria-live': 'polite', role: 'status' });
   const fact = (value: number, label: string) => h('div', { class: 'fact' }, h('strong', {}, String(value)), h('span', {}, label));
@@ -76,6 +84,8 @@ export function nowCard(state: State): HTMLElement {
     const s = state.trace.stats(state.step);
     facts.replaceChildren(fact(s.active, s.active === 1 ? 'body simulated' : 'bodies simulated'), fact(s.collections, s.collections === 1 ? 'collection' : 'collections'),
       fact(s.contacts, 'contacts solved'), fact(s.internal, 'inside'), fact(s.asleep, 'asleep'));
+    kept.textContent = keptAt(state);
+    kept.hidden = kept.textContent === '';
     const rows = chosenFirst(state, eventsShown(state));
     events.replaceChildren(...rows.slice(0, 6).map((row) => h('li', { class: row[1] },
       h('button', {
@@ -89,5 +99,5 @@ export function nowCard(state: State): HTMLElement {
     window.clearTimeout(spoken);
     if (!state.playing) spoken = window.setTimeout(() => { live.textContent = describe(state); }, 250);
   });
-  return h('section', { class: 'card now', 'aria-label': 'This step' }, title, what, facts, events, live);
+  return h('section', { class: 'card now', 'aria-label': 'This step' }, title, what, facts, kept, events, live);
 }

@@ -294,8 +294,11 @@ test('a long run moves between its keyframes, and has its events in the steps in
     assert.ok(Math.abs(drawn - bodies.length) <= 1, `${drawn} bodies are drawn of ${bodies.length}`);
   }
   assert.match(await page.textContent('.now .events'), /merged/);
-  await page.locator('.slider').fill('300');
+  await page.locator('.slider').fill(String(2 * head.keyframes + 1));
+  assert.match(await page.textContent('.now .hint'), new RegExp(`those of step ${2 * head.keyframes}:`));
+  await page.locator('.slider').fill(String(2 * head.keyframes));
+  assert.ok(await page.locator('.now .hint').isHidden());
   await page.click('button[aria-label=Play]');
-  await page.waitForFunction(() => Number(document.querySelector('.slider').value) > 320);
+  await page.waitForFunction((from) => Number(document.querySelector('.slider').value) > from, 2 * head.keyframes + 20);
   await close();
 });
