@@ -198,6 +198,26 @@ BenchScene wall(int count) {
   return {scene, Expectation::Stands};
 }
 
+BenchScene rain(int count) {
+  constexpr int kEvery = 10;
+  constexpr double kAbove = 25.0;  // [m]
+  BenchScene of = wall(count);
+  of.scene.name = of.scene.title = fmt::format("rain-on-wall-{}", count);
+  of.rain = {.every = kEvery,
+             .body = box("drop", {0.0, kAbove}, 1.0, 1.0),
+             .width = kSpacing * (count / 20 - 2)};
+  return of;
+}
+
+BodyDesc dropOf(const Rain& rain, std::int64_t step) {
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);  // spreads them evenly
+  const double place = golden * static_cast<double>(step / rain.every);
+  BodyDesc drop = rain.body;
+  drop.name = fmt::format("drop[{}]", step);
+  drop.at.x() += (place - std::floor(place) - 0.5) * rain.width;
+  return drop;
+}
+
 std::vector<BenchScene> benchScenes(bool quick) {
   std::vector<BenchScene> scenes = {tower(100), tower(326), tower(1000)};
   if (!quick) scenes.push_back(tower(5000));
@@ -206,7 +226,12 @@ std::vector<BenchScene> benchScenes(bool quick) {
     scenes.push_back(pyramid(100));
     scenes.push_back(pyramids(400));
     scenes.push_back(swingingStacks(10'000));
+    for (BenchScene large : {tower(20'000), wall(100'000)}) {
+      large.large = true;
+      scenes.push_back(std::move(large));
+    }
   }
+  scenes.push_back(rain(5000));
   scenes.push_back(funnel(1500));
   scenes.push_back(tumbler(2025));
   scenes.push_back(freeFall(10'000));

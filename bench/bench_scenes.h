@@ -1,6 +1,7 @@
 #pragma once
 /// The scenes that all engines are measured on, as plain data.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,22 @@ enum class Expectation {
   Moves,
 };
 
+/// Bodies that come while a scene runs.
+struct Rain {
+  int every = 0;  ///< steps; 0: none come
+  BodyDesc body;
+  double width = 0.0;  ///< they are spread over it, about the place of `body` [m]
+};
+
 struct BenchScene {
   Scene scene;
   Expectation expectation = Expectation::Stands;
+  Rain rain = {};
+  bool large = false;  ///< a step takes so long that fewer are measured
 };
+
+/// Where the rain lets its next body fall, after `step` steps; the same for every engine.
+BodyDesc dropOf(const Rain& rain, std::int64_t step);
 
 /// A running-bond wall of `count` boxes of 1 m, twice as high as wide, on a platform that swings
 /// for ever. Its rows end in half boxes, so that no box stands on an edge.
@@ -41,6 +54,9 @@ BenchScene stacks(int count);
 
 /// A running-bond wall of about `count` boxes of 1 m, 20 high, on the ground.
 BenchScene wall(int count);
+
+/// The same, onto which a box falls every tenth step.
+BenchScene rain(int count);
 
 /// As many pyramids with ten boxes in their lowest row, side by side on the ground.
 BenchScene pyramids(int count);

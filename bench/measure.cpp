@@ -19,23 +19,31 @@ std::size_t heapBytes() {
   return info.uordblks + info.hblkhd;
 }
 
+/// A step, before which a body may come.
+void stepOf(Peer& peer, const Rain& rain, std::int64_t& steps) {
+  if (rain.every > 0 && steps % rain.every == 0) peer.add(dropOf(rain, steps));
+  ++steps;
+  peer.step();
+}
+
 /// Loads and warms up an engine in a thread of its own: what that has freed but keeps for itself,
 /// which mallinfo2 counts as in use, goes back when the thread ends.
-void loadAndWarmUp(Peer& peer, const Scene& scene, int steps, Positions& start) {
+void loadAndWarmUp(Peer& peer, const BenchScene& bench, int steps, Positions& start) {
   std::thread([&] {
-    peer.load(scene);
+    peer.load(bench.scene);
     start = peer.positions();
-    for (int i = 0; i < steps; ++i) peer.step();
+    for (std::int64_t i = 0; i < steps;) stepOf(peer, bench.rain, i);
   }).join();
 }
 
 /// Appends the milliseconds of each step; returns their median, which a machine that is busy for a
 /// moment disturbs least.
-double timeSteps(Peer& peer, int steps, std::vector<double>& times) {
-  peer.step();  // brings its data back into the caches
+double timeSteps(Peer& peer, const Rain& rain, std::int64_t& done, int steps,
+                 std::vector<double>& times) {
+  stepOf(peer, rain, done);  // brings its data back into the caches
   for (int i = 0; i < steps; ++i) {
     const auto start = std::chrono::steady_clock::now();
-    peer.step();
+    stepOf(peer, rain, done);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     times.push_back(took.count());
   }
@@ -75,7 +83,20 @@ StepTimes distributionOf(std::vector<double> times) {
   return {part(0.5), total / static_cast<double>(times.size()), part(0.99), times.back()};
 }
 
-Comparison compare(const BenchScene& bench, const Peers& peers, const Plan& plan) {
+namespace {
+
+/// Of a large scene fewer steps: its engines take a tenth of a second for each.
+Plan planFor(const BenchScene& bench, Plan plan) {
+  if (!bench.large) return plan;
+  plan.warmup /= 2;
+  plan.rounds = std::min(plan.rounds, 4);
+  return plan;
+}
+
+}  // namespace
+
+Comparison compare(const BenchScene& bench, const Peers& peers, const Plan& for_all) {
+  const Plan plan = planFor(bench, for_all);
   Comparison result{bench.scene.name, bench.scene.bodies.size(), bench.expectation, {}};
   result.measurements.resize(peers.size());
 
@@ -86,7 +107,7 @@ Comparison compare(const BenchScene& bench, const Peers& peers, const Plan& plan
     m.peer = peers[p]->name();
     const std::size_t before = heapBytes();
     start.emplace_back();
-    loadAndWarmUp(*peers[p], bench.scene, plan.warmup, start.back());
+    loadAndWarmUp(*peers[p], bench, plan.warmup, start.back());
     m.heap_bytes = heapBytes() - before;
     m.own_bytes = peers[p]->ownBytes();
     warm.push_back(peers[p]->positions());
@@ -95,10 +116,11 @@ Comparison compare(const BenchScene& bench, const Peers& peers, const Plan& plan
   // Take turns; each round begins with another engine.
   std::vector<std::vector<double>> ms(peers.size()), ratios(peers.size());
   std::vector<double> turn_ms(peers.size());
+  std::vector<std::int64_t> done(peers.size(), plan.warmup);
   for (int round = 0; round < plan.rounds; ++round) {
     for (std::size_t turn = 0; turn < peers.size(); ++turn) {
       const std::size_t p = (turn + static_cast<std::size_t>(round)) % peers.size();
-      turn_ms[p] = timeSteps(*peers[p], plan.steps, ms[p]);
+      turn_ms[p] = timeSteps(*peers[p], bench.rain, done[p], plan.steps, ms[p]);
     }
     for (std::size_t p = 0; p < peers.size(); ++p) ratios[p].push_back(turn_ms[p] / turn_ms[0]);
   }

@@ -57,20 +57,22 @@ void Box2dPeer::load(const Scene& scene) {
   world_ = std::make_unique<b2World>(single(scene.gravity));
   world_->SetAllowSleeping(false);
   world_->SetContinuousPhysics(false);
-  for (const BodyDesc& desc : scene.bodies) {
-    b2BodyDef definition;
-    definition.type = type(desc.motion);
-    definition.position = single(desc.at);
-    definition.angle = static_cast<float>(desc.angle);
-    definition.linearVelocity = single(desc.velocity);
-    definition.angularVelocity = static_cast<float>(desc.spin);
-    b2Body* body = world_->CreateBody(&definition);
-    for (const ConvexShape& shape : desc.shapes) {
-      std::visit([&](const auto& s) { addShape(*body, desc, s); }, shape);
-    }
-    if (desc.script) scripted_.push_back({body, &*desc.script});
-    bodies_.push_back(body);
+  for (const BodyDesc& desc : scene.bodies) add(desc);
+}
+
+void Box2dPeer::add(const BodyDesc& desc) {
+  b2BodyDef definition;
+  definition.type = type(desc.motion);
+  definition.position = single(desc.at);
+  definition.angle = static_cast<float>(desc.angle);
+  definition.linearVelocity = single(desc.velocity);
+  definition.angularVelocity = static_cast<float>(desc.spin);
+  b2Body* body = world_->CreateBody(&definition);
+  for (const ConvexShape& shape : desc.shapes) {
+    std::visit([&](const auto& s) { addShape(*body, desc, s); }, shape);
   }
+  if (desc.script) scripted_.push_back({body, &*desc.script});
+  bodies_.push_back(body);
 }
 
 void Box2dPeer::step() {

@@ -12,6 +12,7 @@ class Box2dPeer final : public Peer {
  public:
   std::string name() const override { return "Box2D 2.4.1"; }
   void load(const Scene& scene) override;
+  void add(const BodyDesc& desc) override;
   void step() override;
   std::vector<Vec2> positions() const override;
 

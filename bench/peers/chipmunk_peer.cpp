@@ -51,19 +51,21 @@ void ChipmunkPeer::load(const Scene& scene) {
   cpSpaceSetIterations(space_.get(), scene.settings.solver.iterations);
   cpSpaceSetGravity(space_.get(), vect(scene.gravity));
   cpSpaceSetCollisionSlop(space_.get(), kSlop);
-  for (const BodyDesc& desc : scene.bodies) {
-    bodies_.emplace_back(newBody(desc.motion));
-    cpBody* body = cpSpaceAddBody(space_.get(), bodies_.back().get());
-    cpBodySetPosition(body, vect(desc.at));
-    cpBodySetAngle(body, desc.angle);
-    for (const ConvexShape& shape : desc.shapes) addShape(body, desc, shape);
-    if (desc.motion == Motion::Dynamic) {
-      cpBodySetVelocity(body, vect(desc.velocity));
-      cpBodySetAngularVelocity(body, desc.spin);
-    }
-    if (desc.script) scripted_.push_back({body, &*desc.script});
-  }
+  for (const BodyDesc& desc : scene.bodies) add(desc);
   cpSpaceReindexStatic(space_.get());
+}
+
+void ChipmunkPeer::add(const BodyDesc& desc) {
+  bodies_.emplace_back(newBody(desc.motion));
+  cpBody* body = cpSpaceAddBody(space_.get(), bodies_.back().get());
+  cpBodySetPosition(body, vect(desc.at));
+  cpBodySetAngle(body, desc.angle);
+  for (const ConvexShape& shape : desc.shapes) addShape(body, desc, shape);
+  if (desc.motion == Motion::Dynamic) {
+    cpBodySetVelocity(body, vect(desc.velocity));
+    cpBodySetAngularVelocity(body, desc.spin);
+  }
+  if (desc.script) scripted_.push_back({body, &*desc.script});
 }
 
 void ChipmunkPeer::step() {

@@ -12,6 +12,7 @@ class ChipmunkPeer final : public Peer {
  public:
   std::string name() const override { return "Chipmunk 7.0.3"; }
   void load(const Scene& scene) override;
+  void add(const BodyDesc& desc) override;
   void step() override;
   std::vector<Vec2> positions() const override;
 

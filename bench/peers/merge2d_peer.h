@@ -14,6 +14,7 @@ class Merge2dPeer final : public Peer {
 
   std::string name() const override { return std::string("merge2d ") + merge2d::name(mode_); }
   void load(const Scene& scene) override;
+  void add(const BodyDesc& desc) override { world_->addBody(desc); }
   void step() override { world_->step(); }
   std::vector<Vec2> positions() const override;
   std::size_t ownBytes() const override { return world_->memoryBytes(); }

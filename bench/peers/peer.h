@@ -17,6 +17,8 @@ class Peer {
   virtual std::string name() const = 0;
   /// Bodies, shapes and materials of the scene; a peer's own scene holds at most one.
   virtual void load(const Scene& scene) = 0;
+  /// One more body between two steps, without a script.
+  virtual void add(const BodyDesc& desc) = 0;
   virtual void step() = 0;
   /// Centres of mass, in the scene's order [m].
   virtual std::vector<Vec2> positions() const = 0;
