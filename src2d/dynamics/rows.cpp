@@ -90,8 +90,7 @@ double ownSoftness(const State& state, BodyId a, BodyId b) {
 /// of the speed s takes an impulse of m s.
 double mostUnderABlow(const State& state, const Scratch& scratch, const ContactKey& key,
                       const ContactBlock& k) {
-  const SolverVelocity a = velocityAtStart(state, scratch, k.a);
-  const SolverVelocity b = velocityAtStart(state, scratch, k.b);
+  const SolverVelocity &a = scratch.u[k.a], &b = scratch.u[k.b];
   double speed = 0.0;
   for (int i = 0; i < k.count; ++i) {
     speed = std::max(speed, -contactVelocity(k, i, k.nx, k.ny, a, b).n);
