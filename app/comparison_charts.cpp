@@ -31,7 +31,7 @@ const std::vector<StageGroup>& stageGroups() {
   static const std::vector<StageGroup> groups = {
       {"detection", {Stage::ContactDetection, Stage::ContactOrdering}},
       {"full solve", {Stage::WarmStart, Stage::SolveLCP}},
-      {"single sweep", {Stage::SingleIterationPGS}},
+      {"forces inside", {Stage::SingleIterationPGS}},
       {"merging, sleeping",
        {Stage::SleepAndWake, Stage::Unmerge, Stage::AccumulateRelativeMotion, Stage::Merge}},
       {"integration", {Stage::AdvanceVelocities, Stage::AdvancePositions}}};

@@ -11,6 +11,7 @@
 #include "app/usage_error.h"
 #include "lessons/explain.h"
 #include "lessons/story.h"
+#include "lessons/why.h"
 #include "src2d/core/error.h"
 #include "src2d/core/utf8.h"
 
@@ -168,6 +169,8 @@ class StepReport {
     const Stats& stats = world_.stats();
     return stats.asleep > 0 && stats.asleep == stats.bodies
                ? "Everything is asleep, so nothing was tested."
+           : stats.internal_contacts > 0
+               ? "No motion was found inside collections, so nothing was tested."
                : "No two bodies touch, so nothing was tested.";
   }
 
@@ -191,6 +194,8 @@ class StepReport {
         after.contacts, [&](const ContactView& c) { return c.a == a && c.b == b; });
     if (!touch) return fmt::format("{} do not touch, so nothing was tested.", who);
     if (fixed) return fmt::format("{} are asleep or pinned, so nothing was tested.", who);
+    const PairReason why = reasonFor(words_, after, a, b);
+    if (why.outcome == "one") return fmt::format("{} {}", why.text, sentence(why.condition));
     return fmt::format("{} touch, but nothing was tested about them in this step.", who);
   }
 

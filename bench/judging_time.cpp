@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "src2d/merging/cycles.h"
-#include "src2d/merging/parts.h"
 #include "src2d/merging/ready_pairs.h"
 
 namespace merge2d {
@@ -36,8 +35,7 @@ JudgingTime judgingTime() { return total; }
 
 // ld --wrap=F: calls of F become calls of __wrap_F, and __real_F is F.
 using merge2d::Collection, merge2d::CycleCriterion, merge2d::Groups, merge2d::MergeGraph,
-    merge2d::Parts, merge2d::Pin, merge2d::ReadyPair, merge2d::Scratch, merge2d::State,
-    merge2d::Timed;
+    merge2d::Pin, merge2d::ReadyPair, merge2d::Scratch, merge2d::State, merge2d::Timed;
 
 #define MERGE2D_HELD_GROUPS(prefix) \
   prefix##_ZN7merge2d10heldGroupsEjSt4spanIKNS_3PinELm18446744073709551615EENS_14CycleCriterionE
@@ -45,7 +43,6 @@ using merge2d::Collection, merge2d::CycleCriterion, merge2d::Groups, merge2d::Me
   prefix##_ZN7merge2d12pairsToJudgeERKNS_5StateERKNS_7ScratchERKNS_10MergeGraphE
 #define MERGE2D_PINS_OF(prefix) \
   prefix##_ZNK7merge2d10MergeGraph6pinsOfERKSt6vectorINS_9ReadyPairESaIS2_EE
-#define MERGE2D_PARTS(prefix) prefix##_ZN7merge2d16partsWithoutCutsERKNS_5StateERKNS_10CollectionE
 
 extern "C" {
 Groups MERGE2D_HELD_GROUPS(__real_)(std::uint32_t, std::span<const Pin>, CycleCriterion);
@@ -69,11 +66,5 @@ std::vector<Pin> MERGE2D_PINS_OF(__wrap_)(const MergeGraph* graph,
                                           const std::vector<ReadyPair>& ready) {
   const Timed timed;
   return MERGE2D_PINS_OF(__real_)(graph, ready);
-}
-
-Parts MERGE2D_PARTS(__real_)(const State&, const Collection&);
-Parts MERGE2D_PARTS(__wrap_)(const State& state, const Collection& c) {
-  const Timed timed;
-  return MERGE2D_PARTS(__real_)(state, c);
 }
 }

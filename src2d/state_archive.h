@@ -121,8 +121,6 @@ inline constexpr std::optional<Mode> kLastValueOf<Mode> = Mode::MergeSleep;
 template <>
 inline constexpr std::optional<JointKind> kLastValueOf<JointKind> = JointKind::Prismatic;
 template <>
-inline constexpr std::optional<Grip> kLastValueOf<Grip> = Grip::Firm;
-template <>
 inline constexpr std::optional<EventReason> kLastValueOf<EventReason> = EventReason::User;
 
 /// How many bytes a value takes whose lists are empty.

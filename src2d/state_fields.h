@@ -40,17 +40,6 @@ void fields(Ar& ar, Some<Twist> auto& t) {
   auto& [vx, vy, omega] = t;
   ar(vx, vy, omega);
 }
-template <class Ar>
-void fields(Ar& ar, Some<LoadRange> auto& r) {
-  auto& [from, to, times] = r;
-  ar(from, to, times);
-}
-template <class Ar>
-void fields(Ar& ar, Some<Drift> auto& d) {
-  auto& [sum, steps] = d;
-  ar(sum, steps);
-}
-
 /// Of the leaf only whether there is one: the tree is built anew.
 template <class Ar>
 void fields(Ar& ar, Some<Extent> auto& e) {
@@ -68,10 +57,10 @@ void fields(Ar& ar, Some<Rigid> auto& r) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Body> auto& b) {
-  auto& [first_shape, shape_count, rigid, motion, alive, magnet_on, jolted, mass, inertia, friction,
+  auto& [first_shape, shape_count, rigid, motion, alive, magnet_on, mass, inertia, friction,
          restitution, rolling, surface_velocity, local_angle, local, local_rotation, load,
          steady_load] = b;
-  ar(first_shape, shape_count, rigid, motion, alive, magnet_on, jolted, mass, inertia, friction,
+  ar(first_shape, shape_count, rigid, motion, alive, magnet_on, mass, inertia, friction,
      restitution, rolling, surface_velocity, local_angle, local, local_rotation, load, steady_load);
 }
 
@@ -87,8 +76,8 @@ void fields(Ar& ar, Some<ContactPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Contact> auto& c) {
-  auto& [key, normal, count, vain, quiet_steps, apart, strayed, points] = c;
-  ar(key, normal, count, vain, quiet_steps, apart, strayed, points);
+  auto& [key, normal, count, quiet_steps, apart, points] = c;
+  ar(key, normal, count, quiet_steps, apart, points);
 }
 template <class Ar>
 void fields(Ar& ar, Some<IdlePair> auto& p) {
@@ -150,30 +139,18 @@ void fields(Ar& ar, Some<InternalPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<PointWatch> auto& w) {
-  auto& [slip, opening, active, lost] = w;
-  ar(slip, opening, active, lost);
+  auto& [active, lost] = w;
+  ar(active, lost);
 }
 template <class Ar>
 void fields(Ar& ar, Some<InternalContact> auto& c) {
-  auto& [since, weld, count, vain, watch, block, feature, key, strayed, normal, points, gap] = c;
-  ar(since, weld, count, vain, watch, block, feature, key, strayed, normal, points, gap);
+  auto& [since, weld, count, watch, block, feature, key, normal, points, gap] = c;
+  ar(since, weld, count, watch, block, feature, key, normal, points, gap);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Weld> auto& w) {
-  auto& [a, b, first, count, node_a, node_b, turning, vain, joints, grip, bridge, expected, cut,
-         reason] = w;
-  ar(a, b, first, count, node_a, node_b, turning, vain, joints, grip, bridge, expected, cut,
-     reason);
-}
-template <class Ar>
-void fields(Ar& ar, Some<Pivot> auto& p) {
-  auto& [weld, reach] = p;
-  ar(weld, reach);
-}
-template <class Ar>
-void fields(Ar& ar, Some<BlockWatch> auto& w) {
-  auto& [bits] = w;
-  ar(bits);
+  auto& [a, b, first, count, node_a, node_b, motion, moving, joints, expected, cut, reason] = w;
+  ar(a, b, first, count, node_a, node_b, motion, moving, joints, expected, cut, reason);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Witness> auto& w) {
@@ -187,8 +164,8 @@ void fields(Ar& ar, Some<NncgBuffers> auto& m) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<ProofSearch> auto& s) {
-  auto& [load, start, nncg, way, doublings, ahead] = s;
-  ar(load, start, nncg, way, doublings, ahead);
+  auto& [load, start, nncg, way, steps, ahead] = s;
+  ar(load, start, nncg, way, steps, ahead);
 }
 template <class Ar>
 void fields(Ar& ar, Some<LoadCertificate> auto& c) {
@@ -197,16 +174,10 @@ void fields(Ar& ar, Some<LoadCertificate> auto& c) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
-  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
-         cut_welds, spare, stood, loosened, judged, pivots_stale, stale, points, active_blocks,
-         residual, welds, weld_at, weld_of, joints, push, frame_v, frame_gain, frame_known,
-         follow_up, struck, stirred, refusals, patience, hastened_in, hastened_every, lingering,
-         settled, rested, refuted, jolted, since_blow, borne, certificate] = c;
-  ar(id, rigid, anchor, members, contacts, blocks, block_contact, watches, pivots, leaning,
-     cut_welds, spare, stood, loosened, judged, pivots_stale, stale, points, active_blocks,
-     residual, welds, weld_at, weld_of, joints, push, frame_v, frame_gain, frame_known, follow_up,
-     struck, stirred, refusals, patience, hastened_in, hastened_every, lingering, settled, rested,
-     refuted, jolted, since_blow, borne, certificate);
+  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, active_blocks, points, stale,
+         welds, joints, push, residual, settled, last_blow, certificate] = c;
+  ar(id, rigid, anchor, members, contacts, blocks, block_contact, active_blocks, points, stale,
+     welds, joints, push, residual, settled, last_blow, certificate);
 }
 
 template <class Ar>

@@ -31,7 +31,6 @@ void dropRows(State& state, Collection& c, double ratio) {
       point.lambda_t *= ratio;
     }
   }
-  c.frame_gain *= ratio;
   c.stale = true;
 }
 

@@ -40,12 +40,8 @@ bool countSteps(State& state) {
   return ripe;
 }
 
-/// A collection that no stage changes any more, but for the time since the last blow, which is long
-/// ago.
-bool isQuiet(const Collection& c) {
-  constexpr int kLongAgo = 10;  // steps; more than any criterion asks for
-  return !c.stale && c.struck == 0 && c.stirred == 0 && c.jolted == 0 && c.since_blow >= kLongAgo;
-}
+/// A collection that no stage changes any more.
+bool isQuiet(const Collection& c) { return !c.stale; }
 
 /// True for a rigid thing that may become parked if all that touch it may.
 bool mayRest(const State& state, RigidId id) {

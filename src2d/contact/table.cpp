@@ -21,7 +21,7 @@ ContactTable::Slot takeSlot(ContactTable& table) {
 /// True for a quarter or more.
 bool many(std::size_t some, std::size_t all) { return some > 0 && 4 * some >= all; }
 
-bool retires(const Contact& contact) { return contact.count == 0 && contact.vain == 0; }
+bool retires(const Contact& contact) { return contact.count == 0; }
 
 /// The key of the contact in a slot.
 auto keyIn(const ContactTable& table) {

@@ -183,16 +183,12 @@ struct ManifoldFriction {
   }
 };
 
-/// How the friction of two points is solved: one after the other, or as one row.
-enum class PairFriction { InTurn, AsOne };
-
 /// Solves one block: normals together, then their friction (Eqs. (5)-(7)). `nx`, `ny` is
 /// the block's normal in the frame of the velocities. The rows share a normal: what one of them
 /// changes for the next is told by its impulse alone, so that the velocities are read and written
 /// once.
-template <PairFriction friction>
-inline void solveBlockWith(ContactBlock& k, double nx, double ny, SolverVelocity& a,
-                           SolverVelocity& b) {
+inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
+                       SolverVelocity& b) {
   const double dx = b.vx - a.vx, dy = b.vy - a.vy;
   const double v_n = nx * dx + ny * dy;  // of the centres of mass
   const double v_t = nx * dy - ny * dx + a.surface + b.surface;
@@ -212,19 +208,9 @@ inline void solveBlockWith(ContactBlock& k, double nx, double ny, SolverVelocity
     omega_a -= a.inv_inertia * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
     omega_b += b.inv_inertia * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
 
-    double y1, y2;
-    if constexpr (friction == PairFriction::AsOne) {
-      const ManifoldFriction f(k);
-      const double y = f.solve(k, v_t + f.arm_b * omega_b - f.arm_a * omega_a);
-      y1 = f.part[0] * y;
-      y2 = f.part[1] * y;
-    } else {
-      const double k12 = a.inv_mass + b.inv_mass + a.inv_inertia * k.arm_at[0] * k.arm_at[1] +
-                         b.inv_inertia * k.arm_bt[0] * k.arm_bt[1];
-      y1 = solveTangent(k, 0, v_t + k.arm_bt[0] * omega_b - k.arm_at[0] * omega_a);
-      y2 = solveTangent(
-          k, 1, v_t + k.arm_bt[1] * omega_b - k.arm_at[1] * omega_a + k12 * (y1 - k.lambda_t(0)));
-    }
+    const ManifoldFriction f(k);
+    const double y = f.solve(k, v_t + f.arm_b * omega_b - f.arm_a * omega_a);
+    const double y1 = f.part[0] * y, y2 = f.part[1] * y;
     const double q1 = y1 - k.lambda_t(0), q2 = y2 - k.lambda_t(1);
     k.lambda_t(0) = y1;
     k.lambda_t(1) = y2;
@@ -263,11 +249,6 @@ inline void solveBlockWith(ContactBlock& k, double nx, double ny, SolverVelocity
     b.vy += b.inv_mass * py;
     b.omega = omega_b;
   }
-}
-
-inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
-                       SolverVelocity& b) {
-  solveBlockWith<PairFriction::InTurn>(k, nx, ny, a, b);
 }
 
 /// The paper's plain PGS: one row at a time, each normal followed by its friction.

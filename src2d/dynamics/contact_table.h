@@ -45,11 +45,9 @@ struct Contact {
   ContactKey key;
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in a's frame; inside a collection in its frame
   std::int16_t count = 0;
-  std::int16_t vain = 0;  ///< welds in a row that were cut, and then the pair got nowhere
   /// Consecutive steps in which the pair could have merged; below 0 it may not yet.
   int quiet_steps = 0;
-  float apart = 0.0F;    ///< without points: the shapes are at least this far from each other [m]
-  float strayed = 0.0F;  ///< slip while it was free, since the first of those [m]
+  float apart = 0.0F;  ///< without points: the shapes are at least this far from each other [m]
   /// Of a single point, the second's lambda_t holds the impulse against rolling (contact_block.h).
   std::array<ContactPoint, 2> points;
 };

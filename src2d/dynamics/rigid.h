@@ -78,7 +78,6 @@ struct Body {
   Motion motion = Motion::Dynamic;
   bool alive = true;  ///< false before its emission
   bool magnet_on = false;
-  std::uint8_t jolted = 0;  ///< as a member: steps for which a jolt still counts (disturbance.h)
   double mass = 0.0, inertia = 0.0;
   double friction = 0.0, restitution = 0.0;
   float rolling = 0.0F;           ///< lever arm of the rolling resistance [m]

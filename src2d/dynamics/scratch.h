@@ -163,22 +163,6 @@ struct JointOrder {
   auto operator<=>(const JointOrder&) const = default;
 };
 
-/// Parts of a collection, each taken as one body, and what they touch (merging/rigid_parts.h).
-struct RigidParts {
-  struct Part {
-    Vec2 x = Vec2::Zero();  ///< centre of mass
-    double mass = 0.0, inertia = 0.0;
-    Aabb bounds;  ///< in the collection's frame
-  };
-  std::vector<std::uint32_t> of;       ///< per node of the collection: its part
-  std::vector<Part> parts;             ///< then the frame, then bodies outside that touch some
-  std::vector<SolverVelocity> u;       ///< the same
-  std::vector<RigidId> outside;        ///< those beyond the parts: the frame, and others
-  std::vector<ContactBlock> rows;      ///< contacts between them
-  std::vector<std::uint32_t> weld_of;  ///< per row at a weld, which come first: its weld
-  NncgBuffers nncg;
-};
-
 /// The forces and contacts from outside on one member of a collection, in one step.
 struct OuterLoad {
   std::uint32_t slot = 0, member = 0;
@@ -265,19 +249,12 @@ struct Scratch {
   std::vector<SweepContact> sweep_contacts;
   std::vector<JointBlock> sweep_joints;       ///< outside collections
   std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
-  std::vector<std::uint8_t> disturbed;        ///< per collection slot
   std::vector<std::uint8_t> push_stale;       ///< per collection slot: swept since it was found
-  std::vector<std::uint8_t> restless_bodies;  ///< per body: a sweep still changes it
-  std::vector<std::uint8_t> shaken;           ///< per body: further sweeps changed it in this step
 
   // Unmerge
   std::vector<SolverVelocity> trial_u;           ///< per body
-  RigidParts rigid_parts;                        ///< of the collection at hand
   bool split = false;                            ///< some collection was taken apart
   std::vector<std::uint32_t> overloaded_joints;  ///< break after the full solve
-  std::vector<std::uint32_t> doubted;            ///< bodies at welds that may part
-  std::vector<std::uint32_t> leant;   ///< bridges that leaned in the last step, see WeldTest
-  std::vector<std::uint32_t> others;  ///< welds, see spare_welds.cpp
 
   // Merge
   std::vector<ReadyPair> ready;  ///< ascending by bodies

@@ -72,8 +72,6 @@ void setLane(WideBlock& w, std::size_t lane, const ContactBlock& k, const Solver
   w.k12[lane] = k.k12;
   w.k22[lane] = k.k22;
   w.inv_det[lane] = k.inv_det;
-  w.kt12[lane] = a.inv_mass + b.inv_mass + a.inv_inertia * k.arm_at[0] * k.arm_at[1] +
-                 b.inv_inertia * k.arm_bt[0] * k.arm_bt[1];
   w.softness[lane] = k.softness;
   w.mu[lane] = k.mu;
   w.inv_inertia_a[lane] = a.inv_inertia;

@@ -26,7 +26,6 @@ struct alignas(32) WideBlock {
   Four arm_an[2], arm_bn[2], arm_at[2], arm_bt[2];
   Four k11, k12, k22, inv_det;
   Four inv_kt[2];
-  Four kt12;  ///< what one tangent's impulse changes at the other [1/kg]
   Four softness;
   Four bias[2];
   Four mu;

@@ -107,13 +107,18 @@ inline void solvePairs(const WideBlock& k, Impulses* impulses, SolverVelocity* u
   a.omega -= k.inv_inertia_a * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
   b.omega += k.inv_inertia_b * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
 
-  // Their friction.
-  Four y1 = t1 - k.inv_kt[0] * (v_t + k.arm_bt[0] * b.omega - k.arm_at[0] * a.omega);
-  clamp(y1, k.mu * x1);
-  const Four f1 = y1 - t1;
-  Four y2 = t2 - k.inv_kt[1] * (v_t + k.arm_bt[1] * b.omega - k.arm_at[1] * a.omega + k.kt12 * f1);
-  clamp(y2, k.mu * x2);
-  const Four f2 = y2 - t2;
+  // Their friction, as one row: ManifoldFriction.
+  const Four pressure = x1 + x2, half = Four{} + 0.5;
+  const Mask presses = pressure > Four{};
+  const Four of1 = presses ? x1 / pressure : half;
+  const Four of2 = presses ? 1.0 - of1 : half;
+  const Four arm_a = of1 * k.arm_at[0] + of2 * k.arm_at[1];
+  const Four arm_b = of1 * k.arm_bt[0] + of2 * k.arm_bt[1];
+  const Four inv_k = of1 * k.inv_kt[0] + of2 * k.inv_kt[1];
+  Four both = t1 + t2 - inv_k * (v_t + arm_b * b.omega - arm_a * a.omega);
+  clamp(both, k.mu * pressure);
+  Four y1 = of1 * both, y2 = of2 * both;
+  const Four f1 = y1 - t1, f2 = y2 - t2;
   const Four p_t = f1 + f2;
   a.omega -= k.inv_inertia_a * (k.arm_at[0] * f1 + k.arm_at[1] * f2);
   b.omega += k.inv_inertia_b * (k.arm_bt[0] * f1 + k.arm_bt[1] * f2);

@@ -37,7 +37,6 @@ RigidId collectionOf(State& state, BodyId b) {
   removeRigid(state, own);
   enlist(state, id, b, {single.x, single.rotation}, single.angle);
   state.collection(id).members = {b};
-  state.collection(id).jolted = state[b].jolted;
   addShapes(state, id, {b});
   insertRigid(state, id);
   state.collection(id).stale = true;
@@ -64,8 +63,6 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   const auto middle = static_cast<std::ptrdiff_t>(target.members.size());
   target.members.insert(target.members.end(), source.members.begin(), source.members.end());
   std::inplace_merge(target.members.begin(), target.members.begin() + middle, target.members.end());
-  target.jolted = std::max(target.jolted, source.jolted);
-  target.stirred = std::max(target.stirred, source.stirred);
   state.extents[state[to].extent].bounds.include(placed(relative, state.extent(from).bounds));
   state[to].resized = true;
   target.stale = true;
@@ -236,8 +233,6 @@ void absorbContacts(State& state) {
     InternalContact inner;
     inner.key = contact.key;
     inner.count = contact.count;
-    inner.vain = contact.vain;
-    inner.strayed = contact.strayed;
     inner.since = state.step;
     const Pose from_a = state[*id].frame().toLocal(state.pose(contact.key.a));
     inner.normal = from_a.rotation * contact.normal;

@@ -12,9 +12,8 @@ void reportCuts(const State& state, const Collection& before, Scratch& scratch) 
   for (const Weld& weld : before.welds) {
     if (stillTogether(state, weld.a, weld.b)) continue;
     scratch.events.push_back({EventType::Unmerge, weld.a, weld.b, before.id,
-                              weld.cut ? weld.reason : EventReason::Cycle});
+                              weld.cut ? weld.reason : EventReason::Broken});
   }
-  noteBrokenGroups(state, before, scratch.notes);
 }
 
 }  // namespace
@@ -23,10 +22,14 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
   Collection before;
   before.id = state.collection(id).id;
   before.welds = state.collection(id).welds;
+  before.joints = state.collection(id).joints;
   std::erase_if(before.welds, [](const Weld& weld) { return weld.expected; });
-  if (scratch.notes) before.contacts = state.collection(id).contacts;
   splitCollection(state, id, parts.part, parts.anchored);
   reportCuts(state, before, scratch);
+  for (const JointBlock& k : before.joints) {
+    Joint& joint = state.joints[k.joint];
+    if (!isInside(state, joint)) joint.quiet_steps = 0;
+  }
   scratch.split = true;
 }
 

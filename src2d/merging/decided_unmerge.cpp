@@ -77,25 +77,6 @@ class WeldMotions {
   const std::vector<SolverVelocity>& u_;
 };
 
-/// A point that presses for the first time is a contact like any other from now on, and one that
-/// presses again has not been lost.
-void notePressing(Collection& c) {
-  for (std::size_t b = 0; b < c.blocks.size(); ++b) {
-    ContactBlock& k = c.blocks[b];
-    InternalContact& inner = c.contacts[c.block_contact[b]];
-    if (inner.since == kExpected) continue;
-    for (int i = 0; i < k.count; ++i) {
-      PointWatch& watch = inner.watch[static_cast<std::size_t>(i)];
-      watch.slip = watch.opening = {};
-      if (broken(k, i)) continue;
-      watch.active = true;
-      watch.lost = false;
-      k.bias[i] = 0.0;
-      c.watches[b].activate(i);
-    }
-  }
-}
-
 /// Broken where nothing presses, sliding where a contact is on the edge of its cone.
 EventReason reasonOf(const Collection& c, const Weld& weld) {
   bool presses = weld.joints > 0, slides = false;
@@ -123,28 +104,38 @@ Decision decide(const Weld& weld, double speed, double threshold) {
           .verdict = speed > threshold ? "unmerge" : "keep"};
 }
 
-/// Cuts the welds whose bodies move. Returns whether any does.
-bool cutMovers(const State& state, Scratch& scratch, Collection& c) {
+/// The bodies of some weld move against each other, at their corners, by more than `noise`: a beam
+/// that begins to tip about its pivot hardly moves there.
+bool turns(const Collection& c, const WeldMotions& motions, double threshold, double noise) {
+  return std::ranges::any_of(c.welds, [&](const Weld& weld) {
+    const WeldMotion motion = motions.of(weld, threshold);
+    return !weld.expected && motion.most > threshold && motion.least > noise;
+  });
+}
+
+/// Cuts the welds whose bodies move. Slower motion than the residual may be an error of the solve.
+/// `surely`: some weld must move by more than a few residuals. Returns whether any does.
+bool cutMovers(const State& state, Scratch& scratch, Collection& c, bool surely) {
   const WeldMotions motions(state, c, scratch.trial_u);
-  const double threshold = isHit(c) ? kDecided.cut_in_hit : cutSpeed(state);
-  const double noise = isHit(c) ? 0.0 : kDecided.beyond_residual * c.residual;
-  c.cut_welds.clear();
-  for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
-    Weld& weld = c.welds[w];
+  const double threshold = isHit(state, c) ? kDecided.cut_in_hit : cutSpeed(state);
+  const double residual = isHit(state, c) ? 0.0 : c.residual;
+  const bool moves = !surely || turns(c, motions, threshold, kDecided.sure * residual);
+  bool any = false;
+  for (Weld& weld : c.welds) {
     weld.cut = false;
-    weld.turning = {};
+    weld.motion = 0.0F;
     if (weld.expected) continue;
     const WeldMotion motion = motions.of(weld, scratch.notes ? 0.0 : threshold);
-    const double speed = motion.least > noise ? motion.most : 0.0;
+    const double speed = moves && motion.least > residual ? motion.most : 0.0;
     const Decision decision = decide(weld, speed, threshold);
     if (scratch.notes) scratch.notes->decisions.push_back(decision);
     if (speed <= threshold) continue;
     weld.cut = true;
-    weld.turning = {static_cast<float>(speed), 1};
+    weld.motion = static_cast<float>(speed);
     weld.reason = reasonOf(c, weld);
-    c.cut_welds.push_back(w);
+    any = true;
   }
-  return !c.cut_welds.empty();
+  return any;
 }
 
 /// Keeps a proof, and looks whether a load beyond it is carried too: one that swings then finds its
@@ -162,31 +153,33 @@ void prove(const State& state, Collection& c, Witness&& witness) {
   beginSearchAhead(state, c, std::move(next), way);
 }
 
-/// Nothing moves in the full solve: a proof, where that has converged.
-void keepTogether(const State& state, Scratch& scratch, Collection& c) {
+/// Nothing moves in the full solve: a proof, where that has converged. Else a search that was under
+/// way goes on.
+void keepTogether(const State& state, Scratch& scratch, Collection& c, ProofSearch&& search) {
   LoadCertificate& proof = c.certificate.front();
-  c.settled = !isHit(c) && c.residual <= toleratedResidual(state);
+  c.settled = !isHit(state, c) && c.residual <= toleratedResidual(state);
   if (c.settled) {
     Witness witness = asWitness(state, c, loadOn(state, scratch, c));
     readImpulses(c, witness);
     return prove(state, c, std::move(witness));
   }
-  proof.in_doubt |= !isHit(c) || proof.witnesses.empty();
+  proof.in_doubt |= !isHit(state, c) || proof.witnesses.empty();
+  if (isHit(state, c) || search.start.empty()) return;
+  swapImpulses(c, search.load);
+  proof.search = std::move(search);
 }
 
 /// Where the solve has not converged, only motion that is above its residual counts.
 void decideOne(State& state, Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
-  Witness before = std::move(proof.search.load);
-  proof.search = {};
+  ProofSearch before = std::exchange(proof.search, {});
   if (breakJointsInside(state, scratch, c)) return;
-  notePressing(c);
   if (!c.joints.empty()) loosenJoints(state, c, scratch.sweep_u);
   Noted noted(scratch.notes);
-  const bool cut = cutMovers(state, scratch, c);
+  const bool cut = cutMovers(state, scratch, c, !before.start.empty());
   noted.close();
-  if (isHit(c)) swapImpulses(c, before);  // those of a hit are not those of a load
-  if (!cut) return keepTogether(state, scratch, c);
+  if (isHit(state, c)) swapImpulses(c, before.load);  // those of a hit are not those of a load
+  if (!cut) return keepTogether(state, scratch, c, std::move(before));
   c.settled = false;
   proof.in_doubt = true;
   const Parts parts = componentsOf(c);
@@ -195,55 +188,19 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   restate(state, noted, "cut");
 }
 
-/// Some weld's bodies move against each other, at their corners, by more than `noise`: a beam that
-/// begins to tip about its pivot hardly moves there.
-bool turns(const State& state, const Scratch& scratch, const Collection& c, double noise) {
-  const WeldMotions motions(state, c, scratch.trial_u);
-  const double threshold = cutSpeed(state);
-  return std::ranges::any_of(c.welds, [&](const Weld& weld) {
-    const WeldMotion motion = motions.of(weld, threshold);
-    return !weld.expected && motion.most > threshold && motion.least > noise;
-  });
-}
-
 /// Whether nothing moves in a search. What may turn is looked at more closely, for one step more.
 bool restsIn(const State& state, Scratch& scratch, Collection& c) {
   const double tolerance = toleratedResidual(state);
   const auto sure = [&] { return c.residual / kDecided.tolerance; };
   if (!isAtRest(scratch, c, std::max(cutSpeed(state), sure()))) return false;
-  if (c.residual > tolerance || !turns(state, scratch, c, c.residual)) return true;
+  const WeldMotions motions(state, c, scratch.trial_u);
+  const auto turnsBy = [&](double noise) { return turns(c, motions, cutSpeed(state), noise); };
+  if (c.residual > tolerance || !turnsBy(c.residual)) return true;
   continueSearch(state, scratch, c, kDecided.tolerance * tolerance);
-  return !turns(state, scratch, c, sure());
+  return !turnsBy(sure());
 }
 
 }  // namespace
-
-Parts componentsOf(const Collection& c) {
-  const auto members = static_cast<std::uint32_t>(c.members.size());
-  DisjointSets sets;
-  sets.reset(members);
-  std::vector<std::uint8_t> fixed(members, 0);
-  for (const Weld& weld : c.welds) {
-    if (weld.cut || weld.expected) continue;
-    if (weld.node_a < members && weld.node_b < members) {
-      sets.unite(weld.node_a, weld.node_b);
-    } else {
-      fixed[std::min(weld.node_a, weld.node_b)] = 1;  // to the frame, whose node is the last
-    }
-  }
-  Parts parts;
-  std::vector<std::uint32_t> number(members, ~0u);
-  for (std::uint32_t m = 0; m < members; ++m) {
-    std::uint32_t& p = number[sets.find(m)];
-    if (p == ~0u) {
-      p = static_cast<std::uint32_t>(parts.anchored.size());
-      parts.anchored.push_back(0);
-    }
-    parts.part.push_back(p);
-    parts.anchored[p] = static_cast<std::uint8_t>(parts.anchored[p] | fixed[m]);
-  }
-  return parts;
-}
 
 bool overloadsJoints(State& state, const Collection& c) {
   for (const JointBlock& k : c.joints) state.joints[k.joint].lambda = k.lambda;

@@ -1,18 +1,13 @@
 #pragma once
-/// Unmerge of `unmerging.rule = "decided"`: where nothing moves in a search that has converged, or
-/// in the full solve with an open collection, the load is remembered as carried; the welds whose
-/// bodies move in the full solve are cut. Deviation
-/// from Sections 6.3 and 6.4, which decide from one sweep. Guarded by tests/src2d/merging/
-/// decided_unmerge_test.cpp.
+/// Unmerge: where nothing moves in a search that has converged, or in the full solve with an open
+/// collection, the load is remembered as carried; the welds whose bodies move in the full solve are
+/// cut. Deviation from Sections 6.3 and 6.4, which decide from one sweep.
+/// Guarded by tests/src2d/merging/decided_unmerge_test.cpp.
 
 #include "src2d/dynamics/state.h"
 #include "src2d/merging/parts.h"
 
 namespace merge2d {
-
-/// The components of the graph of welds that are not cut: in a converged solution each body that
-/// does not move is held, and no rigidity need be asked for.
-Parts componentsOf(const Collection& collection);
 
 /// After a step of a search: where it has converged, keeps its proof. False where it has found
 /// motion.

@@ -1,28 +1,42 @@
 #include "src2d/merging/default_rule.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src2d/dynamics/solver.h"
-#include "src2d/merging/default_unmerge.h"
-#include "src2d/merging/refined_sweep.h"
+#include "src2d/merging/decided_unmerge.h"
+#include "src2d/merging/doubt.h"
+#include "src2d/merging/open_solve.h"
+#include "src2d/merging/proof_search.h"
 #include "src2d/merging/sleep.h"
-#include "src2d/merging/spare_welds.h"
-#include "src2d/merging/sweep.h"
-#include "src2d/merging/warm_start.h"
 
 namespace merge2d {
 namespace {
 
 CycleCriterion asSet(const MergingSettings& settings) { return settings.cycles; }
 
-/// Deviation from the start with today's velocity, which would miss the force that keeps a member
-/// on its circle: the orientation before the last position update.
-/// Guarded by Sweep.HoldsASpinningMemberOnItsCircle.
-Rotation beforeLastUpdate(const Rigid& collection) { return collection.previous_rotation; }
+/// A search has gone on for another while.
+bool isToBeLookedAt(const Collection& c) {
+  const ProofSearch& search = c.certificate.front().search;
+  return !search.start.empty() && !search.ahead && search.steps % kDecided.look_every == 0;
+}
+
+/// Where a search has found motion, the full solve of the same step finds the moving welds.
+void solveDoubted(State& state, Scratch& scratch) {
+  for (Collection& c : state.collections) {
+    if (doubtAbout(state, scratch, c) != Doubt::Search) continue;
+    continueSearch(state, scratch, c, toleratedResidual(state));
+    const bool opens = !endSearch(state, scratch, c) || isToBeLookedAt(c);
+    if (opens) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
+  }
+  if (std::ranges::find(scratch.doubts, Doubt::Open) != scratch.doubts.end()) {
+    solveOpened(state, scratch);
+  }
+}
 
 /// Deviation: contacts inside a collection are rigid rows, without bias and softness: their overlap
 /// is frozen, and would ask for a ghost velocity whenever the load changes. The bias of a point
-/// that may not have met yet stays. Guarded by Sweep.HoldsAColumnsWeightExactly.
+/// that may not have met yet stays. Guarded by Sweep.HoldsAColumnsWeight.
 InnerRows rigidRows(const State& state, const InternalContact& contact, const SolverVelocity&,
                     const SolverVelocity&) {
   const bool bilateral = isBilateral(state, contact.key.a, contact.key.b);
@@ -38,28 +52,21 @@ InnerRows rigidRows(const State& state, const InternalContact& contact, const So
 /// Guarded by Cures.AContactThatCarriedNothingWhenItsPairMergedTakesALoadLater.
 void keepAllPoints(InternalContact&) {}
 
-/// The number of steps for which a pair that turns as slowly as this seems to be at rest.
-int stepsUntilSeen(const State& state, const Drift& turning) {
-  constexpr double kMost = 200.0;  // steps
-  const double seen = state.settings.merging.velocity * turning.steps;
-  const double sum = std::abs(turning.sum);
-  return std::max(turning.steps, static_cast<int>(std::min(seen / std::max(sum, 1e-12), kMost)));
-}
+Parts uncutParts(const State&, Scratch&, const Collection& c) { return componentsOf(c); }
 
 /// Deviation: a weld that broke soon after it had formed waits for the rest of this time before its
 /// contacts are looked at again, or the pair would merge and part in turn while it barely moves.
-/// Guarded by Unmerge.AWeldThatBrokeAtOnceDoesNotFormAtOnce. And one that turned slowly waits for
+/// Guarded by Unmerge.AWeldThatBrokeAtOnceDoesNotFormAtOnce. And one that moved slowly waits for
 /// as long as it would still seem at rest. Guarded by
 /// Seesaw.BarelyOutOfBalanceTipsAsInTheReference.
-int waitAfterFlicker(const State& state, const InternalContact& inner, const Weld* cut) {
+int waitUntilSeen(const State& state, const InternalContact& contact, const Weld* cut) {
   constexpr std::int64_t kFlicker = 20;  // steps
-  const auto rest =
-      static_cast<int>(std::max(std::int64_t{0}, kFlicker - (state.step - inner.since)));
-  const bool turned = cut && cut->reason == EventReason::RelativeMotion;
-  return turned ? std::max(rest, stepsUntilSeen(state, cut->turning)) : rest;
+  constexpr double kMost = 200.0;        // steps
+  const auto rest = std::max(std::int64_t{0}, kFlicker - (state.step - contact.since));
+  if (!cut || cut->motion <= 0.0F) return static_cast<int>(rest);
+  const double seen = state.settings.merging.velocity / static_cast<double>(cut->motion);
+  return std::max(static_cast<int>(rest), static_cast<int>(std::min(kMost, seen)));
 }
-
-void sweepAll(State& state, Scratch& scratch) { sweepAround(state, scratch, sweepRefined); }
 
 }  // namespace
 
@@ -71,13 +78,11 @@ constinit const MergingMethod kDefaultMerging{
 
 constinit const UnmergingMethod kDefaultUnmerging{
     .sleepAndWake = sleepByIslands,
-    .warmStart = warmStartSweep,
-    .startingRotation = beforeLastUpdate,
-    .sweeps_free_bodies = false,
-    .sweep = sweepAll,
-    .unmerge = unmergeConfirmed,
-    .parts = judge,
-    .waitAfterSplit = waitAfterFlicker,
+    .warmStart = findDoubts,
+    .sweep = solveDoubted,
+    .unmerge = unmergeMovers,
+    .parts = uncutParts,
+    .waitAfterSplit = waitUntilSeen,
     .innerRows = rigidRows,
     .enter = keepAllPoints,
 };

@@ -1,11 +1,13 @@
 #pragma once
-/// `rule = "default"`: the paper's rule with the cures that 2D needs (docs/decisions/cures.md).
+/// `rule = "default"`: a weld holds while its contacts can carry the load.
 ///
-/// The single sweep goes on where something is new (refined_sweep.h). Evidence against a weld is
-/// summed over steps (weld_checks.h) and confirmed by more sweeps before a collection splits, into
-/// parts that must be rigid groups (default_unmerge.h). Parts that would not move stay (trial.h),
-/// and a collection whose model of a few rigid parts is not in equilibrium splits (footing.h).
-/// Islands sleep and wake as a whole (sleep.h).
+/// A collection is a hypothesis: its members move as one. Its proof is a set of admissible impulses
+/// (Eqs. (2)-(7)) that carries the load of this step without relative motion. A load that known
+/// proofs cover (load_certificate.h) leaves the collection quiet. Impulses for any other load are
+/// sought over as many steps as that takes (doubt.h, proof_search.h). Where a search finds motion,
+/// or something hits the collection, its members take part in the full solve (open_solve.h), and
+/// the welds whose bodies move are cut (decided_unmerge.h). Islands sleep and wake as a whole
+/// (sleep.h).
 
 #include "src2d/merging/rule.h"
 

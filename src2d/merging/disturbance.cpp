@@ -4,7 +4,6 @@
 
 #include "src2d/core/memory.h"
 #include "src2d/merging/kicked.h"
-#include "src2d/merging/sweep.h"
 
 namespace merge2d {
 namespace {
@@ -29,22 +28,6 @@ double closingSpeed(const State& state, const Contact& contact) {
     fastest = std::max(fastest, -w_n);
   }
   return fastest;
-}
-
-/// True when the acceleration of the frame has changed by more than a hundredth of gravity since
-/// the last step: then one sweep cannot follow the load.
-bool frameJumps(const State& state, Collection& c) {
-  constexpr double kPart = 1e-2;
-  const Rigid& r = state[c.rigid];
-  const bool scripted = !r.floating() && r.anchor != kWorldFrame;
-  const Vec2 v = scripted ? state[rigidOf(c.anchor)].v : r.v;
-  const Vec2 gain = v - c.frame_v;
-  const double jump = (gain - c.frame_gain).norm();
-  const bool known = c.frame_known >= 2;
-  c.frame_v = v;
-  c.frame_gain = gain;
-  if (!known) ++c.frame_known;
-  return known && jump > kPart * state.h * std::max(state.gravity.norm(), 1.0);
 }
 
 /// Lists the contacts that close anew.
@@ -102,44 +85,10 @@ void reportImpacts(const State& state, Scratch& scratch) {
   });
 }
 
-void ageJolts(State& state) {
-  for (Collection& c : state.collections) {
-    if (c.jolted == 0) continue;
-    --c.jolted;
-    for (const BodyId b : c.members) {
-      std::uint8_t& left = state[b].jolted;
-      left = static_cast<std::uint8_t>(left - (left > 0));
-    }
-  }
-}
-
-void jolt(State& state, BodyId b) {
-  const RigidId id = state[b].rigid;
-  if (state.isCollection(id)) state.collection(id).jolted = state[b].jolted = kFollowed;
-}
-
 }  // namespace
 
 double impactSpeed(const State& state) {
   return std::max(2.0 * state.h * state.gravity.norm(), state.settings.unmerging.velocity);
-}
-
-double joltVelocity(const State& state) {
-  constexpr double kMuch = 5.0;
-  return kMuch * state.settings.unmerging.sliding;
-}
-
-void noteJolt(State& state, std::uint32_t body, double change) {
-  const double much = joltVelocity(state);
-  if (change > much * much && body < state.bodies.size()) jolt(state, BodyId{body});
-}
-
-bool isJolted(const State& state, const Collection& c) {
-  constexpr std::ptrdiff_t kPart = 4;
-  if (c.jolted == 0) return false;
-  const auto jolted =
-      std::ranges::count_if(c.members, [&](BodyId b) { return state[b].jolted > 0; });
-  return kPart * jolted >= std::ssize(c.members);
 }
 
 void orderContacts(State& state, Scratch& scratch) {
@@ -147,62 +96,17 @@ void orderContacts(State& state, Scratch& scratch) {
   findMeetings(state, scratch);
   reportImpacts(state, scratch);
   scratch.seeds.clear();
-  scratch.disturbed.assign(state.collections.size(), 0);
-  ageJolts(state);
   if (!state.settings.unmerging.ordering) return;
-  enum class Entry { Stir, Touch, Hit };
-  const auto seed = [&](BodyId b, Entry entry) {
-    scratch.seeds.push_back(static_cast<std::uint32_t>(b));
-    const RigidId id = state[b].rigid;
-    if (!state.isCollection(id)) return;
-    scratch.disturbed[index(id) - state.bodies.size()] = 1;
-    jolt(state, b);
-    Collection& c = state.collection(id);
-    if (entry == Entry::Stir) c.stirred = kFollowed;
-    if (entry == Entry::Touch) c.struck = std::max<std::int16_t>(c.struck, kFollowed - 1);
-    if (entry == Entry::Hit) c.struck = kFollowed;
-  };
-  for (Collection& c : state.collections) {
-    if (c.struck > 0) --c.struck;
-    if (c.stirred > 0) --c.stirred;
-    if (isSwept(state, c) && frameJumps(state, c)) {
-      scratch.disturbed[index(c.rigid) - state.bodies.size()] = 1;
-    }
-  }
-  for (const Kick& kick : scratch.kicks) seed(kick.body, Entry::Hit);
-  for (const BodyId b : scratch.stirred) seed(b, Entry::Stir);
-  forEachPairThatMeets(scratch, [&](const BodyPair& pair, double speed) {
-    const Entry entry = speed > impactSpeed(state) ? Entry::Hit : Entry::Touch;
-    for (const BodyId b : {pair.a, pair.b}) seed(b, entry);
+  const auto seed = [&](BodyId b) { scratch.seeds.push_back(static_cast<std::uint32_t>(b)); };
+  for (const Kick& kick : scratch.kicks) seed(kick.body);
+  for (const BodyId b : scratch.stirred) seed(b);
+  forEachPairThatMeets(scratch, [&](const BodyPair& pair, double) {
+    seed(pair.a);
+    seed(pair.b);
   });
-  trim(scratch.seeds);  // as above
+  trim(scratch.seeds);  // in a first step they are many
   if (scratch.notes) {
     for (const std::uint32_t s : scratch.seeds) scratch.notes->seeds.push_back(BodyId{s});
-  }
-}
-
-void spreadDisturbance(const State& state, Scratch& scratch) {
-  constexpr std::uint32_t kOutside = ~0U;
-  const auto slotOf = [&](std::uint32_t b) {
-    if (b >= state.bodies.size()) return kOutside;  // the world
-    const RigidId id = state.bodies[b].rigid;
-    return state.isCollection(id) ? static_cast<std::uint32_t>(index(id) - state.bodies.size())
-                                  : kOutside;
-  };
-  DisjointSets together;
-  together.reset(state.collections.size());
-  const auto unite = [&](std::uint32_t body_a, std::uint32_t body_b) {
-    const std::uint32_t a = slotOf(body_a), b = slotOf(body_b);
-    if (a != kOutside && b != kOutside) together.unite(a, b);
-  };
-  for (const SweepContact& outer : scratch.sweep_contacts) unite(outer.block.a, outer.block.b);
-  for (const JointBlock& k : scratch.sweep_joints) unite(k.a, k.b);
-  auto& disturbed = scratch.disturbed;
-  for (std::uint32_t slot = 0; slot < disturbed.size(); ++slot) {
-    if (disturbed[slot]) disturbed[together.find(slot)] = 1;
-  }
-  for (std::uint32_t slot = 0; slot < disturbed.size(); ++slot) {
-    disturbed[slot] = disturbed[together.find(slot)];
   }
 }
 

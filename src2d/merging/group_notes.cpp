@@ -4,8 +4,6 @@
 #include <map>
 #include <set>
 
-#include "src2d/merging/grip.h"
-
 namespace merge2d {
 namespace {
 
@@ -53,11 +51,6 @@ class GroupList {
   std::map<std::uint32_t, std::int32_t> place_;
 };
 
-/// Pinned or scripted: a body that collections can be fixed to.
-bool isFrame(const State& state, BodyId body) {
-  return !state[rigidOf(body)].floating() && !state.isCollection(state[body].rigid);
-}
-
 }  // namespace
 
 bool stillTogether(const State& state, BodyId a, BodyId b) {
@@ -91,48 +84,6 @@ void noteGroups(const State& state, Scratch& scratch, const Groups& group) {
                   .verdict = held(edge) ? "merge" : "wait"};
     if (held(edge)) groups.nameIn(test, group[edge.node_a]);
     noteMerge(state, scratch.notes, edge.pair, test);
-  }
-}
-
-void noteBrokenGroups(const State& state, const Collection& before, Notes* notes) {
-  if (!notes) return;
-  // The parts as they are now, joined again where a weld ended; a frame joins nothing.
-  DisjointSets parts;
-  parts.reset(state.rigids.size());
-  const auto part = [&](BodyId body) {
-    return parts.find(static_cast<std::uint32_t>(state[body].rigid));
-  };
-  const auto ended = [&](const Weld& weld) { return !stillTogether(state, weld.a, weld.b); };
-  const auto own = [&](const Weld& weld) { return isFrame(state, weld.a) ? weld.b : weld.a; };
-  for (const Weld& weld : before.welds) {
-    if (!ended(weld) || isFrame(state, weld.a) || isFrame(state, weld.b)) continue;
-    parts.unite(part(weld.a), part(weld.b));
-  }
-  GroupList groups(*notes);
-  std::set<std::uint32_t> told;
-  for (const Weld& weld : before.welds) {
-    if (ended(weld) && !weld.cut) told.insert(part(own(weld)));
-  }
-  for (const Weld& weld : before.welds) {
-    const std::uint32_t key = part(own(weld));
-    if (!told.contains(key)) continue;
-    for (const BodyId body : {weld.a, weld.b}) {
-      ended(weld) ? groups[key].touching(body) : groups[key].welded(body);
-    }
-  }
-  groups.write();
-  for (const Weld& weld : before.welds) {
-    if (weld.cut || !ended(weld)) continue;
-    Decision test{.a = weld.a,
-                  .b = weld.b,
-                  .stage = "Unmerge",
-                  .criterion = "cycle",
-                  .equation = "Section 8.2",
-                  .value = static_cast<double>(activeContacts(before, weld)),
-                  .threshold = 2.0,
-                  .verdict = "unmerge"};
-    groups.nameIn(test, part(own(weld)));
-    notes->decisions.push_back(test);
   }
 }
 

@@ -4,9 +4,7 @@
 
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/grip.h"
 #include "src2d/merging/merge.h"
-#include "src2d/merging/refine.h"
 
 namespace merge2d {
 namespace {
@@ -58,8 +56,7 @@ auto weldAt(std::vector<Weld>& welds, const Pair& pair) {
 /// Counts the joints of each weld anew, in contacts: `found(weld, contacts)`.
 template <class F>
 void countHolds(const State& state, Collection& c, F&& found) {
-  thread_local std::vector<Hold> holds;  // per weld; its memory is kept
-  holds.assign(c.welds.size(), {});
+  std::vector<Hold> holds(c.welds.size());
   for (const JointBlock& k : c.joints) {
     const Joint& joint = state.joints[k.joint];
     if (joint.to_world) continue;
@@ -79,7 +76,6 @@ bool updateWelds(const State& state, Collection& c) {
     if (contacts == weld.joints) return;
     less |= contacts < weld.joints;
     weld.joints = static_cast<std::uint8_t>(contacts);
-    if (!c.stale) updateGrip(state, c, i);  // else all are found when it is laid out
   });
   return less;
 }
@@ -149,14 +145,6 @@ bool loosenJoints(State& state, Collection& c, const std::vector<SolverVelocity>
   return updateWelds(state, c);
 }
 
-void confirmJoints(State& state, Collection& c, const std::vector<SolverVelocity>& u) {
-  if (c.joints.empty()) return;
-  forEachBound(state, c, u, [&](float& yielded, double w, bool inside) {
-    if (inside || std::abs(w) < residualVelocity(state)) yielded = 0.0F;
-  });
-  updateWelds(state, c);
-}
-
 bool anyJointBreaks(const State& state, const Collection& c) {
   return std::any_of(c.joints.begin(), c.joints.end(),
                      [&](const JointBlock& k) { return breaks(state, state.joints[k.joint]); });
@@ -174,7 +162,6 @@ std::vector<std::uint32_t> takeOverloadedJoints(const State& state, Collection& 
     Weld& weld = c.welds[i];
     const bool held = weld.joints > 0;
     weld.joints = static_cast<std::uint8_t>(contacts);
-    updateGrip(state, c, i);
     if (!held || weld.joints > 0 || weld.count > 0) return;
     weld.cut = true;
     weld.reason = EventReason::Broken;

@@ -23,9 +23,6 @@ Vec2 jointPoint(const State& state, const Collection& collection, const Weld& we
 /// True when some weld holds less.
 bool loosenJoints(State& state, Collection& collection, const std::vector<SolverVelocity>& u);
 
-/// The same after more sweeps in the same step: sums that they do not confirm are forgotten.
-void confirmJoints(State& state, Collection& collection, const std::vector<SolverVelocity>& u);
-
 /// True when a joint inside bears more than it can.
 bool anyJointBreaks(const State& state, const Collection& collection);
 

@@ -7,10 +7,7 @@
 #include <utility>
 
 #include "src2d/core/memory.h"
-#include "src2d/merging/bridges.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/detours.h"
-#include "src2d/merging/grip.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/rule.h"
@@ -72,13 +69,10 @@ void fitBox(State& state, RigidId id) {
   state.extents[state[id].extent].box = tightBox(points);
 }
 
-/// No contact has come to the weld or left it, and it has no joints.
-bool keepsContacts(const Collection& c, const Weld& weld, const Weld& old) {
-  if (weld.joints + old.joints > 0 || weld.count != old.count) return false;
-  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    if (c.contacts[i].block == InternalContact::kNoBlock) return false;
-  }
-  return true;
+/// Its place among the members; that of the frame is last.
+std::uint32_t nodeOf(const State& state, const Collection& c, BodyId b) {
+  const auto frame = static_cast<std::uint32_t>(c.members.size());
+  return state[b].rigid == c.rigid ? state[rigidOf(b)].member : frame;
 }
 
 /// Contacts of one pair of bodies in a row form a weld, and so do its joints.
@@ -92,23 +86,22 @@ void layOutWelds(const State& state, Collection& c) {
     }
     c.welds.back().expected &= c.contacts[i].since == kExpected;
     c.welds.back().count = i + 1 - c.welds.back().first;
-    c.welds.back().vain = std::max(c.welds.back().vain, c.contacts[i].vain);
   }
   addJointWelds(state, c);
   for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
     Weld& weld = c.welds[w];
     weld.expected &= weld.joints == 0;
     for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) c.contacts[i].weld = w;
+    weld.node_a = nodeOf(state, c, weld.a);
+    weld.node_b = nodeOf(state, c, weld.b);
   }
   tighten(c.welds);
-  c.leaning.clear();
   std::size_t o = 0;
   for (Weld& weld : c.welds) {
     while (o < old.size() && std::pair(old[o].a, old[o].b) < std::pair(weld.a, weld.b)) ++o;
     if (o == old.size()) break;
     if (old[o].a != weld.a || old[o].b != weld.b) continue;
-    weld.turning = old[o].turning;
-    if (keepsContacts(c, weld, old[o])) weld.grip = old[o].grip;
+    weld.moving = old[o].moving;
   }
 }
 
@@ -188,37 +181,20 @@ void orderBlocks(Collection& c) {
 void layOutBlocks(const State& state, Collection& c) {
   orderBlocks(c);
   const auto old_blocks = std::exchange(c.blocks, {});
-  const auto old_watches = std::exchange(c.watches, {});
   c.blocks.reserve(c.contacts.size());
-  c.watches.reserve(c.contacts.size());
   c.points = 0;
   for (const std::uint32_t contact : c.block_contact) {
     InternalContact& inner = c.contacts[contact];
     if (inner.block != InternalContact::kNoBlock) {
       c.blocks.push_back(old_blocks[inner.block]);
-      c.watches.push_back(old_watches[inner.block]);
     } else {
       c.blocks.push_back(makeBlock(state, c, inner));
-      c.watches.emplace_back();
       inner.count = static_cast<std::int16_t>(
           c.blocks.back().count);  // points too close to each other count as one
-    }
-    for (int i = 0; i < inner.count; ++i) {
-      if (inner.watch[static_cast<std::size_t>(i)].active) c.watches.back().activate(i);
     }
     inner.block = static_cast<std::uint32_t>(c.blocks.size() - 1);
     c.points += inner.count;
   }
-}
-
-/// Forgets all that was found out about the welds as they were.
-void forgetJudgement(Collection& c) {
-  c.cut_welds.clear();
-  c.spare.clear();
-  c.stood.clear();
-  c.loosened.clear();
-  c.judged = false;
-  c.borne = {};
 }
 
 }  // namespace
@@ -271,15 +247,11 @@ void layOut(State& state, Collection& c) {
   fitBox(state, c.rigid);
   layOutJoints(state, c);
   layOutWelds(state, c);
-  indexWelds(state, c);
-  markBridges(c);
   layOutBlocks(state, c);
-  forgetJudgement(c);
   c.certificate.clear();  // proofs are for the members and contacts of a layout
-  findGrips(state, c);
   layOutPush(state, c);
   c.stale = false;
-  c.settled = c.refuted = false;
+  c.settled = false;
 }
 
 }  // namespace

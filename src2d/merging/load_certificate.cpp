@@ -1,10 +1,10 @@
 #include "src2d/merging/load_certificate.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "src2d/core/small_cholesky.h"
 #include "src2d/merging/nonnegative_fit.h"
 
 namespace merge2d {
@@ -82,7 +82,7 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
   const double outer = kOuterWeight * load.outer_norm;
   const Projection p = project(proof.gram, b, n, square(load));
   const double most = std::max(kLeast, kFrame * load.norm + kOuter * outer);
-  if (p.left > most * most) return false;
+  if (!(p.left <= most * most)) return false;  // nor where they are no numbers
   proof.lambda_stale |= p.weights != proof.weights;
   proof.weights = p.weights;
   return true;
@@ -179,20 +179,19 @@ namespace {
 
 /// The nearest combination of the witnesses' loads, with weights of any sign; a little damped, as
 /// loads that hardly differ tell little.
-Eigen::VectorXd combinationFor(const LoadCertificate& proof, const Witness& load) {
+LoadCertificate::Weights combinationFor(const LoadCertificate& proof, const Witness& load) {
   constexpr double kDamping = 1e-8;  // of the largest square
-  const auto n = static_cast<Eigen::Index>(proof.witnesses.size());
-  Eigen::MatrixXd gram(n, n);
-  Eigen::VectorXd b(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      gram(i, j) =
-          proof.gram[static_cast<std::size_t>(i) * kWitnesses + static_cast<std::size_t>(j)];
-    }
-    b[i] = product(proof.witnesses[static_cast<std::size_t>(i)], load);
+  const std::size_t n = proof.witnesses.size();
+  std::array<LoadCertificate::Weights, kWitnesses> gram{};
+  LoadCertificate::Weights b{};
+  double largest = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) gram[i][j] = proof.gram[i * kWitnesses + j];
+    b[i] = product(proof.witnesses[i], load);
+    largest = std::max(largest, gram[i][i]);
   }
-  gram.diagonal().array() += kDamping * gram.diagonal().maxCoeff();
-  return gram.ldlt().solve(b);
+  for (std::size_t i = 0; i < n; ++i) gram[i][i] += kDamping * largest;
+  return solveSymmetric(gram, b, n);
 }
 
 void limitImpulses(const Collection& c, Witness& load) {
@@ -213,10 +212,10 @@ void limitImpulses(const Collection& c, Witness& load) {
 void predictImpulses(const Collection& c, Witness& load) {
   const LoadCertificate& proof = c.certificate.front();
   if (proof.witnesses.empty()) return;
-  const Eigen::VectorXd w = combinationFor(proof, load);
+  const LoadCertificate::Weights w = combinationFor(proof, load);
   load.lambda.assign(c.blocks.size() + c.joints.size(), {});
   for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
-    const double part = w[static_cast<Eigen::Index>(i)];
+    const double part = w[i];
     for (std::size_t k = 0; k < load.lambda.size(); ++k) {
       for (std::size_t r = 0; r < 4; ++r) {
         load.lambda[k][r] += part * proof.witnesses[i].lambda[k][r];

@@ -26,12 +26,16 @@ std::vector<BodyPair> pairsToWeld(State& state, Scratch& scratch) {
   Groups group;
   std::vector<BodyPair> held;
   if (!pairs.empty()) group = heldGroups(graph.nodes(), graph.pinsOf(pairs), criterion);
+  const auto holds = [&](const ReadyPair& edge) {
+    return !group.empty() && group[edge.node_a] == group[edge.node_b];
+  };
   for (const ReadyPair& edge : pairs) {
-    if (group[edge.node_a] == group[edge.node_b]) held.push_back(edge.pair);
+    if (holds(edge)) held.push_back(edge.pair);
   }
   if (scratch.notes) scratch.notes->judged += static_cast<int>(pairs.size());
   if (criterion != CycleCriterion::Off) noteGroups(state, scratch, group);
-  std::swap(state.ready_before, scratch.ready);
+  std::erase_if(scratch.ready, holds);
+  std::swap(state.ready_before, scratch.ready);  // those that were refused
   return held;
 }
 
@@ -124,11 +128,10 @@ void releaseRows(State& state, Scratch& scratch) {
   scratch.nncg.direction.clear();
   scratch.nncg.u_before.clear();
   scratch.nncg.u_direction.clear();
-  scratch.rigid_parts = {};
   trim(scratch.blocks, scratch.row_sources, scratch.block_order, scratch.sweep_contacts,
        scratch.candidates, scratch.near_candidates, scratch.nncg.before, scratch.nncg.direction,
        scratch.nncg.u_before, scratch.nncg.u_direction, scratch.pairs, scratch.ready, scratch.u,
-       scratch.island_bodies, scratch.moved, scratch.doubted, state.broadphase.near);
+       scratch.island_bodies, scratch.moved, state.broadphase.near);
 }
 
 }  // namespace merge2d

@@ -27,12 +27,4 @@ VelocityField fieldOf(const State& state, const Collection& c, VelocityOf&& velo
 /// The same after the sweeps of this step so far.
 VelocityField sweptField(const State& state, const Scratch& scratch, const Collection& c);
 
-/// How fast the centre of a body at `x` moves against that motion, squared [m²/s²].
-inline double swaySquared(const VelocityField& field, const Vec2& x, const SolverVelocity& u) {
-  return (Vec2(u.vx, u.vy) - field.at(x)).squaredNorm();
-}
-
-/// The fastest of the members against that motion, after the sweeps of this step so far [m/s].
-double sway(const State& state, const Scratch& scratch, const Collection& c);
-
 }  // namespace merge2d

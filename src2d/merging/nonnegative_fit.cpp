@@ -1,15 +1,14 @@
 #include "src2d/merging/nonnegative_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "src2d/core/small_cholesky.h"
 
 namespace merge2d {
 namespace {
 
 constexpr std::size_t kFitted = LoadCertificate::kMost;
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kFitted, kFitted>;
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFitted, 1>;
 
 class NonNegativeFit {
  public:
@@ -50,29 +49,26 @@ class NonNegativeFit {
   bool toFeasible() {
     constexpr double kRidge = 1e-12;
     std::array<std::size_t, kFitted> of{};
-    Eigen::Index m = 0;
+    std::size_t m = 0;
     for (std::size_t i = 0; i < n_; ++i) {
-      if (free_[i]) of[static_cast<std::size_t>(m++)] = i;
+      if (free_[i]) of[m++] = i;
     }
-    SmallMatrix g(m, m);
-    SmallVector b(m);
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const std::size_t p = of[static_cast<std::size_t>(i)];
-      b[i] = b_[p];
-      for (Eigen::Index j = 0; j < m; ++j) {
-        g(i, j) = gram_[p * kFitted + of[static_cast<std::size_t>(j)]];
-      }
-      g(i, i) *= 1.0 + kRidge;
+    std::array<LoadCertificate::Weights, kFitted> g{};
+    LoadCertificate::Weights b{};
+    for (std::size_t i = 0; i < m; ++i) {
+      b[i] = b_[of[i]];
+      for (std::size_t j = 0; j < m; ++j) g[i][j] = gram_[of[i] * kFitted + of[j]];
+      g[i][i] *= 1.0 + kRidge;
     }
-    const SmallVector z = g.ldlt().solve(b);
+    const LoadCertificate::Weights z = solveSymmetric(g, b, m);
     double step = 1.0;
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const double w = w_[of[static_cast<std::size_t>(i)]];
+    for (std::size_t i = 0; i < m; ++i) {
+      const double w = w_[of[i]];
       if (z[i] <= 0.0) step = std::min(step, w / (w - z[i]));
     }
     bool feasible = true;
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const std::size_t p = of[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < m; ++i) {
+      const std::size_t p = of[i];
       w_[p] += step * (z[i] - w_[p]);
       if (z[i] <= 0.0 && w_[p] <= 1e-14) {
         w_[p] = 0.0;

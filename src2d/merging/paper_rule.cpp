@@ -4,7 +4,6 @@
 
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/ordering.h"
-#include "src2d/merging/refine.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/warm_start.h"
@@ -14,8 +13,6 @@ namespace {
 
 /// Section 8.2 is future work.
 CycleCriterion noCycles(const MergingSettings&) { return CycleCriterion::Off; }
-
-Rotation asItIs(const Rigid& collection) { return collection.rotation; }
 
 /// The rows of the full solve, with compliance and feedback (Section 5.3).
 InnerRows softRows(const State& state, const InternalContact& contact, const SolverVelocity& a,
@@ -89,8 +86,6 @@ constinit const MergingMethod kPaperMerging{
 constinit const UnmergingMethod kPaperUnmerging{
     .sleepAndWake = sleepEachByItself,
     .warmStart = warmStartSweep,
-    .startingRotation = asItIs,
-    .sweeps_free_bodies = true,
     .sweep = sweepByOrder,
     .unmerge = unmergeByContacts,
     .parts = components,

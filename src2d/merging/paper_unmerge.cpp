@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "src2d/merging/cuts.h"
-#include "src2d/merging/grip.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/limits.h"
 #include "src2d/merging/metric.h"
@@ -20,16 +19,23 @@ class WeldCriteria {
   WeldCriteria(const State& state, const Scratch& scratch, Collection& c)
       : state_(state), scratch_(scratch), c_(c), turn_(state[c.rigid].rotation) {}
 
-  void testAll() {
-    for (const std::uint32_t w : c_.cut_welds) c_.welds[w].cut = false;
-    c_.cut_welds.clear();
+  /// Returns whether some weld is cut.
+  bool testAll() {
+    for (Weld& weld : c_.welds) weld.cut = false;
     for (std::uint32_t b = 0; b < c_.active_blocks; ++b) testContacts(b);
     for (std::uint32_t w = 0; w < c_.welds.size(); ++w) {
-      if (isPivot(c_.welds[w].grip) && !c_.welds[w].cut) testMotion(w);
+      if (isWatched(c_.welds[w])) testMotion(w);
     }
+    return any_;
   }
 
  private:
+  /// "If there are less than three contacts between the pair of bodies" (Section 6.4): in 2D all
+  /// but pairs of compound bodies.
+  bool isWatched(const Weld& weld) const {
+    return !weld.cut && !weld.expected && activeContacts(c_, weld) < 3;
+  }
+
   /// Section 6.3, for the points of one block.
   void testContacts(std::uint32_t b) {
     const ContactBlock& k = c_.blocks[b];
@@ -38,7 +44,6 @@ class WeldCriteria {
     for (int i = 0; i < k.count; ++i) {
       PointWatch& point = inner.watch[static_cast<std::size_t>(i)];
       if (!point.active && broken(k, i)) continue;
-      const bool held = point.holds();
       point.active = true;
       point.lost = broken(k, i);
       at_ = state_[c_.rigid].frame() * inner.point(i).position;
@@ -49,7 +54,6 @@ class WeldCriteria {
         const double slip = contactVelocity(k, i, n.x(), n.y(), u[k.a], u[k.b]).t;
         testSliding(inner.weld, std::abs(slip), onEdge(k, i));
       }
-      if (point.holds() != held) updateGrip(state_, c_, inner.weld);
     }
   }
 
@@ -79,21 +83,23 @@ class WeldCriteria {
 
   /// Section 6.4.
   void testMotion(std::uint32_t w) {
+    constexpr int kMost = 10'000;  // steps that are counted
     const UnmergingSettings& settings = state_.settings.unmerging;
     Weld& weld = c_.welds[w];
-    const int before = weld.turning.steps;
+    const int before = weld.moving;
     const double motion = relativeMotion(weld);
-    weld.turning.steps = motion > settings.velocity ? before + 1 : 0;
-    const bool moves = weld.turning.steps >= settings.steps;
+    const bool fast = motion > settings.velocity;
+    weld.moving = fast ? static_cast<std::uint16_t>(std::min(before + 1, kMost)) : 0;
+    const bool moves = weld.moving >= settings.steps;
     note(w, {.criterion = "relative-motion",
              .equation = "(17)",
              .value = motion,
              .threshold = settings.velocity,
-             .count = weld.turning.steps,
+             .count = weld.moving,
              .needed = settings.steps,
-             .verdict = moves                    ? "unmerge"
-                        : weld.turning.steps > 0 ? "wait"
-                                                 : "keep",
+             .verdict = moves             ? "unmerge"
+                        : weld.moving > 0 ? "wait"
+                                          : "keep",
              .before = before});
     if (moves) cut(w, EventReason::RelativeMotion);
   }
@@ -121,9 +127,8 @@ class WeldCriteria {
   void cut(std::uint32_t w, EventReason reason) {
     Weld& weld = c_.welds[w];
     if (weld.cut) return;
-    weld.cut = true;
+    weld.cut = any_ = true;
     weld.reason = reason;
-    c_.cut_welds.push_back(w);
   }
 
   void note(std::uint32_t w, Decision test) const {
@@ -138,6 +143,7 @@ class WeldCriteria {
   const Scratch& scratch_;
   Collection& c_;
   Rotation turn_;
+  bool any_ = false;        ///< some weld is cut
   Vec2 at_ = Vec2::Zero();  ///< the contact point at hand, for the notes
 };
 
@@ -157,9 +163,9 @@ void unmergeByContacts(State& state, Scratch& scratch) {
     if (!isSwept(state, c) || breakJointsInside(state, scratch, c)) continue;
     Noted noted(scratch.notes);
     const bool joints_loosened = loosenJoints(state, c, scratch.sweep_u);
-    WeldCriteria(state, scratch, c).testAll();
+    const bool cut = WeldCriteria(state, scratch, c).testAll();
     noted.close();
-    if (joints_loosened || !c.cut_welds.empty()) losses.push_back({c.rigid, noted});
+    if (joints_loosened || cut) losses.push_back({c.rigid, noted});
   }
   for (const Loss& loss : losses) {
     const Collection& c = state.collection(loss.rigid);

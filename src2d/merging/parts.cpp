@@ -3,60 +3,10 @@
 #include <map>
 
 #include "src2d/merging/collection.h"
-#include "src2d/merging/cycles.h"
-#include "src2d/merging/grip.h"
-#include "src2d/merging/joint_welds.h"
 #include "src2d/merging/rule.h"
 
 namespace merge2d {
 namespace {
-
-/// Whether a weld that is not cut joins two members firmly: then the theory need not ask.
-bool joinsFirmly(const Collection& c, std::uint32_t number) {
-  const Weld& weld = c.welds[number];
-  const auto frame = static_cast<std::uint32_t>(c.members.size());
-  return weld.grip == Grip::Firm && !weld.cut && !weld.expected && weld.node_a != frame &&
-         weld.node_b != frame;
-}
-
-/// Per member, and at last for the frame, its node: 0 is the frame; members that are joined firmly
-/// share one.
-struct Nodes {
-  std::vector<std::uint32_t> of;
-  std::uint32_t count = 1;
-};
-
-Nodes nodesOf(const Collection& c) {
-  const auto members = static_cast<std::uint32_t>(c.members.size());
-  DisjointSets sets;
-  sets.reset(members);
-  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
-    if (!joinsFirmly(c, i)) continue;
-    sets.unite(c.welds[i].node_a, c.welds[i].node_b);
-  }
-  Nodes nodes{std::vector<std::uint32_t>(members + 1, 0)};
-  for (std::uint32_t m = 0; m < members; ++m) {
-    std::uint32_t& node = nodes.of[sets.find(m)];
-    if (node == 0) node = nodes.count++;
-    nodes.of[m] = node;
-  }
-  return nodes;
-}
-
-/// The contacts of a weld that hold, seen from the first member, and as many pins as its joints
-/// count for.
-void addPins(const State& state, const Collection& c, const Weld& weld, std::uint32_t a,
-             std::uint32_t b, std::vector<Pin>& pins) {
-  const Vec2& origin = state[c.members.front()].local;
-  forEachHeld(c, weld, [&](const InternalPoint& point) {
-    pins.push_back({.a = a, .b = b, .at = point.position - origin, .placed = true});
-  });
-  if (weld.joints == 0) return;
-  const Vec2 at = jointPoint(state, c, weld) - origin;
-  for (int i = 0; i < weld.joints; ++i) {
-    pins.push_back({.a = a, .b = b, .at = at + i * Vec2::UnitX(), .placed = true});
-  }
-}
 
 /// All members welded to one body of the frame are one part, where the rule says so (see Floors in
 /// merge.cpp). `nodeOf(node)` is the set of a weld's node in `parts`; `held(set)`: the frame holds
@@ -97,27 +47,42 @@ Parts numbered(const Collection& c, NodeOf&& nodeOf, Held&& held, std::uint32_t 
 
 }  // namespace
 
-Parts partsWithoutCuts(const State& state, const Collection& c) {
-  const Nodes nodes = nodesOf(c);
-  std::vector<Pin> pins;
-  pins.reserve(c.contacts.size());
-  for (std::uint32_t i = 0; i < c.welds.size(); ++i) {
-    const Weld& weld = c.welds[i];
-    const auto a = nodes.of[weld.node_a], b = nodes.of[weld.node_b];
-    if (a != b && !weld.cut && !weld.expected) addPins(state, c, weld, a, b, pins);
+int activeContacts(const Collection& c, const Weld& weld) {
+  int active = weld.joints;
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+    const InternalContact& inner = c.contacts[i];
+    for (std::size_t p = 0; p < static_cast<std::size_t>(inner.count); ++p) {
+      active += inner.watch[p].holds() ? 1 : 0;
+    }
   }
-  const Groups group = heldGroups(nodes.count, pins, state.settings.merging.cycles);
+  return active;
+}
 
-  // Bodies of one rigid group that touch each other, not only the frame, stay one part.
-  DisjointSets parts;
-  parts.reset(nodes.count);
-  for (const Pin& pin : pins) {
-    if (pin.a != 0 && pin.b != 0 && group[pin.a] == group[pin.b]) parts.unite(pin.a, pin.b);
+Parts componentsOf(const Collection& c) {
+  const auto members = static_cast<std::uint32_t>(c.members.size());
+  DisjointSets sets;
+  sets.reset(members);
+  std::vector<std::uint8_t> fixed(members, 0);
+  for (const Weld& weld : c.welds) {
+    if (weld.cut || weld.expected) continue;
+    if (weld.node_a < members && weld.node_b < members) {
+      sets.unite(weld.node_a, weld.node_b);
+    } else {
+      fixed[std::min(weld.node_a, weld.node_b)] = 1;  // to the frame, whose node is the last
+    }
   }
-  const auto nodeOf = [&](std::uint32_t member) { return nodes.of[member]; };
-  const auto held = [&](std::uint32_t node) { return group[node] == group[0]; };
-  uniteOnFloors(state, c, nodeOf, held, parts);
-  return numbered(c, nodeOf, held, nodes.count, parts);
+  Parts parts;
+  std::vector<std::uint32_t> number(members, ~0u);
+  for (std::uint32_t m = 0; m < members; ++m) {
+    std::uint32_t& p = number[sets.find(m)];
+    if (p == ~0u) {
+      p = static_cast<std::uint32_t>(parts.anchored.size());
+      parts.anchored.push_back(0);
+    }
+    parts.part.push_back(p);
+    parts.anchored[p] = static_cast<std::uint8_t>(parts.anchored[p] | fixed[m]);
+  }
+  return parts;
 }
 
 Parts connectedParts(const State& state, const Collection& c) {

@@ -8,14 +8,19 @@
 
 namespace merge2d {
 
-/// Node 0 is the frame; it holds bodies in place but does not join them into one collection.
+/// The frame holds bodies in place but does not join them into one collection.
 struct Parts {
   std::vector<std::uint32_t> part;     ///< per member
   std::vector<std::uint8_t> anchored;  ///< per part
 };
 
-/// The parts that the remaining welds hold together under the cycle criterion.
-Parts partsWithoutCuts(const State& state, const Collection& c);
+/// Contacts of a weld that have carried a force and have not opened since, and the contacts that
+/// its joints count as.
+int activeContacts(const Collection& c, const Weld& weld);
+
+/// The components of the graph of welds that are not cut: in a converged solution each body that
+/// does not move is held, and no rigidity need be asked for.
+Parts componentsOf(const Collection& c);
 
 /// The connected components of the remaining welds that have an active contact or a joint.
 Parts connectedParts(const State& state, const Collection& c);

@@ -8,7 +8,7 @@
 
 namespace merge2d {
 
-/// The numbers of `unmerging.rule = "decided"`, each with the experiment that chose it.
+/// The numbers of the default rule, each with the experiment that chose it.
 struct DecidedSettings {
   /// Bodies of a weld that gain velocity against each other faster than this part [m/s²]: a
   /// two-thousandth of gravity. A see-saw that is 0.7 mm out of balance gains 0.008.
@@ -17,14 +17,23 @@ struct DecidedSettings {
   double cut_in_hit = 5e-3;
   /// A search has converged where the largest row residual is below this part of the cut speed [1].
   double tolerance = 0.1;
-  /// A weld must also move this many residuals at the box where it moves least: a long body beside
-  /// a short one makes much of the rotation that a residual leaves (ship-crane) [1].
-  double beyond_residual = 1.0;
+  /// A weld must also move by more than the residual at the box where it moves least: a long body
+  /// beside a short one makes much of the rotation that a residual leaves (ship-crane). While a
+  /// search goes on that has found no motion yet, some weld must move by this many residuals: with
+  /// 1 a wall on a swinging platform loses bricks [1].
+  double sure = 3.0;
   /// Sweeps per step, and how many row sweeps: a search goes on in the next step. It begins with
   /// few and doubles them from step to step, as many loads do not last: the collapsing
   /// tower-platform then takes half as many.
   double row_sweeps = 1e4, first_row_sweeps = 500.0;
   int most_sweeps = 200, full_sweeps = 10;  ///< and at last as many, of however many rows
+  double when_open = 4.0;  ///< times as many where a search has found motion, or is looked at
+  /// Once in so many steps of a search the full solve is asked as well: the load may have grown far
+  /// beyond the one that is sought. A wall that begins to slip would stay for 40 steps.
+  int look_every = 10;
+  /// After so many steps of a search, a power of two, and after each twice as many, the direct
+  /// solver takes part: a tower of heavy and light bricks took 24 s to sleep.
+  int direct_from = 64;
   /// A carried load is followed by one this part further from the mean of the witnesses [1]: a wall
   /// on a swinging platform then needs one search, not one per new extreme.
   double overshoot = 0.5;
@@ -41,7 +50,9 @@ double cutSpeed(const State& state);
 double toleratedResidual(const State& state);
 
 /// Something hits it in these steps.
-inline bool isHit(const Collection& c) { return c.since_blow < kDecided.hit_steps; }
+inline bool isHit(const State& state, const Collection& c) {
+  return state.step - c.last_blow < kDecided.hit_steps;
+}
 
 /// Goes on, after the full solve, with the contacts inside an open collection until they have
 /// converged, or for as many sweeps as a step may spend; forces from outside stay as they are.

@@ -61,25 +61,6 @@ void notePatience(Notes* notes, const BodyPair& pair, int count) {
                               .verdict = "wait"});
 }
 
-/// Sums up how far a pair that was cut in vain slips while it is free: it is known as such until it
-/// has got somewhere, or touches nothing any more. A body that a heap jostles comes and goes, and
-/// stays where it is. Guarded by Caution.LastsWhileAPairIsOnlyJostled and
-/// Caution.EndsWhereAPairGetsSomewhere.
-void followWhatWasCutInVain(const State& state, Contact& contact) {
-  constexpr double kSeconds = 0.4;  // at the velocity at which it could merge
-  if (contact.vain == 0) return;
-  double slip = 0.0;
-  for (int k = 0; k < contact.count; ++k) {
-    const double w_t = contact.points[static_cast<std::size_t>(k)].w_t;
-    if (std::abs(w_t) > std::abs(slip)) slip = w_t;
-  }
-  contact.strayed += static_cast<float>(slip * state.h);
-  const double somewhere = kSeconds * state.settings.merging.velocity;
-  if (contact.count > 0 && std::abs(contact.strayed) < somewhere) return;
-  contact.vain = 0;
-  contact.strayed = 0.0F;
-}
-
 void countQuietPairs(State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
@@ -87,15 +68,15 @@ void countQuietPairs(State& state, Scratch& scratch) {
     if (hasBelt(state, pair.a, pair.b)) continue;  // a carried body moves, however slowly
     Contact& first = state.contacts[state.contacts.order[pair.first]];
     const int count = first.quiet_steps;
-    if (count < 0) notePatience(scratch.notes, pair, count);
+    if (count < -1) notePatience(scratch.notes, pair, count);
     PairTest test(state, pair, scratch.notes);
     const bool ready = test.ready();
-    const int now = ready || count < 0 ? count + 1 : 0;
+    // The last step of a wait counts: at 0 a pair would seem not to wait for anything, and sleep.
+    const int now = ready ? (count == -1 ? 1 : count + 1) : std::min(0, count + 1);
     test.noteCount(count, now);
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
       Contact& contact = state.contacts[state.contacts.order[i]];
       contact.quiet_steps = now;
-      followWhatWasCutInVain(state, contact);
     }
   }
 }

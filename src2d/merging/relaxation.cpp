@@ -6,7 +6,6 @@
 #include "src2d/dynamics/nncg.h"
 #include "src2d/merging/joint_system.h"
 #include "src2d/merging/proof_search.h"
-#include "src2d/merging/refine.h"
 
 namespace merge2d {
 namespace {
@@ -24,11 +23,11 @@ class Relaxation {
         left_(std::max(kDecided.row_sweeps,
                        kDecided.full_sweeps * static_cast<double>(c.blocks.size()))) {
     if (isSearch()) {
-      std::int8_t& doublings = search().doublings;
-      const double most = std::ldexp(kDecided.first_row_sweeps, doublings);
-      if (most < left_) ++doublings;
-      left_ = std::min(left_, most);
+      std::int16_t& steps = search().steps;
+      left_ = std::min(left_, std::ldexp(kDecided.first_row_sweeps, steps));
+      steps = std::min<std::int16_t>(1000, static_cast<std::int16_t>(steps + 1));
     }
+    if (!isSearch() && !isHit(state, c)) left_ *= kDecided.when_open;
     for (const ContactBlock& k : c.blocks) ends_.push_back({memberOf(k.a), memberOf(k.b)});
   }
 
@@ -113,7 +112,7 @@ class Relaxation {
           for (JointBlock& k : c_.joints) solveJoint(k, {}, u_[k.a], u_[k.b]);
           for (const std::uint32_t i : blocks_) {
             ContactBlock& k = c_.blocks[i];
-            solveBlockWith<PairFriction::AsOne>(k, k.nx, k.ny, u_[k.a], u_[k.b]);
+            solveBlock(k, k.nx, k.ny, u_[k.a], u_[k.b]);
           }
         },
         buffers());

@@ -1,6 +1,5 @@
 #include "src2d/merging/rule.h"
 
-#include "src2d/merging/decided_rule.h"
 #include "src2d/merging/default_rule.h"
 #include "src2d/merging/paper_rule.h"
 
@@ -20,8 +19,6 @@ const UnmergingMethod& unmergingMethod(const State& state) {
   switch (state.settings.unmerging.rule) {
     case UnmergingRule::Paper:
       return kPaperUnmerging;
-    case UnmergingRule::Decided:
-      return kDecidedUnmerging;
     case UnmergingRule::Default:
       break;
   }

@@ -32,10 +32,6 @@ struct UnmergingMethod {
 
   /// WarmStart. Sets `scratch.sweeping` where SingleIterationPGS and Unmerge have something to do.
   void (*warmStart)(State& state, Scratch& scratch);
-  /// WarmStart: the orientation of a collection with which its members' velocities begin.
-  Rotation (*startingRotation)(const Rigid& collection);
-  /// WarmStart: contacts between free bodies have rows in the sweep too.
-  bool sweeps_free_bodies;
 
   /// SingleIterationPGS: updates the impulses inside collections. Called where some collection is
   /// awake.

@@ -5,7 +5,6 @@
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
-#include "src2d/merging/caution.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/rule.h"
 
@@ -82,10 +81,7 @@ RigidId newPart(State& state, const std::vector<BodyId>& members,
   r.leaf = -1;
   r.stir();
   r.asleep = false;
-  for (const BodyId b : members) {
-    state[b].rigid = id;
-    c.jolted = std::max(c.jolted, state[b].jolted);
-  }
+  for (const BodyId b : members) state[b].rigid = id;
   inheritMotion(state, id, whole, anchored);
   addShapes(state, id, members);
   insertRigid(state, id);
@@ -104,11 +100,6 @@ const Weld* cutByTest(const Collection& c, const InternalContact& inner) {
   const auto weld = std::ranges::lower_bound(c.welds, pair(inner.key), {}, pair);
   if (weld == c.welds.end() || pair(*weld) != pair(inner.key)) return nullptr;
   return weld->cut && weld->reason != EventReason::User ? &*weld : nullptr;
-}
-
-/// Counts this cut as one in vain, until the pair gets somewhere.
-void countVain(InternalContact& inner) {
-  inner.vain = std::min<std::int16_t>(kMostVain, static_cast<std::int16_t>(inner.vain + 1));
 }
 
 /// How far ahead to look for its points again: contacts of a struck body may still be open [m].
@@ -211,7 +202,6 @@ class Split {
       }
       const Weld* cut = cutByTest(c, inner);
       released_.push_back({inner, unmergingMethod(state_).waitAfterSplit(state_, inner, cut)});
-      if (cut) countVain(released_.back().inner);
     }
     c.contacts.resize(staying);
   }
@@ -219,10 +209,7 @@ class Split {
   RigidId leave(std::size_t p) {
     removeShapes(state_, id_, members_[p]);
     if (isFreeBody(p)) return freeBody(state_, members_[p].front(), whole_);
-    const RigidId id =
-        newPart(state_, members_[p], std::move(kept_[p]), whole_, anchor_, anchored_[p] != 0);
-    state_.collection(id).stirred = state_.collection(id_).stirred;
-    return id;
+    return newPart(state_, members_[p], std::move(kept_[p]), whole_, anchor_, anchored_[p] != 0);
   }
 
   /// The largest part goes on as the collection.

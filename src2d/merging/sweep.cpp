@@ -2,12 +2,8 @@
 
 #include <algorithm>
 
-#include "src2d/core/memory.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/joint_sweep.h"
-#include "src2d/merging/joint_system.h"
-#include "src2d/merging/limits.h"
-#include "src2d/merging/refine.h"
 #include "src2d/merging/rule.h"
 
 namespace merge2d {
@@ -45,44 +41,9 @@ void sweepCollections(State& state, Scratch& scratch) {
 
 void sweepAround(State& state, Scratch& scratch, void (*inside)(State& state, Scratch& scratch)) {
   scratch.push_stale.assign(state.collections.size(), 0);
-  scratch.restless_bodies.assign(scratch.sweep_u.size(), 0);
-  scratch.shaken.assign(scratch.sweep_u.size(), 0);
   inside(state, scratch);
   keepFixedContacts(state, scratch);
   if (!state.joints.empty()) keepJointForces(state, scratch);
-}
-
-double sweepInside(const State& state, Collection& c, Scratch& scratch, int sweeps) {
-  auto& u = scratch.sweep_u;
-  auto& before = scratch.u;  // idle until the full solve
-  const std::size_t n = c.members.size();
-  reserveTightly(before, n);
-  before.resize(std::max(before.size(), n));
-  for (std::size_t i = 0; i < n; ++i) {
-    const SolverVelocity& m = u[index(c.members[i])];
-    before[i] = {m.vx, m.vy, m.omega, 0.0, 0.0};
-  }
-  const Rotation turn = state[c.rigid].rotation;
-  for (int s = 0; s < sweeps; ++s) {
-    for (JointBlock& k : c.joints) solveJoint(k, turn, u[k.a], u[k.b]);
-    for (std::uint32_t i = 0; i < c.active_blocks; ++i) {
-      sweepBlock(c.blocks[i], turn, u, state.settings.solver.method);
-      if (s + 1 == sweeps) watchLimits(c.blocks[i], c.watches[i]);
-    }
-  }
-  settleJoints(c, turn, u, residualVelocity(state));
-  const Rotation back = turn.inverse();
-  double largest = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const SolverVelocity& m = u[index(c.members[i])];
-    const Vec2 change = back * Vec2(m.vx - before[i].vx, m.vy - before[i].vy);
-    c.push[i].vx += change.x();
-    c.push[i].vy += change.y();
-    c.push[i].omega += m.omega - before[i].omega;
-    before[i].vx = change.squaredNorm();
-    largest = std::max(largest, before[i].vx);
-  }
-  return std::sqrt(largest);
 }
 
 void renewPushes(State& state, Scratch& scratch) {

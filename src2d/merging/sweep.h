@@ -8,13 +8,23 @@
 
 namespace merge2d {
 
+/// Solves one block of rows, whose `normal` is given in the frame of the velocities.
+inline void sweepBlock(ContactBlock& k, const Vec2& normal, std::vector<SolverVelocity>& u,
+                       SolverMethod method) {
+  if (method == SolverMethod::Pgs) {
+    solveRows(k, normal.x(), normal.y(), u[k.a], u[k.b]);
+  } else {
+    solveBlock(k, normal.x(), normal.y(), u[k.a], u[k.b]);
+  }
+}
+
+inline void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, SolverMethod method) {
+  if (item.block) return sweepBlock(*item.block, item.normal(), u, method);
+  solveJoint(*item.joint, item.turn, u[item.joint->a], u[item.joint->b]);
+}
+
 /// Updates the impulses inside collections.
 void sweepCollections(State& state, Scratch& scratch);
-
-/// Sweeps over the active contacts of a collection, and adds the changes of the members' velocities
-/// to their pushes. Contacts left at their limits are watched from now on. Returns the largest
-/// change of a member's velocity [m/s]; that of each is left in `scratch.u`, squared.
-double sweepInside(const State& state, Collection& collection, Scratch& scratch, int sweeps);
 
 /// Computes the pushes of the members anew where more sweeps have changed the impulses: once in a
 /// step, and not where the collection is laid out anew.

@@ -5,7 +5,6 @@
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/hits.h"
 #include "src2d/dynamics/solver.h"
-#include "src2d/merging/disturbance.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/rule.h"
 #include "src2d/merging/sweep.h"
@@ -18,10 +17,9 @@ bool isMember(const State& state, BodyId b) { return state.isCollection(state[b]
 /// The velocity of each member in its collection, with last step's push.
 void startMembers(const State& state, const Collection& c, Scratch& scratch) {
   const Rigid& r = state[c.rigid];
-  const Rotation before = unmergingMethod(state).startingRotation(r);
   for (std::size_t i = 0; i < c.members.size(); ++i) {
     const Body& body = state[c.members[i]];
-    const Vec2 arm = before * (body.local - r.center);
+    const Vec2 arm = r.rotation * (body.local - r.center);
     const Twist& push = c.push[i];
     const Vec2 pushed = r.rotation * Vec2(push.vx, push.vy);
     SolverVelocity& u = scratch.sweep_u[index(c.members[i])];
@@ -129,45 +127,27 @@ void applyAsLoad(const State& state, const Contact& contact, std::vector<SolverV
   applyRolling(rolling, u[index(contact.key.a)], u[index(contact.key.b)]);
 }
 
-/// Contacts at swept collections, and fresh ones, get rows; the others of the free bodies there
-/// keep pushing with the impulses of the last step. Deviation: in the paper all contacts are swept,
-/// those of free bodies too, which costs a second solve.
-/// Guarded by Sweep.LooksOnlyAtTheContactsOfCollections.
+/// Contacts between bodies that are awake get rows; at one that sleeps a contact keeps pushing with
+/// the impulses of the last step.
 void warmStartOuter(const State& state, Scratch& scratch) {
   scratch.sweep_contacts.clear();
-  auto& near = scratch.near_collection;
-  near.assign(state.bodies.size(), 0);
-  const bool all = unmergingMethod(state).sweeps_free_bodies;
+  scratch.near_collection.assign(state.bodies.size(), 0);
   const auto asleep = [&](BodyId b) { return state.rigid(b).asleep; };
-  const auto swept = [&](BodyId b) { return isMember(state, b) && !asleep(b); };
-  const auto meets = [&](std::uint32_t i) {
-    return std::ranges::binary_search(scratch.meetings, i, {}, &Meeting::contact);
-  };
-  const auto hasRows = [&](const BodyPair& pair, std::uint32_t i) {
-    if (all) return !asleep(pair.a) && !asleep(pair.b);
-    return swept(pair.a) || swept(pair.b) || meets(i);
-  };
-  const auto forEach = [&](auto&& visit) {
-    for (const BodyPair& pair : scratch.pairs) {
-      for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-        if (state.contacts[state.contacts.order[i]].count > 0) visit(pair, i);
+  for (const BodyPair& pair : scratch.pairs) {
+    const bool has_rows = !asleep(pair.a) && !asleep(pair.b);
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      const ContactTable::Slot slot = state.contacts.order[i];
+      if (state.contacts[slot].count == 0) continue;
+      if (!has_rows) {
+        applyAsLoad(state, state.contacts[slot], scratch.sweep_u);
+        continue;
       }
+      for (const BodyId b : {pair.a, pair.b}) scratch.near_collection[index(b)] = 1;
+      addOuterContact(state, slot, scratch);
     }
-  };
-  std::size_t rows = 0;
-  forEach([&](const BodyPair& pair, std::uint32_t i) { rows += hasRows(pair, i) ? 1 : 0; });
-  reserveTightly(scratch.sweep_contacts, rows);
-  forEach([&](const BodyPair& pair, std::uint32_t i) {
-    if (!hasRows(pair, i)) return;
-    near[index(pair.a)] = near[index(pair.b)] = 1;
-    addOuterContact(state, state.contacts.order[i], scratch);
-  });
+  }
   trim(scratch.sweep_contacts);
   if (!state.joints.empty()) listSweepJoints(state, scratch);
-  forEach([&](const BodyPair& pair, std::uint32_t i) {
-    if ((!near[index(pair.a)] && !near[index(pair.b)]) || hasRows(pair, i)) return;
-    applyAsLoad(state, state.contacts[state.contacts.order[i]], scratch.sweep_u);
-  });
   for (const SweepContact& outer : scratch.sweep_contacts) {
     const ContactBlock& k = outer.block;
     applyImpulses(k, scratch.sweep_u[k.a], scratch.sweep_u[k.b]);

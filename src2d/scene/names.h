@@ -28,10 +28,8 @@ template <>
 inline constexpr std::array<Named<MergingRule>, 2> kNames<MergingRule>{
     {{"default", MergingRule::Default}, {"paper", MergingRule::Paper}}};
 template <>
-inline constexpr std::array<Named<UnmergingRule>, 3> kNames<UnmergingRule>{
-    {{"default", UnmergingRule::Default},
-     {"paper", UnmergingRule::Paper},
-     {"decided", UnmergingRule::Decided}}};
+inline constexpr std::array<Named<UnmergingRule>, 2> kNames<UnmergingRule>{
+    {{"default", UnmergingRule::Default}, {"paper", UnmergingRule::Paper}}};
 template <>
 inline constexpr std::array<Named<SolverMethod>, 4> kNames<SolverMethod>{
     {{"nncg", SolverMethod::Nncg},

@@ -20,7 +20,7 @@ enum class MergingRule { Default, Paper };
 
 /// What comes free: the same two, and `Decided`, which decides from impulses that have converged
 /// (docs/decisions/decided.md).
-enum class UnmergingRule { Default, Paper, Decided };
+enum class UnmergingRule { Default, Paper };
 
 enum class SolverMethod {
   Nncg,    ///< "nncg": block sweeps inside a nonsmooth nonlinear conjugate gradient
@@ -74,12 +74,11 @@ struct MergingSettings {
 /// [unmerging], Table 1
 struct UnmergingSettings {
   UnmergingRule rule = UnmergingRule::Default;
-  double velocity = 2e-2;     ///< relative motion threshold [m/s]
-  double sliding = 1e-2;      ///< slip threshold, Eq. (19) [m/s]
-  int steps = 3;              ///< consecutive steps above the threshold
-  int sweeps = 1;             ///< PGS sweeps per step over the contacts inside collections
-  int disturbed_sweeps = 10;  ///< at most so many where a disturbance goes on (merging/refine.h)
-  bool ordering = true;       ///< breadth first from what is new (Section 6.2)
+  double velocity = 2e-2;  ///< relative motion threshold [m/s]
+  double sliding = 1e-2;   ///< slip threshold, Eq. (19) [m/s]
+  int steps = 3;           ///< consecutive steps above the threshold
+  int sweeps = 1;          ///< PGS sweeps per step over the contacts inside collections
+  bool ordering = true;    ///< breadth first from what is new (Section 6.2)
 };
 
 /// [sleeping], Table 1

@@ -36,7 +36,6 @@ void forEachSetting(S& settings, F&& f) {
   f("unmerging", "sliding", unmerging.sliding, kNotNegative);
   f("unmerging", "steps", unmerging.steps, kAtLeastOne);
   f("unmerging", "sweeps", unmerging.sweeps, kAtLeastOne);
-  f("unmerging", "disturbed_sweeps", unmerging.disturbed_sweeps, kAtLeastOne);
   f("unmerging", "ordering", unmerging.ordering, kAnyNumber);
 
   auto& sleeping = settings.sleeping;

@@ -38,9 +38,7 @@ std::size_t bytesOfState(const State& s) {
       bytesOf(s.contacts.slots, s.contacts.free_slots, s.contacts.order, s.contacts.idle) +
       bytesOfBroadphase(s.broadphase);
   for (const Collection& c : s.collections.all()) {
-    total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.watches, c.pivots,
-                     c.leaning, c.cut_welds, c.spare, c.stood, c.loosened, c.welds, c.weld_at,
-                     c.weld_of, c.joints, c.push) +
+    total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.welds, c.joints, c.push) +
              bytesOfProofs(c);
   }
   return total;
@@ -50,21 +48,16 @@ std::size_t bytesOfBuffers(const NncgBuffers& m) {
   return bytesOf(m.before, m.direction, m.u_before, m.u_direction);
 }
 
-std::size_t bytesOfParts(const RigidParts& p) {
-  return bytesOf(p.of, p.parts, p.u, p.outside, p.rows, p.weld_of) + bytesOfBuffers(p.nncg);
-}
-
 std::size_t bytesOfScratch(const Scratch& s) {
   return bytesOf(s.loads, s.kicks, s.springs, s.stretches, s.spring_gain, s.pairs, s.events,
                  s.moved, s.moved_flag, s.candidates, s.touching, s.seams, s.casts, s.kick_order,
                  s.load_order, s.near_candidates, s.near_refined, s.paired_with, s.meetings,
                  s.seeds, s.stirred, s.restless, s.island_awake) +
-         bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.disturbed,
-                 s.outer_loads, s.load_place, s.doubts, s.trial_u, s.push_stale, s.others,
-                 s.doubted, s.overloaded_joints, s.leant, s.ready, s.restless_bodies, s.shaken) +
+         bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.outer_loads,
+                 s.load_place, s.doubts, s.trial_u, s.push_stale, s.overloaded_joints, s.ready) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order, s.hit_ways) +
-         bytesOfParts(s.rigid_parts) + bytesOfBuffers(s.nncg) + s.sets.memoryBytes() +
+         bytesOfBuffers(s.nncg) + s.sets.memoryBytes() +
          bytesOf(s.ahead, s.found, s.nncg_of_threads, s.island_changes, s.island_roots);
 }
 

@@ -117,7 +117,6 @@ struct Event {
 
 /// The source of a criterion that is not the paper's: a page, and its section.
 inline constexpr std::string_view kOwnMerging = "docs/decisions/cures.md#when-to-merge",
-                                  kOwnUnmerging = "docs/decisions/cures.md#when-to-unmerge",
                                   kOwnSleeping = "docs/decisions/cures.md#when-to-sleep",
                                   kOwnDecided = "docs/decisions/decided.md#decision";
 
@@ -138,8 +137,6 @@ struct Decision {
   /// Of "cycle": the first body of the group that holds the pair, or that came apart; −1: none.
   std::int32_t group = -1;
   std::int32_t members = -1;  ///< all its bodies: an index of Snapshot::groups
-  /// The factor in the threshold: above 1 where the pair was cut in vain before.
-  double caution = 1.0;
 };
 
 /// The bodies of a rigid group: first those whose contacts make it one, ascending, then those that

@@ -54,6 +54,13 @@ TEST_F(ExplainCommand, NamesAllBodiesOfTheGroupThatHoldsAPair) {
   EXPECT_EQ(tests.back()["group"], Json({"ground", "left-leg", "right-leg"}));
 }
 
+TEST_F(ExplainCommand, TellsWhatWouldEndAWeldThatIsNotTested) {
+  const Outcome outcome = run(
+      {"explain", "stack.toml", "--mode", "merge", "--at", "40", "--pair", "ground", "box[0,0]"});
+  EXPECT_THAT(outcome.out, HasSubstr("and no motion inside was found in this step. They come apart "
+                                     "when their contacts break, or slide."));
+}
+
 TEST_F(ExplainCommand, TellsTheStoryOfAWeld) {
   const Outcome outcome =
       run({"explain", "stack.toml", "--weld", "ground", "box[0,0]", "--steps", "100"});

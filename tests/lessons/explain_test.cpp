@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lessons/story.h"
+#include "lessons/why.h"
 #include "src2d/world.h"
 #include "tests/support/scenes.h"
 
@@ -58,6 +59,26 @@ TEST(Explain, SaysThatAPairIsStillCounting) {
   World world(column(1), kAsking);
   const std::string text = textOf(firstStepWith(world, Outcome::Waiting), Outcome::Waiting);
   EXPECT_THAT(text, HasSubstr("they passed every test, but only for 1 of 3 steps."));
+}
+
+TEST(Explain, SaysForHowLongAPairWaitsWhoseWeldBrokeEarly) {
+  const Decision patience{.a = BodyId{0},
+                          .b = BodyId{1},
+                          .stage = "AccumulateRelativeMotion",
+                          .criterion = "patience",
+                          .value = 7.0,
+                          .verdict = "wait"};
+  Decision slow = patience;
+  slow.criterion = "relative-motion", slow.verdict = "below", slow.count = -6, slow.needed = 3;
+  Snapshot after;
+  after.step = 20;
+  after.decisions = {patience, slow};
+  const World world(column(1));
+  const std::vector<Explanation> all = explainStep(Words(world.bodies()), after);
+  EXPECT_EQ(textOf(all, Outcome::Waiting),
+            "ground and body1 wait at step 20: their last weld broke too early, or turned slowly: "
+            "7 steps to wait.");
+  EXPECT_EQ(conditionOf(all.at(0)).steps, 7);
 }
 
 /// A column is pushed over at its top: welds end.

@@ -72,7 +72,9 @@ TEST(Impulses, TheFullSolveBeginsWithThoseAfterUnmergeAndEndsWithThoseOfTheStep)
       const ContactTrack& track = recording.contacts[static_cast<std::size_t>(found->contact[i])];
       const ContactView* begin = find(record[Stage::Unmerge].after, track);
       EXPECT_FLOAT_EQ(found->begin_n[i], static_cast<float>(begin->lambda_n)) << step;
-      EXPECT_TRUE(found->inner[i] != 0 || found->begin_n[i] == found->warm_n[i]) << step;
+      // A collection that is open takes part in the full solve before Unmerge.
+      const bool outer = found->inner[i] == 0 && !found->sweeping;
+      EXPECT_TRUE(!outer || found->begin_n[i] == found->warm_n[i]) << step;
       // The page takes what the solve left from the end of the step.
       const ContactView* solved = find(record[Stage::SolveLCP].after, track);
       EXPECT_EQ(solved->lambda_n, find(record.after, track)->lambda_n) << step;

@@ -49,7 +49,7 @@ TEST(Live, AHandAtAFixedBodyMovesNothing) {
 }
 
 TEST(StepText, HoldsTheStateTheDecisionsAndTheImpulsesInside) {
-  Live live = stack(Mode::Merge);  // sleeping bodies are not swept
+  Live live = stack(Mode::Merge);
   live.skipTo(100);
   const StepRecord record = live.step();
   const json step = json::parse(stepText(record, live.world().bodies()));
@@ -60,7 +60,22 @@ TEST(StepText, HoldsTheStateTheDecisionsAndTheImpulsesInside) {
   EXPECT_EQ(step["contacts"].size(), record.after.contacts.size());
   EXPECT_EQ(step["inside"].size(), step["contacts"].size());
   EXPECT_EQ(step["stats"][0], record.after.stats.active_bodies);
-  EXPECT_TRUE(step["sweeping"]);
+  EXPECT_FALSE(step["sweeping"]) << "its load is known to be carried";
+}
+
+TEST(StepText, TellsThatTheImpulsesInsideAreSolvedInABlow) {
+  Live live = stack(Mode::Merge);
+  live.skipTo(100);
+  live.world().applyImpulse(BodyId{2}, {0, 2}, {0.5, 0});
+  EXPECT_TRUE(json::parse(stepText(live.step(), live.world().bodies()))["sweeping"]);
+}
+
+TEST(StepText, UnderThePapersRuleImpulsesInsideAreSweptInEachStep) {
+  Scene scene = stackScene();
+  scene.settings.unmerging.rule = UnmergingRule::Paper;
+  Live live(scene, Mode::Merge);  // sleeping bodies are not swept
+  live.skipTo(100);
+  EXPECT_TRUE(json::parse(stepText(live.step(), live.world().bodies()))["sweeping"]);
 }
 
 TEST(StepText, TellsAMergeAndItsMomentum) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "src2d/scene/load.h"
 #include "src2d/world.h"
 
@@ -62,6 +64,17 @@ TEST(Recording, AContactIsKeptWhereItRestsInTheFirstBody) {
   EXPECT_NEAR(contact.normal[0], 1.5708, 1e-3);  // up, from the ground to the box
   EXPECT_NEAR(contact.y[0], 0.5, 0.01);          // the ground's top, from its centre
   EXPECT_EQ(contact.spans.size(), 1u);
+}
+
+TEST(Recording, HoldsTheMotionThatEndsAWeld) {
+  Scene scene = parseScene(kBox, "box.toml");
+  scene.impulses.push_back({.body = 1, .at = {0.0, 1.0}, .impulse = {3.0, 0.0}, .time = 0.3});
+  const Recording r = record(scene, {.detail = Detail::Full, .steps = 50});
+  const auto track = std::ranges::find(r.decisions, "motion", &DecisionTrack::criterion);
+  ASSERT_NE(track, r.decisions.end());
+  EXPECT_EQ(track->stage, "Unmerge");
+  EXPECT_GT(track->value.at(0), track->threshold);
+  EXPECT_EQ(track->passed.at(0), 0);
 }
 
 TEST(Recording, TheMotionAloneHasNeitherContactsNorDecisions) {

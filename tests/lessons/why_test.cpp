@@ -41,6 +41,17 @@ TEST_F(WhyTest, APairThatWaitsSaysForHowManySteps) {
 
 TEST_F(WhyTest, AWeldThatHoldsSaysWhatWouldEndIt) {
   const PairReason why = reason(300, 1, 2);
+  EXPECT_EQ(why.heading, "One collection");
+  EXPECT_THAT(why.text, HasSubstr("no motion inside was found"));
+  EXPECT_EQ(reason(300, 0, 1).heading, "One collection") << "pinned, and a member of none";
+  EXPECT_THAT(sentence(why.condition), HasSubstr("They come apart when"));
+}
+
+TEST(WhyOfThePapersRule, AWeldThatHoldsSaysWhatWouldEndIt) {
+  Scene scene = column(3);
+  scene.settings.unmerging.rule = UnmergingRule::Paper;
+  Timeline run(scene, Mode::Merge, 400);
+  const PairReason why = reasonFor(Words(run.bodies()), run.state(300), BodyId{1}, BodyId{2});
   EXPECT_EQ(why.heading, "Welds that hold");
   EXPECT_THAT(sentence(why.condition), HasSubstr("They come apart when"));
 }
@@ -69,7 +80,7 @@ TEST_F(WhyTest, IsToldByNamesAndNumbersTooForOtherLanguages) {
     return nlohmann::json::parse(out.text());
   };
   const auto held = written(300, 1, 2);
-  EXPECT_EQ(held["outcome"], "held");
+  EXPECT_EQ(held["outcome"], "one");
   EXPECT_EQ(held["condition"]["kind"], "break-slide");
   const auto soon = written(1, 1, 2);
   const auto& last = soon["tests"].back();

@@ -59,16 +59,6 @@ TEST_F(WordsTest, TellsValueThresholdAndByHowMuch) {
       "relative motion 0.0040 m/s is below 0.010 m/s (40 %; Eq. 17)");
 }
 
-TEST_F(WordsTest, TellsWhyAThresholdIsRaised) {
-  EXPECT_EQ(said({.criterion = "relative-motion",
-                  .equation = "(17)",
-                  .value = 0.16,
-                  .threshold = 0.64,
-                  .caution = 32.0}),
-            "relative motion 0.16 m/s is below 0.64 m/s (25 %; Eq. 17; 32 times the usual limit, "
-            "as the pair was cut in vain before)");
-}
-
 TEST_F(WordsTest, TellsSmallThresholdsInMillimetres) {
   EXPECT_EQ(said({.criterion = "breathing",
                   .equation = "Section 5.3",
@@ -78,52 +68,24 @@ TEST_F(WordsTest, TellsSmallThresholdsInMillimetres) {
             "Section 5.3)");
 }
 
-TEST_F(WordsTest, TellsOverHowManyStepsSlipWasSummed) {
+TEST_F(WordsTest, TellsTheMotionOfAWeldWithThePageOfItsDecision) {
   EXPECT_EQ(said({.stage = "Unmerge",
-                  .criterion = "sliding",
-                  .equation = "(19)",
-                  .value = 0.028,
-                  .threshold = 0.01,
-                  .count = 4}),
-            "the slip of a contact, summed over 4 steps, 0.028 m/s is above 0.010 m/s (2.8 times; "
-            "Eq. 19)");
+                  .criterion = "motion",
+                  .equation = kOwnDecided,
+                  .value = 2e-4,
+                  .threshold = 5e-5}),
+            "relative motion 0.20 mm/s is above 0.050 mm/s (4.0 times; "
+            "docs/decisions/decided.md#decision)");
 }
 
-TEST_F(WordsTest, TellsOverHowManyStepsAPivotGatheredSpeed) {
-  EXPECT_EQ(said({.stage = "Unmerge",
-                  .criterion = "relative-motion",
-                  .equation = "(17)",
-                  .value = 0.03,
-                  .threshold = 0.02,
-                  .count = 5}),
-            "relative motion, summed over 5 steps, 0.030 m/s is above 0.020 m/s (1.5 times; "
-            "Eq. 17)");
-}
-
-TEST_F(WordsTest, TellsOfABodyThatABlowCarriesOff) {
-  EXPECT_EQ(said({.stage = "Unmerge",
-                  .criterion = "carried-off",
-                  .equation = "(17)",
-                  .value = 0.19,
-                  .threshold = 0.03,
-                  .count = 1}),
-            "the motion of one of them against the whole 0.19 m/s is above 0.030 m/s (6.3 times; "
-            "Eq. 17)");
+TEST_F(WordsTest, TellsOfAContactThatCarriesNothingAnyMore) {
+  EXPECT_EQ(said({.stage = "Unmerge", .criterion = "broken", .equation = "Section 6.3"}),
+            "a contact of the weld carries no force any more (Section 6.3)");
 }
 
 TEST_F(WordsTest, TellsHowLongAPairThatPartedMustWait) {
   EXPECT_EQ(said({.stage = "AccumulateRelativeMotion", .criterion = "patience", .value = 7.0}),
             "their last weld broke too early, or turned slowly: 7 steps to wait");
-}
-
-TEST_F(WordsTest, TellsHowMuchOfTheConeIsUsed) {
-  EXPECT_EQ(said({.stage = "Unmerge",
-                  .criterion = "cone",
-                  .equation = "(20)",
-                  .value = 0.3,
-                  .threshold = 0.4,
-                  .verdict = "keep"}),
-            "friction 0.30 N s of the 0.40 N s that the pressure allows (75 %; Eq. 20)");
 }
 
 TEST(WordsOfGroups, AreAllTheBodiesOrSomeOfMany) {
@@ -144,7 +106,6 @@ TEST(WordsOfGroups, AreAllTheBodiesOrSomeOfMany) {
   EXPECT_THAT(words.test(d), testing::HasSubstr("the rigid group of b ("));
   d.members = 0;
   EXPECT_THAT(words.test(d, {group(3)}), testing::HasSubstr("the rigid group of a, b and c ("));
-  d.stage = "Unmerge";
   EXPECT_THAT(words.test(d, {group(9)}), testing::HasSubstr("a, b, c, d and 5 others"));
 }
 

@@ -32,8 +32,8 @@ TEST(Dominoes, FallOneAfterTheOther) {
 }
 
 /// The steps in which one after the other has turned by 45 degrees.
-std::vector<std::int64_t> stepsOfFalls(Mode mode) {
-  SceneRun run("dominoes", mode);
+std::vector<std::int64_t> stepsOfFalls(Mode mode, const Overrides& overrides = {}) {
+  SceneRun run("dominoes", mode, overrides);
   std::vector<std::int64_t> out;
   while (run.world().time() < 12.0 - 1e-9) {
     run.steps(1);
@@ -44,14 +44,15 @@ std::vector<std::int64_t> stepsOfFalls(Mode mode) {
   return out;
 }
 
-TEST(Dominoes, TheKthFallsWithinAHundredthOfASecondOfTheReference) {
-  const std::vector<std::int64_t> reference = stepsOfFalls(Mode::Reference);
+TEST(Dominoes, TheKthFallsWithinTwoHundredthsOfASecondOfTheReference) {
+  const std::vector<std::int64_t> reference =
+      stepsOfFalls(Mode::Reference, {{"solver.iterations", "100"}});
   ASSERT_EQ(reference.size(), 50u);
   for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
     const std::vector<std::int64_t> merged = stepsOfFalls(mode);
     ASSERT_EQ(merged.size(), 50u);
     for (std::size_t k = 0; k < 50; ++k) {
-      EXPECT_LE(std::abs(merged[k] - reference[k]), 1) << k << " in " << name(mode);
+      EXPECT_LE(std::abs(merged[k] - reference[k]), 2) << k << " in " << name(mode);
     }
   }
 }

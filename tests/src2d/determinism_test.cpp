@@ -268,7 +268,6 @@ TEST(Determinism, ASceneMovedByAKilometreHasTheSameEventsAtTheSameSteps) {
 
 TEST(Determinism, ASceneMovedByAKilometreHasTheSameEventsWhereWeldsAreDecided) {
   Scene scene = towerUnderFire();
-  scene.settings.unmerging.rule = UnmergingRule::Decided;
   for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) expectTheSameEvents(scene, mode);
 }
 

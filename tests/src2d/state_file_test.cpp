@@ -116,7 +116,7 @@ void expectTheSame(const Scene& scene, Mode mode, int at, int more) {
 }
 
 TEST(StateFile, AResumedRunIsTheRunThatNeverStoppedWhereWeldsAreDecided) {
-  const Scene scene = parseScene(kMixed, "mixed.toml", {{"unmerging.rule", "decided"}});
+  const Scene scene = parseScene(kMixed, "mixed.toml");
   for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
     for (const int at : {40, 100, 150}) expectTheSame(scene, mode, at, 100);
   }

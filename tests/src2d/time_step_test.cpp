@@ -83,13 +83,11 @@ TEST(TimeStep, AScriptedBodyKeepsToItsSchedule) {
 }
 
 /// A column under way in each mode: the forces that it stands by last, and nothing parts or moves.
-class ColumnAtRest : public ::testing::TestWithParam<std::tuple<Mode, UnmergingRule, double>> {};
+class ColumnAtRest : public ::testing::TestWithParam<std::tuple<Mode, double>> {};
 
 TEST_P(ColumnAtRest, StandsOnUnderTheSameForces) {
-  const auto [mode, rule, h] = GetParam();
-  Scene scene = column(6);
-  scene.settings.unmerging.rule = rule;
-  World world(scene, {.mode = mode});
+  const auto [mode, h] = GetParam();
+  World world(column(6), {.mode = mode});
   runSteps(world, 150);
   const double weight = world.bodies()[1].mass * kGravity;
   const BodyId top{6}, second{5};
@@ -114,11 +112,10 @@ TEST_P(ColumnAtRest, StandsOnUnderTheSameForces) {
   EXPECT_NEAR(carried(world, top), weight, 0.02 * weight);
   EXPECT_NEAR(carried(world, second), 3 * weight, 0.06 * weight) << "2 weights below, 1 above";
 }
-INSTANTIATE_TEST_SUITE_P(
-    Modes, ColumnAtRest,
-    ::testing::Combine(::testing::Values(Mode::Reference, Mode::Merge, Mode::MergeSleep),
-                       ::testing::Values(UnmergingRule::Default, UnmergingRule::Decided),
-                       ::testing::Values(0.005, 0.02)));
+INSTANTIATE_TEST_SUITE_P(Modes, ColumnAtRest,
+                         ::testing::Combine(::testing::Values(Mode::Reference, Mode::Merge,
+                                                              Mode::MergeSleep),
+                                            ::testing::Values(0.005, 0.02)));
 
 TEST(TimeStep, WhatSleepsWakesAndSleepsAgain) {
   World world = atRest(4);

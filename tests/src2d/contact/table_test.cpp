@@ -76,17 +76,6 @@ TEST(ContactTable, ContactsWithoutPointsStayUntilTheyAreMany) {
   EXPECT_EQ(table.idle[0].apart, 0.25F);
 }
 
-TEST(ContactTable, APairThatWasCutInVainIsNotForgotten) {
-  ContactTable table;
-  Contact cut = touching(1);
-  cut.count = 0;
-  cut.vain = 3;
-  addContacts(table, {cut});
-  retireContacts(table);
-  ASSERT_NE(findContact(table, keyOf(1)), nullptr);
-  EXPECT_EQ(table[*findContact(table, keyOf(1))].vain, 3);
-}
-
 TEST(ContactTable, CompactingKeepsEachContactUnderItsKey) {
   ContactTable table;
   addContacts(table, {touching(0), touching(1), touching(2), touching(3)});

@@ -2,6 +2,8 @@
 /// gets enough iterations to converge: with ten the reference itself moves half as many bodies
 /// again.
 
+#include <fmt/format.h>
+
 #include "tests/src2d/merging/merging_testing.h"
 #include "tests/support/scenes.h"
 
@@ -102,6 +104,126 @@ TEST(Blow, CarriesOffWhatManyJointsThatGiveLittleWouldHold) {
   for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
     EXPECT_NEAR(moved[mode], moved[Mode::Reference], 0.2 * moved[Mode::Reference]) << name(mode);
   }
+}
+
+/// A box on the edge of a wall that is struck hard moves as in the reference.
+TEST(Blow, WhatWouldMoveGoesAtOnce) {
+  std::string toml = kGround;
+  for (int i = 0; i < 16; ++i) {
+    toml += fmt::format("[[body]]\nname = \"b{}\"\nat = [{}, {}]\nbox = [1, 1]\n", i, i % 4 - 1.5,
+                        0.5 + i / 4);
+  }
+  Simulation run(toml, Mode::Merge), reference(toml, Mode::Reference);
+  run.until(2.0), reference.until(2.0);
+  ASSERT_TRUE(run.merged("b15"));
+  run.kick("b15", {3.0, 0.0}), reference.kick("b15", {3.0, 0.0});
+  run.steps(1), reference.steps(1);
+  EXPECT_FALSE(run.merged("b15"));
+  EXPECT_TRUE(run.merged("b0"));
+  run.until(3.0), reference.until(3.0);
+  EXPECT_NEAR(run.body("b15").x.x(), reference.body("b15").x.x(), 0.05);
+}
+
+/// Three columns side by side, each a collection: a box is struck that pushes those beside it.
+TEST(Blow, ABlowGoesThroughNeighboursThatPartInTheSameStep) {
+  const auto movedIn = [](Mode mode) {
+    Scene scene = onGround();
+    scene.settings.solver.iterations = 50;
+    for (const double x : {-1.0, 0.0, 1.0}) addColumn(scene, 8, {x, 0.0});
+    Simulation run(scene, mode);
+    run.until(2.5);
+    const Snapshot before = run.now();
+    const BodyId struck{23};
+    run.world().applyImpulse(struck, before.bodies[index(struck)].x, {-7.53, 3.81});
+    run.until(3.0);
+    return moved(before, run.now(), 0.01);
+  };
+  const int reference = movedIn(Mode::Reference);
+  EXPECT_EQ(reference, 16);
+  EXPECT_NEAR(movedIn(Mode::Merge), reference, 2);
+  EXPECT_NEAR(movedIn(Mode::MergeSleep), reference, 2);
+}
+
+/// Ten boxes on the ground, `gap` apart and each merged with it, of which the first is struck.
+std::string rowWithGaps(double gap, double friction) {
+  return fmt::format(
+      "{}[[body]]\nname = \"b\"\nat = [0, 0.5]\nbox = [1, 1]\n"
+      "repeat = {{ count = [10, 1], spacing = [{}, 0] }}\n[material]\nfriction = {}\n",
+      kGround, 1.0 + gap, friction);
+}
+
+/// What a blow closes only after some sweeps, it must still reach in its own step: the full solve
+/// would take a box that is welded to the ground for a wall.
+TEST(Blow, GoesThroughGapsInOneStep) {
+  struct Case {
+    double gap, blow, friction;  // m, N s
+  };
+  for (const auto& [gap, blow, friction] :
+       {Case{0.0005, 10, 0.3}, Case{0.001, 10, 0.45}, Case{0.002, 10, 0.3}, Case{0.004, 20, 0.3},
+        Case{0.0005, 10, 0.6}}) {
+    const std::string toml = rowWithGaps(gap, friction);
+    Simulation run(toml, Mode::Merge), reference(toml, Mode::Reference);
+    run.until(2.0), reference.until(2.0);
+    ASSERT_TRUE(run.merged("b[9,0]"));
+    run.kick("b[0,0]", {blow, 0.0}), reference.kick("b[0,0]", {blow, 0.0});
+    run.steps(3), reference.steps(3);
+    const double momentum = reference.now().stats.momentum.x();
+    EXPECT_NEAR(run.now().stats.momentum.x(), momentum, 0.1 * momentum) << gap << " " << blow;
+    run.until(4.0), reference.until(4.0);
+    const Snapshot a = run.now(), b = reference.now();
+    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+      EXPECT_NEAR(a.bodies[i].x.x(), b.bodies[i].x.x(), 0.05) << gap << " " << blow << " " << i;
+    }
+  }
+}
+
+const std::string kBoxUnderBox = kGround + R"(
+[[body]]
+name = "box"
+at = [0, 0.5]
+box = [1, 1]
+[[body]]
+name = "top"
+at = [0.3, 1.5]
+box = [1, 1]
+)";
+
+/// Knocks the lower box sideways [N s], two times a second.
+void knock(Simulation& run, double impulse, int times) {
+  for (int i = 0; i < times; ++i) {
+    run.kick("box", {impulse, 0.0});
+    run.steps(50);
+  }
+}
+
+Simulation atRest(Mode mode, const Overrides& overrides = {}) {
+  Simulation run(kBoxUnderBox, mode, overrides);
+  run.until(1.0);
+  return run;
+}
+
+double way(const Simulation& run) { return run.body("box").x.x(); }
+
+TEST(Blow, ManySmallOnesMoveABoxAsFar) {
+  Simulation reference = atRest(Mode::Reference), run = atRest(Mode::Merge);
+  knock(reference, 0.35, 20);
+  knock(run, 0.35, 20);
+  EXPECT_GE(run.count(EventType::Unmerge), 20) << "at each knock";
+  EXPECT_GT(way(reference), 0.03);
+  EXPECT_NEAR(way(run), way(reference), 0.05 * way(reference));
+}
+
+TEST(Blow, AHardOneAfterManySmallOnesIsNotHeld) {
+  Simulation reference = atRest(Mode::Reference), run = atRest(Mode::Merge);
+  const auto lastWay = [](Simulation& r) {
+    knock(r, 0.2, 20);
+    const double from = way(r);
+    knock(r, 3.0, 1);
+    return way(r) - from;
+  };
+  const double expected = lastWay(reference);
+  EXPECT_GT(expected, 0.05);
+  EXPECT_NEAR(lastWay(run), expected, 0.05 * expected);
 }
 
 }  // namespace

@@ -207,7 +207,7 @@ TEST(Collection, UnderThePapersRuleWhatComesFreeLeavesTheRestOnTheFloorTogether)
   Simulation run(kTwoColumns, Mode::Merge, kPaper);
   run.until(2.0);
   run.kick("left[0,2]", {5.0, 0.0});
-  run.steps(5);
+  run.steps(1);
   EXPECT_FALSE(run.merged("left[0,2]"));
   ASSERT_EQ(run.now().collections.size(), 1u);
   EXPECT_EQ(run.now().collections[0].bodies.size(), 5u);

@@ -10,7 +10,7 @@ namespace {
 /// When the body named `top` has turned by 15 degrees or moved by 25 cm against `base`, or 99 [s].
 double timeOfFall(const std::string& scene, Mode mode, const std::string& base,
                   const std::string& top, double until) {
-  Simulation run(scene, mode, merges(mode) ? kDecidedRule : Overrides{});
+  Simulation run(scene, mode);
   const auto seen = [&] { return seenFrom(run.body(base), run.body(top)); };
   const Pose before = seen();
   while (run.world().time() < until) {
@@ -151,7 +151,7 @@ name = "block"
 at = [0, 0.25]
 box = [1, 0.5]
 )",
-                   mode, merges(mode) ? kDecidedRule : Overrides{});
+                   mode);
     const auto place = [&] { return seenFrom(run.body("slope"), run.body("block")).position.x(); };
     run.until(5.0);
     const double start = place();
@@ -163,7 +163,6 @@ box = [1, 0.5]
 
 int eventsAfterSettling(const Scene& of, double until) {
   Scene scene = of;
-  scene.settings.unmerging.rule = UnmergingRule::Decided;
   Simulation run(scene, Mode::Merge);
   run.until(5.0);
   const int before = run.count(EventType::Merge) + run.count(EventType::Unmerge);
@@ -183,7 +182,6 @@ TEST(DecidedUnmerge, AWallOnASwingingPlatformStaysInOnePiece) {
 /// The friction below carries the wall: its mass times the platform's acceleration.
 TEST(DecidedUnmerge, TheFrictionBelowASwingingWallIsThatOfItsMotion) {
   Scene scene = wallOnSwingingPlatform(12, 12, 0.4, 4.0);
-  scene.settings.unmerging.rule = UnmergingRule::Decided;
   Simulation run(scene, Mode::Merge);
   run.until(8.0);
   double largest = 0.0, off = 0.0, mass = 0.0;
@@ -207,7 +205,7 @@ TEST(DecidedUnmerge, TheFrictionBelowASwingingWallIsThatOfItsMotion) {
 }
 
 TEST(DecidedUnmerge, SaysWhichMotionItDecidedFromAndCitesItsPage) {
-  Simulation run(heavyTop(5, 11.448, 20.0), Mode::Merge, kDecidedRule, true);
+  Simulation run(heavyTop(5, 11.448, 20.0), Mode::Merge, {}, true);
   bool found = false;
   while (run.world().time() < 5.0 && !found) {
     run.steps(1);
@@ -223,7 +221,7 @@ TEST(DecidedUnmerge, SaysWhichMotionItDecidedFromAndCitesItsPage) {
 }
 
 TEST(DecidedUnmerge, GoesOnFromASavedStateAsIfItHadNotBeenSaved) {
-  const Scene scene = parseScene(heavyTop(4, 14.0, 20.0), "test.toml", kDecidedRule);
+  const Scene scene = parseScene(heavyTop(4, 14.0, 20.0), "test.toml");
   World straight(scene, {.mode = Mode::Merge, .timings = false});
   for (int i = 0; i < 180; ++i) straight.step();  // while the ground turns
   World restored(scene, {.mode = Mode::Merge, .timings = false});

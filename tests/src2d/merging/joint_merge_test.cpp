@@ -211,7 +211,7 @@ at = [2, 0]
   }
 }
 
-void expectAMergedJointBreaksUnderALoadThatComesLater(const Overrides& rule) {
+TEST(JointMerge, AMergedJointBreaksUnderALoadThatComesLater) {
   Simulation run(R"(
 format = 1
 [[body]]
@@ -234,7 +234,7 @@ body = "beam"
 force = [0, -20]
 from = 2
 )",
-                 Mode::Merge, rule);
+                 Mode::Merge);
   run.until(1.9);
   EXPECT_TRUE(run.merged("beam"));
   run.until(2.1);
@@ -246,12 +246,7 @@ from = 2
   EXPECT_LT(run.body("beam").x.y(), -1.0);
 }
 
-TEST(JointMerge, AMergedJointBreaksUnderALoadThatComesLater) {
-  expectAMergedJointBreaksUnderALoadThatComesLater({});
-  expectAMergedJointBreaksUnderALoadThatComesLater(kDecidedRule);
-}
-
-void expectWhatABrokenJointHeldPartsThoughItMayTouch(const Overrides& rule) {
+TEST(JointMerge, WhatABrokenJointHeldPartsThoughItMayTouch) {
   // The load hangs under a slab that rests on two pillars, and may touch it.
   Simulation run(R"(
 format = 1
@@ -287,7 +282,7 @@ force = [0, -20]
 from = 1.0
 until = 1.2
 )",
-                 Mode::Merge, rule);
+                 Mode::Merge);
   run.until(0.9);
   EXPECT_TRUE(run.merged("load"));
   run.until(1.1);
@@ -295,11 +290,6 @@ until = 1.2
   EXPECT_FALSE(run.merged("load"));
   run.until(2.0);
   EXPECT_LT(run.body("load").x.y(), -1.0);
-}
-
-TEST(JointMerge, WhatABrokenJointHeldPartsThoughItMayTouch) {
-  expectWhatABrokenJointHeldPartsThoughItMayTouch({});
-  expectWhatABrokenJointHeldPartsThoughItMayTouch(kDecidedRule);
 }
 
 TEST(JointMerge, ACollectionHoldsAnotherByAPivotBetweenThem) {

@@ -30,11 +30,10 @@ Pairs heldOf(const State& state, const MergeGraph& graph, const std::vector<Read
   return held;
 }
 
-/// Judges all that there is, before Merge and after Unmerge.
+/// Judges all that there is, before Merge.
 class FullJudge : public Observer {
  public:
   void afterStage(Stage stage, const State& state, const Scratch& scratch) override {
-    if (stage == Stage::Unmerge || stage == Stage::Merge) everythingHolds(state);
     if (stage == Stage::AdvancePositions) beforeMerge(state, scratch);
     if (stage == Stage::Merge) afterMerge(state);
   }
@@ -44,17 +43,6 @@ class FullJudge : public Observer {
   int welded = 0;
 
  private:
-  /// What is left of each collection, or has come to it, is held together, if all of it is judged.
-  static void everythingHolds(const State& state) {
-    for (const Collection& c : state.collections) {
-      if (c.id == kNoCollection) continue;
-      const Parts parts = partsWithoutCuts(state, c);
-      EXPECT_FALSE(fallsApart(state, c, parts))
-          << "step " << state.step << ": C" << value(c.id) << " of " << c.members.size()
-          << " bodies is " << parts.anchored.size() << " parts";
-    }
-  }
-
   /// What is judged gives what judging all ready pairs gives.
   void beforeMerge(const State& state, const Scratch& scratch) {
     Scratch own;

@@ -123,10 +123,8 @@ script = { keyframes = [[0, 0, 4, 0], [2, 0, 2.1, 0], [4, 0, 5, 0], [7, 6, 5, 0]
 body = "magnet"
 on = [[1.5, 9.5]]
 )";
-  for (const auto& [mode, rule] :
-       {std::pair(Mode::Reference, "default"), std::pair(Mode::MergeSleep, "default"),
-        std::pair(Mode::MergeSleep, "decided")}) {
-    Simulation run(crane, mode, {{"unmerging.rule", rule}});
+  for (const Mode mode : {Mode::Reference, Mode::MergeSleep}) {
+    Simulation run(crane, mode);
     run.until(5.5);
     EXPECT_NEAR(run.body("container[0,1]").x.y(), 4.4, 0.02);
     EXPECT_NEAR(run.body("container[0,0]").x.y(), 0.5, 0.02);  // exactly the grabbed one

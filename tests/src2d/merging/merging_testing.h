@@ -134,7 +134,6 @@ inline Pose seenFrom(const BodyState& frame, const BodyState& body) {
 }
 
 /// Both rules as the paper has them.
-inline const Overrides kDecidedRule{{"unmerging.rule", "decided"}};
 inline const Overrides kPaper{{"merging.rule", "\"paper\""}, {"unmerging.rule", "\"paper\""}};
 
 /// How many events of this type and reason the last step had.

@@ -7,8 +7,6 @@
 namespace merge2d {
 namespace {
 
-const Overrides kOpening{{"unmerging.rule", "decided"}};
-
 const std::string kTwoBricks = kGround + R"(
 [[body]]
 name = "b0"
@@ -62,7 +60,7 @@ velocity = [0, -4]
 )";
 
 TEST(OpenSolve, KeepsMomentumAndAngularMomentumInAHit) {
-  Simulation run(kStruckInSpace, Mode::Merge, kOpening);
+  Simulation run(kStruckInSpace, Mode::Merge);
   const Stats before = run.now().stats;
   run.until(1.0);
   ASSERT_TRUE(run.merged("low"));
@@ -84,7 +82,7 @@ at = [0, 1.25]
 box = [1, 0.5]
 )";
   const auto struck = [&](Mode mode) {
-    Simulation run(scene, mode, merges(mode) ? kOpening : Overrides{});
+    Simulation run(scene, mode);
     run.until(1.0);
     run.kick("b1", {1.5, 0.0});
     run.steps(1);
@@ -96,7 +94,7 @@ box = [1, 0.5]
 }
 
 TEST(OpenSolve, AGentleBlowLeavesAStackInOnePiece) {
-  Simulation run(kTwoBricks, Mode::Merge, kOpening);
+  Simulation run(kTwoBricks, Mode::Merge);
   run.until(1.0);
   ASSERT_TRUE(run.merged("b1"));
   run.kick("b1", {0.01, 0.0});  // friction bears 0.029 N s in a step
@@ -107,7 +105,7 @@ TEST(OpenSolve, AGentleBlowLeavesAStackInOnePiece) {
 
 /// The impulses of a blow are not taken for those that carry the load afterwards.
 TEST(OpenSolve, TheForcesAfterABlowAreThoseBeforeIt) {
-  Simulation run(kTwoBricks, Mode::Merge, kOpening);
+  Simulation run(kTwoBricks, Mode::Merge);
   const auto pressure = [&] {
     double sum = 0.0;
     const Snapshot now = run.now();

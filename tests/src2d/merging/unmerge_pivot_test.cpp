@@ -50,9 +50,10 @@ TEST(Unmerge, UnderThePapersRuleTheSeeSawIsStuck) {
   EXPECT_NEAR(run.body("beam").angle, 0.0, 0.05);
 }
 
-TEST(Unmerge, AWeldThatTurnsBreaksAfterTheGivenSteps) {  // Figure 4, Section 6.4
+TEST(Unmerge, UnderThePapersRuleAWeldThatTurnsBreaksAfterTheGivenSteps) {  // Figure 4, Section 6.4
   for (const int steps : {3, 6}) {
-    Overrides overrides{{"merging.cycles", "\"off\""}, {"unmerging.steps", std::to_string(steps)}};
+    Overrides overrides = kPaper;
+    overrides.push_back({"unmerging.steps", std::to_string(steps)});
     Simulation run(pushedSeeSaw(-8.0), Mode::Merge, overrides);
     run.until(4.0);
     ASSERT_TRUE(run.merged("beam"));

@@ -74,7 +74,6 @@ velocity = 0.05
 sliding = 0.06
 steps = 7
 sweeps = 2
-disturbed_sweeps = 4
 ordering = false
 [sleeping]
 velocity = 1e-4
@@ -110,7 +109,6 @@ pinned_until = 3
   EXPECT_EQ(s.unmerging.sliding, 0.06);
   EXPECT_EQ(s.unmerging.steps, 7);
   EXPECT_EQ(s.unmerging.sweeps, 2);
-  EXPECT_EQ(s.unmerging.disturbed_sweeps, 4);
   EXPECT_FALSE(s.unmerging.ordering);
   EXPECT_EQ(s.sleeping.velocity, 1e-4);
   EXPECT_EQ(s.sleeping.steps, 9);

@@ -72,10 +72,11 @@ TEST(Recorder, EachStageHasItsOwnEventsAndDecisions) {
   EXPECT_GT(decisions, 50u);
 }
 
-TEST(Recorder, TheOrderOfTheSweepLeadsAwayFromTheBlow) {
+TEST(Recorder, UnderThePapersRuleTheOrderOfTheSweepLeadsAwayFromTheBlow) {
   Scene scene = column(4);
+  scene.settings.unmerging.rule = UnmergingRule::Paper;
   scene.impulses.push_back({.body = 4, .at = {0.0, 4.5}, .impulse = {0.0, -1.0}, .time = 3.0});
-  Recorder recorder(scene);
+  Recorder recorder(scene, Mode::Merge);
   recorder.skipTo(300);
   std::vector<std::array<int, 3>> visits;
   for (const NotedVisit& v : recorder.record().notes.order) {

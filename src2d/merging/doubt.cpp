@@ -1,10 +1,9 @@
-#include "src2d/merging/decided_rule.h"
+#include "src2d/merging/doubt.h"
 
 #include <algorithm>
 
 #include "src2d/merging/collection.h"
 #include "src2d/merging/decided_unmerge.h"
-#include "src2d/merging/default_rule.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/load_certificate.h"
@@ -15,15 +14,10 @@
 namespace merge2d {
 namespace {
 
-constexpr std::int16_t kLongAgo = 1000;  // steps
-
 /// Notes hits, impulses, and forces that begin or end.
 void notePerturbations(State& state, const Scratch& scratch) {
-  for (Collection& c : state.collections) {
-    c.since_blow = std::min<std::int16_t>(kLongAgo, static_cast<std::int16_t>(c.since_blow + 1));
-  }
   const auto hit = [&](BodyId b) {
-    if (state.isCollection(state[b].rigid)) state.collection(state[b].rigid).since_blow = 0;
+    if (state.isCollection(state[b].rigid)) state.collection(state[b].rigid).last_blow = state.step;
   };
   for (const Meeting& m : scratch.meetings) {
     if (m.speed <= impactSpeed(state)) continue;
@@ -56,7 +50,7 @@ void openCertificate(const State& state, Collection& c) {
 /// are sought, unless those for a load beyond it are already.
 Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
-  if (isHit(c)) return Doubt::Open;
+  if (isHit(state, c)) return Doubt::Open;
   const bool searches = !proof.search.start.empty();
   if (searches && !proof.search.ahead) return Doubt::Search;
   const CollectionLoad load = loadOn(state, scratch, c);
@@ -91,7 +85,8 @@ void spreadDoubts(const State& state, Scratch& scratch) {
   const auto slots = static_cast<std::uint32_t>(state.collections.size());
   std::vector<std::uint8_t> hit(slots, 0);
   for (std::uint32_t i = 0; i < slots; ++i) {
-    if (isSwept(state, state.collections[i]) && isHit(state.collections[i])) hit[sets.find(i)] = 1;
+    if (isSwept(state, state.collections[i]) && isHit(state, state.collections[i]))
+      hit[sets.find(i)] = 1;
   }
   for (std::uint32_t i = 0; i < slots; ++i) {
     if (isSwept(state, state.collections[i]) && hit[sets.find(i)]) scratch.doubts[i] = Doubt::Open;
@@ -115,6 +110,8 @@ void openWhatFramesDrag(const State& state, Scratch& scratch) {
     }
   }
 }
+
+}  // namespace
 
 void findDoubts(State& state, Scratch& scratch) {
   notePerturbations(state, scratch);
@@ -142,42 +139,5 @@ void findDoubts(State& state, Scratch& scratch) {
     }
   }
 }
-
-/// Where a search has found motion, the full solve of the same step finds the moving welds.
-void solveDoubted(State& state, Scratch& scratch) {
-  for (Collection& c : state.collections) {
-    if (doubtAbout(state, scratch, c) != Doubt::Search) continue;
-    continueSearch(state, scratch, c, toleratedResidual(state));
-    if (!endSearch(state, scratch, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
-  }
-  if (std::ranges::find(scratch.doubts, Doubt::Open) != scratch.doubts.end()) {
-    solveOpened(state, scratch);
-  }
-}
-
-/// A weld that was found to move slowly waits for as long as it would still seem at rest.
-int waitUntilSeen(const State& state, const InternalContact& contact, const Weld* cut) {
-  constexpr double kMost = 200.0;  // steps
-  const int wait = kDefaultUnmerging.waitAfterSplit(state, contact, cut);
-  if (!cut || cut->turning.steps == 0) return wait;
-  // One step, one velocity: decided_unmerge.cpp.
-  const double speed = std::max(std::abs<double>(cut->turning.sum), 1e-12);
-  const double steps = std::min(kMost, state.settings.merging.velocity / speed);
-  return std::max(wait, static_cast<int>(steps));
-}
-
-UnmergingMethod decided() {
-  UnmergingMethod method = kDefaultUnmerging;
-  method.warmStart = findDoubts;
-  method.sweep = solveDoubted;
-  method.unmerge = unmergeMovers;
-  method.parts = [](const State&, Scratch&, const Collection& c) { return componentsOf(c); };
-  method.waitAfterSplit = waitUntilSeen;
-  return method;
-}
-
-}  // namespace
-
-const UnmergingMethod kDecidedUnmerging = decided();
 
 }  // namespace merge2d
