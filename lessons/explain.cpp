@@ -25,10 +25,7 @@ bool has(const std::vector<Decision>& tests, std::string_view verdict) {
 }
 
 /// Above its threshold by how much: 1 is just there.
-double closeness(const Decision& d) {
-  if (d.criterion == "broken") return 0.0;  // counts what is left
-  return d.threshold > 0.0 ? d.value / d.threshold : 0.0;
-}
+double closeness(const Decision& d) { return d.threshold > 0.0 ? d.value / d.threshold : 0.0; }
 
 /// What is worth being told first among several of one outcome: what lost its count, and what is
 /// near its threshold, on either side.
@@ -157,28 +154,15 @@ class Explainer {
       out.text =
           fmt::format("The weld of {} was cut {}, but by way of others they stay together: {}.",
                       who, atStep(), because(out.tests, {"cut"}));
-    } else if (has(out.tests, "stays")) {
-      out.outcome = Outcome::Loose;
-      out.text = fmt::format(
-          "The weld of {} stayed {}, as nothing that it held moved when that was last "
-          "tried: {}.",
-          who, atStep(), because(out.tests, {"stays"}));
-    } else if (has(out.tests, "wait") || has(out.tests, "lost") || has(out.tests, "edge")) {
+    } else if (has(out.tests, "wait")) {
       out.outcome = Outcome::Loose;
       out.text = fmt::format("The weld of {} held {}, but is under watch: {}{}.", who, atStep(),
-                             because(out.tests, {"wait", "lost", "edge"}), countOf(out.tests));
+                             because(out.tests, {"wait"}), countOf(out.tests));
     } else {
       out.outcome = Outcome::Held;
       const Decision* nearest = nearestTest(out.tests);
       out.text = fmt::format("The weld of {} held {}. Nearest to its limit: {}.", who, atStep(),
                              nearest ? test(*nearest) : "nothing");
-    }
-    const bool holds = out.outcome == Outcome::Held || out.outcome == Outcome::Loose;
-    if (holds && has(out.tests, "recheck")) {
-      out.text += fmt::format(
-          " After one sweep it looked as if it would end ({}); more sweeps did "
-          "not confirm it.",
-          because(out.tests, {"recheck"}));
     }
   }
 
@@ -208,6 +192,9 @@ class Explainer {
       out.text = fmt::format("{} merged {}{}: they passed every test for {} of {} steps. {}.", who,
                              atStep(), into(out.a, out.b), last.count, last.needed,
                              sentence(because(out.tests, {"below", "merge"})));
+    } else if (out.tests.front().criterion == "patience") {
+      out.outcome = Outcome::Waiting;
+      out.text = fmt::format("{} wait {}: {}.", who, atStep(), test(out.tests.front()));
     } else if (last.criterion == "cycle") {
       out.outcome = Outcome::Waiting;
       out.text = fmt::format("{} did not merge {}, though they passed every test for {} steps: {}.",
@@ -287,7 +274,6 @@ std::vector<Explanation> explainStep(const Words& words, const Snapshot& after) 
 const Decision* nearestTest(const std::vector<Decision>& tests) {
   const Decision* nearest = nullptr;
   for (const Decision& d : tests) {
-    if (d.verdict == "recheck" || d.verdict == "stays") continue;
     if (!nearest || closeness(d) > closeness(*nearest)) nearest = &d;
   }
   return nearest;

@@ -14,8 +14,8 @@
 namespace merge2d {
 namespace {
 
-constexpr std::array<std::string_view, 4> kCriteria = {"relative-motion", "sliding", "breathing",
-                                                       "opening"};
+constexpr std::array<std::string_view, 4> kCriteria = {"motion", "relative-motion", "sliding",
+                                                       "breathing"};
 
 std::string unitOf(std::string_view criterion) { return criterion == "breathing" ? "m" : "m/s"; }
 

@@ -27,12 +27,12 @@ Pose poseOf(const Snapshot& seen, BodyId body) {
 }
 
 /// The criteria that compare a measured number with a limit: what charts and questions are about.
-constexpr std::array<std::string_view, 6> kCharted = {"relative-motion", "sliding", "breathing",
-                                                      "opening",         "cone",    "rest"};
+constexpr std::array<std::string_view, 5> kCharted = {"motion", "relative-motion", "sliding",
+                                                      "breathing", "rest"};
 
 /// Whether a verdict keeps a pair apart, or takes it apart.
 bool parts(std::string_view verdict) {
-  for (const std::string_view bad : {"apart", "unmerge", "cut", "lost", "edge", "awake"}) {
+  for (const std::string_view bad : {"apart", "unmerge", "cut", "awake"}) {
     if (verdict == bad) return true;
   }
   return false;

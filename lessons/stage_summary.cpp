@@ -70,7 +70,7 @@ std::string detectionSummary(const StepRecord& record) {
 }
 
 std::string orderingSummary(const StepRecord& record) {
-  if (record.notes.order.empty()) return "nothing new concerns a collection";
+  if (record.notes.order.empty()) return "no sweep goes breadth first";
   return fmt::format("{} ordered, from {}",
                      counted(record.notes.order.size(), "contact", "contacts"),
                      counted(record.notes.seeds.size(), "seed", "seeds"));
@@ -85,7 +85,7 @@ std::string sleepSummary(const Snapshot& after) {
 
 std::string warmStartSummary(const StepRecord& record) {
   const auto& own = record[Stage::WarmStart].own;
-  if (own.empty()) return "no collection is awake, so there is nothing to sweep";
+  if (own.empty()) return "no new load inside collections, so there is nothing to sweep";
   return fmt::format("{} start from the impulses of the last step",
                      counted(own.size(), "body", "bodies"));
 }

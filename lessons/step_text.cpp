@@ -51,7 +51,7 @@ void writeStats(JsonText& out, const Stats& s) {
                        s.momentum.y(), s.angular_momentum);
 }
 
-void writeEvents(JsonText& out, const Recording& r) {
+void writeEventsOfStep(JsonText& out, const Recording& r) {
   out.array("events", r.events, [&](const TimedEvent& e) {
     out.row(e.step, name(e.event.type), e.event.a, e.event.b, e.event.collection,
             name(e.event.reason));
@@ -90,7 +90,7 @@ void writeState(JsonText& out, const Recording& r, const Snapshot& seen) {
   writeBodies(out, r);
   writeContacts(out, r);
   writeDecisions(out, r);
-  writeEvents(out, r);
+  writeEventsOfStep(out, r);
   writeStats(out, r.stats[0]);
 }
 

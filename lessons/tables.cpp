@@ -88,7 +88,7 @@ class StageTables {
                 -static_cast<double>(rank));
     }
     if (table.empty() && record_.notes.order.empty()) {
-      return "Nothing is new, so the contacts are swept in the order in which they are stored.\n";
+      return "No sweep goes breadth first in this step.\n";
     }
     return table.text(filter_.most);
   }
@@ -236,11 +236,11 @@ bool RowFilter::wants(BodyId a) const {
 const char* purpose(Stage stage) {
   static constexpr const char* kPurposes[kStages] = {
       "Which bodies touch, and where?",
-      "Where is something new, and in which order does the sweep go on from there?",
+      "Where is something new? A sweep by the paper's rule goes on from there.",
       "What has come to rest, and what is disturbed?",
-      "Start from the contact impulses of the last step.",
-      "One sweep over the contacts inside collections renews their forces.",
-      "Which welds break, slide or turn, and what falls apart?",
+      "Which collections bear a new load? Start from the contact impulses of the last step.",
+      "One sweep (the paper's rule), or a search for the new loads, renews the forces inside.",
+      "Which welds break, slide or turn, and which collections fall apart?",
       "Solve for the contact impulses of all that is simulated on its own.",
       "The solved velocities become the velocities.",
       "How does each touching pair move against each other, and for how long has it been still?",

@@ -15,13 +15,8 @@ struct Measure {
   std::string_view criterion, name, unit;
 };
 constexpr Measure kMeasures[] = {
-    {"relative-motion", "relative motion", "m/s"},
-    {"sliding", "slip", "m/s"},
-    {"breathing", "change of overlap", "m"},
-    {"opening", "opening", "m/s"},
-    {"footing", "motion of its parts on their foot", "m/s"},
-    {"motion", "relative motion", "m/s"},
-    {"carried-off", "motion against the whole", "m/s"},
+    {"relative-motion", "relative motion", "m/s"}, {"sliding", "slip", "m/s"},
+    {"breathing", "change of overlap", "m"},       {"motion", "relative motion", "m/s"},
     {"rest", "motion in the world", "m/s"},
 };
 
@@ -54,8 +49,8 @@ Condition whenApart(const std::vector<Decision>& tests) {
 Condition whenWaiting(const std::vector<Decision>& tests) {
   const Decision& last = tests.back();
   if (last.criterion == "cycle") return {.kind = Kind::Hold};
-  if (last.criterion == "patience") {
-    return {.kind = Kind::Wait, .steps = std::max(1, static_cast<int>(last.value))};
+  if (tests.front().criterion == "patience") {
+    return {.kind = Kind::Wait, .steps = std::max(1, static_cast<int>(tests.front().value))};
   }
   const Decision* nearest = nearestTest(tests);
   const int more = std::max(1, last.needed - last.count);
@@ -78,21 +73,25 @@ PairReason untested(const Words& words, const Snapshot& after, BodyId a, BodyId 
   const BodyState *one = bodyIn(after, a), *other = bodyIn(after, b);
   const std::string who = words.pair(a, b);
   PairReason out{.outcome = "untested", .heading = "Not tested"};
-  const bool touch = std::ranges::any_of(
+  const auto contact = std::ranges::find_if(
       after.contacts, [&](const ContactView& c) { return c.a == a && c.b == b; });
+  const bool touch = contact != after.contacts.end();
+  // What is pinned or scripted is welded too, but is a member of no collection.
+  const bool welded = touch && contact->internal;
   if (one == nullptr || other == nullptr) {
     out.outcome = "absent";
     out.text = fmt::format("{} are not both in the world now.", who);
-  } else if (one->collection != kNoCollection && one->collection == other->collection) {
+  } else if (welded || (one->collection != kNoCollection && one->collection == other->collection)) {
     const bool asleep = one->asleep || other->asleep;
     out.outcome = !touch ? "by-others" : asleep ? "one-asleep" : "one";
     out.heading = touch ? "One collection" : "One, by way of others";
     out.text =
-        fmt::format("{} are both in {}{}.", who, collectionName(one->collection),
+        fmt::format("{} are {} {}{}.", who, welded ? "welded in" : "both in",
+                    collectionName(std::max(one->collection, other->collection)),
                     touch ? asleep ? ", which sleeps: nothing is tested until something wakes it"
-                                   : ", whose welds are not tested in this step"
+                                   : ", and no motion inside was found in this step"
                           : ", though they do not touch: others hold them together");
-    if (!touch) out.condition.kind = Kind::CutBetween;
+    out.condition.kind = touch ? Kind::BreakOrSlide : Kind::CutBetween;
   } else if (!touch) {
     out.outcome = "no-touch";
     out.text = fmt::format("{} do not touch.", who);

@@ -32,13 +32,6 @@ std::string distance(double value, double threshold) {
   return fmt::format("{:.{}f} %; ", 100.0 * ratio, ratio < 0.1 ? 1 : 0);
 }
 
-/// "; 4 times the usual limit, as the pair was cut in vain before".
-std::string raised(const Decision& d) {
-  if (d.caution <= 1.0) return "";
-  return fmt::format("; {:.0f} times the usual limit, as the pair was cut in vain before",
-                     d.caution);
-}
-
 /// "relative motion 0.023 m/s is above 0.010 m/s (2.3 times; Eq. 17)". Thresholds below a
 /// millimetre are told in millimetres; `unit` is what follows "m".
 std::string compared(std::string_view what, const Decision& d, std::string_view unit) {
@@ -49,31 +42,12 @@ std::string compared(std::string_view what, const Decision& d, std::string_view 
   const char* relation = d.value < d.threshold   ? "is below"
                          : d.value > d.threshold ? "is above"
                                                  : "reaches";
-  return fmt::format("{} {} {}{} {} {} {}{} ({}{}{})", what, value, metre, unit, relation,
-                     threshold, metre, unit, distance(d.value, d.threshold),
-                     equationName(d.equation), raised(d));
-}
-
-/// "slip, summed over 4 steps,": for sums that have no number of steps to reach.
-std::string summed(std::string_view what, int steps) {
-  return steps > 1 ? fmt::format("{}, summed over {} steps,", what, steps) : std::string(what);
+  return fmt::format("{} {} {}{} {} {} {}{} ({}{})", what, value, metre, unit, relation, threshold,
+                     metre, unit, distance(d.value, d.threshold), equationName(d.equation));
 }
 
 std::string contacts(double number) {
   return counted(static_cast<std::size_t>(number), "contact", "contacts");
-}
-
-std::string cone(const Decision& d) {
-  const auto [value, threshold] = shortNumbers(d.value, d.threshold);
-  const std::string equation = equationName(d.equation);
-  if (d.verdict == "edge") {
-    return fmt::format(
-        "a contact is on the edge of its friction cone: friction {} N s is all that "
-        "its pressure allows ({})",
-        value, equation);
-  }
-  return fmt::format("friction {} N s of the {} N s that the pressure allows ({}{})", value,
-                     threshold, distance(d.value, d.threshold), equation);
 }
 
 /// "all 2 contacts that press are on the edge of their friction cones".
@@ -99,12 +73,6 @@ std::string edge(const Decision& d) {
 
 /// `group` names its bodies.
 std::string cycle(const Decision& d, const std::string& group) {
-  if (d.stage == "Unmerge") {
-    return fmt::format(
-        "{} of its own held, but the rigid group of {} that held the pair came apart "
-        "(Section 8.2)",
-        contacts(d.value), group);
-  }
   if (d.verdict == "merge") {
     return d.value >= d.threshold
                ? fmt::format("{} hold the pair rigidly (Section 8.2)", contacts(d.value))
@@ -189,23 +157,14 @@ std::string Words::group(const Group& group) const {
 std::string Words::test(const Decision& d, const std::vector<Group>& groups) const {
   const std::string_view c = d.criterion;
   if (d.stage == "SleepAndWake") return sleeping(d);
-  if (c == "relative-motion") {
-    const bool gathered = d.stage == "Unmerge" && d.needed == 0;
-    return compared(gathered ? summed("relative motion", d.count) : "relative motion", d, "/s");
-  }
+  if (c == "relative-motion" || c == "motion") return compared("relative motion", d, "/s");
   if (c == "breathing") return compared("the change of overlap", d, " per step");
-  if (c == "footing") return compared("the motion of its parts on their foot", d, "/s");
-  if (c == "motion") return compared("relative motion", d, "/s");
-  if (c == "carried-off") return compared("the motion of one of them against the whole", d, "/s");
   if (c == "rest") return compared("its motion in the world", d, "/s");
   if (c == "balance") return compared("what it gained in this step", d, "/s");
   if (c == "impact") return compared("the speed of approach", d, "/s");
-  if (c == "opening") return compared(summed("the opening of a contact", d.count), d, "/s");
   if (c == "sliding") {
-    const bool welded = d.stage == "Unmerge";
-    return compared(welded ? summed("the slip of a contact", d.count) : "slip", d, "/s");
+    return compared(d.stage == "Unmerge" ? "the slip of a contact" : "slip", d, "/s");
   }
-  if (c == "cone") return cone(d);
   if (c == "edge") return edge(d);
   if (c == "cycle") {
     const auto members = static_cast<std::size_t>(d.members);
@@ -217,10 +176,7 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
                        counted(static_cast<std::size_t>(d.value), "step", "steps"));
   }
   if (c == "pressed") return "no contact between them carries a force (Section 5.3)";
-  if (c == "broken") {
-    return d.value > 0 ? fmt::format("{} left of the weld holds (Section 6.3)", contacts(d.value))
-                       : "no contact of the weld carries a force any more (Section 6.3)";
-  }
+  if (c == "broken") return "a contact of the weld carries no force any more (Section 6.3)";
   return fmt::format("{} of {} steps passed (Section 5.1)", d.count, d.needed);  // "count"
 }
 

@@ -7,7 +7,7 @@ import { arrow, cross, disc, fixed, polygon, square } from './strokes';
 import type { Contact, Impulse } from './trace';
 
 /** Criteria whose value grows towards a limit. */
-const kLimits = ['relative-motion', 'sliding', 'breathing', 'opening', 'cone'];
+const kLimits = ['motion', 'relative-motion', 'sliding', 'breathing'];
 
 export function contactMarks(sight: Sight): Paths {
   const { state, view } = sight;

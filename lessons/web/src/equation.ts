@@ -125,9 +125,9 @@ function line(state: State): Line | null {
       return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(Math.abs(d.value) < d.threshold ? '<' : '≥'), mn(d.threshold), text('\u2009m/s')) : null, note: d ? `Section 7, for ${trace.name(d.a)}: against the world.` : 'Section 7: the same measure, against the world.' };
     }
     case 'Unmerge': {
-      const d = decisionMeant(state, ['sliding', 'relative-motion', 'opening', 'cone'], 'Unmerge');
+      const d = decisionMeant(state, ['motion', 'sliding', 'relative-motion'], 'Unmerge');
       const symbols = row(mo('|'), sub('w', 't'), mo('|'), mo('>'), mi('ε'), text('\u2002and\u2002'), mo('|'), sub('λ', 't'), mo('|'), mo('='), mi('μ'), sub('λ', 'n'));
-      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(Math.abs(d.value) > d.threshold ? '>' : '≤'), mn(d.threshold), text(d.criterion.criterion === 'cone' ? '\u2002of the cone' : '\u2009m/s')) : null, note: d ? `${d.criterion.criterion}, ${d.criterion.equation.startsWith('(') ? `Eq. ${d.criterion.equation}` : d.criterion.equation}, for ${between(state, d)}: the weld ${d.passed ? 'holds' : 'is cut'}.` : 'Eqs. (19), (20): a weld is cut when its contact slides, breaks, or moves as a pivot. There is no weld here.' };
+      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(Math.abs(d.value) > d.threshold ? '>' : '≤'), mn(d.threshold), text('\u2009m/s')) : null, note: d ? `${d.criterion.criterion}, ${d.criterion.equation.startsWith('(') ? `Eq. ${d.criterion.equation}` : d.criterion.equation}, for ${between(state, d)}: the weld ${d.passed ? 'holds' : 'is cut'}.` : 'Eqs. (19), (20): a weld is cut when its contact slides, breaks, or moves as a pivot. There is no weld here.' };
     }
     case 'AdvanceVelocities': {
       const symbols = row(sub('u', '+'), mo('='), sub('u', '−'), mo('+'), mi('h'), math('msup', mi('M'), row(mo('−'), mn(1))), mi('f'), mo('+'), mi('h'), math('msup', mi('M'), row(mo('−'), mn(1))), math('msup', mi('J'), mi('T')), mi('λ'));

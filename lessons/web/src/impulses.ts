@@ -38,7 +38,7 @@ export function impulsesText(state: State): string {
     return state.trace.contactsAt(state.step).length === 0 ? 'Nothing touches in this step.'
       : 'The impulses inside this step are not in the page, which would be too large with all of them: shown are those of the end of the step.';
   }
-  if (id === 'SingleIterationPGS' && !sweeping) return 'Nothing is merged in this step, so nothing is swept: the impulses stay as they were.';
+  if (id === 'SingleIterationPGS' && !sweeping) return 'No load inside is new in this step, so the impulses stay as they were.';
   if (all.length === 0) return id === 'SolveLCP' ? 'All contacts are inside collections: there is nothing to solve.' : 'Nothing touches in this step.';
   return kWords[id].done(all);
 }

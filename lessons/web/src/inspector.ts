@@ -7,15 +7,11 @@ import { type DecisionTrack, endOf } from './tracks';
 
 const kNames: Record<string, [string, string]> = {
   'relative-motion': ['Fastest relative motion', 'm/s'],
-  footing: ['Motion of its parts on their foot', 'm/s'],
   motion: ['Fastest relative motion', 'm/s'],
-  'carried-off': ['Motion against the whole', 'm/s'],
   sliding: ['Slip', 'm/s'],
   breathing: ['Breathing: change of overlap', 'm'],
   edge: ['On the edge of the friction cone', ''],
-  cone: ['Friction, as a part of its cone', ''],
-  opening: ['Opening', 'm/s'],
-  broken: ['Contacts left', ''],
+  broken: ['Normal impulse', 'N s'],
   count: ['Calm steps', ''],
   rest: ['Speed in the world', 'm/s'],
 };
@@ -140,7 +136,7 @@ function pairView(state: State, a: number, b: number): HTMLElement[] {
   const now: Series[] = [];
   for (const track of trace.decisionTracksOf(a, b)) {
     const name = track.criterion.criterion;
-    if (['relative-motion', 'sliding', 'breathing', 'opening', 'cone'].includes(name)) now.push(decisionSeries(state, track));
+    if (['motion', 'relative-motion', 'sliding', 'breathing'].includes(name)) now.push(decisionSeries(state, track));
   }
   out.push(...now.map((series) => figure(state, series)));
   const forces: Series = { label: 'Normal force', unit: 'N', points: [] };
