@@ -40,7 +40,7 @@ TEST(Pile, NoPairMergesAndPartsOverAndOver) {
   }
   EXPECT_GT(parted.size(), 100u);
   for (const auto& [pair, times] : parted) {
-    EXPECT_LE(times, 16) << pair.first << " and " << pair.second;
+    EXPECT_LE(times, 12) << pair.first << " and " << pair.second;
   }
 }
 

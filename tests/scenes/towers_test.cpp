@@ -31,7 +31,7 @@ TEST(TowerPlatform, WhatIsLeftMergesAgainWhileItSwings) {
     });
   };
   const auto all = riding();
-  EXPECT_GE(all, 320) << "of platform and bricks, 325";
+  EXPECT_EQ(all, 325) << "platform and bricks";
   auto fewest = all;
   while (run.world().time() < 12.0) {
     run.steps(5);

@@ -245,7 +245,7 @@ TEST(SlowLoad, AWallSlipsOnASwingingPlatformAsInTheReference) {
   };
   for (double time = 1.0; time <= 20.0; time += 1.0) {
     run.until(time), reference.until(time);
-    EXPECT_NEAR(slipOf(run), slipOf(reference), 0.12) << "at " << time << " s";
+    EXPECT_NEAR(slipOf(run), slipOf(reference), 0.07) << "at " << time << " s";
   }
 }
 
