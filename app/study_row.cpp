@@ -35,7 +35,6 @@ constexpr ResultColumn kResultColumns[] = {
     {"unmerges_broken", "/unmerges_by_reason/broken"},
     {"unmerges_sliding", "/unmerges_by_reason/sliding"},
     {"unmerges_relative_motion", "/unmerges_by_reason/relative-motion"},
-    {"unmerges_cycle", "/unmerges_by_reason/cycle"},
     {"unmerges_user", "/unmerges_by_reason/user"},
     {"max_penetration", "/max_penetration"},
     {"kinetic_energy", "/kinetic_energy"},

@@ -26,7 +26,7 @@ class Summary {
 
  private:
   /// Of unmerges: one per EventReason.
-  using Reasons = std::array<std::int64_t, 6>;
+  using Reasons = std::array<std::int64_t, kEventReasons.size()>;
 
   std::int64_t merges_ = 0, unmerges_ = 0, broken_joints_ = 0;
   Reasons reasons_{};

@@ -16,9 +16,6 @@ namespace {
 constexpr std::array kEventTypes = {EventType::Merge, EventType::Unmerge, EventType::Sleep,
                                     EventType::Wake,  EventType::Impact,  EventType::Emit,
                                     EventType::Break};
-constexpr std::array kEventReasons = {EventReason::None,    EventReason::Broken,
-                                      EventReason::Sliding, EventReason::RelativeMotion,
-                                      EventReason::Cycle,   EventReason::User};
 
 /// Points are given in the body's own frame, the page knows the one at its centre of mass.
 Vec2 fromCentre(const Scene& scene, BodyIndex body, const Vec2& point) {

@@ -3,7 +3,7 @@
 /// evenly, never farther than a tolerance from where it was.
 ///
 /// Source: Bristol, "Swinging door trending" (1990): from the last keyframe each sample leaves a
-/// range of slopes that pass close enough; when the newest sample lies outside of what is left, the
+/// range of slopes that pass close enough; when the newest sample lies outside of that range, the
 /// one before it becomes a keyframe. A sample costs the same however far the last keyframe is.
 
 #include <array>

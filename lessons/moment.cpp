@@ -31,8 +31,8 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kKinds = {"merge", "unmerge", "sleep", "wake",   "impact",
                                                     "emit",  "break",   "union", "parting"};
-constexpr std::array<std::string_view, 5> kReasons = {"broken", "sliding", "relative-motion",
-                                                      "cycle", "user"};
+constexpr std::array<std::string_view, 4> kReasons = {"broken", "sliding", "relative-motion",
+                                                      "user"};
 constexpr std::array<std::string_view, 8> kOrdinals = {"last",   "first", "second", "third",
                                                        "fourth", "fifth", "sixth",  "seventh"};
 

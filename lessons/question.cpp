@@ -39,8 +39,6 @@ std::string whyFreed(const Recording& r, BodyId body, std::int64_t step) {
         return " (a contact slides)";
       case EventReason::RelativeMotion:
         return " (it moves against the others)";
-      case EventReason::Cycle:
-        return " (its ring fell apart)";
       default:
         return "";
     }

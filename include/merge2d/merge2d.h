@@ -527,8 +527,7 @@ typedef enum m2_reason {
   M2_REASON_BROKEN = 1,          /**< no contact of it presses (Section 6.3) */
   M2_REASON_SLIDING = 2,         /**< a contact slides, Eqs. (19) and (20) */
   M2_REASON_RELATIVE_MOTION = 3, /**< the bodies move against each other, Eqs. (15) to (17) */
-  M2_REASON_CYCLE = 4,           /**< its rigid group came apart (Section 8.2) */
-  M2_REASON_USER = 5             /**< a change from outside */
+  M2_REASON_USER = 4             /**< a change from outside */
 } m2_reason;
 /** An event of a step. */
 typedef struct m2_event {

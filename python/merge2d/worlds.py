@@ -15,7 +15,7 @@ MODES = ("reference", "sleep", "merge", "merge+sleep")
 CONTACT_STATES = ("broken", "sticking", "sliding")
 JOINT_KINDS = ("revolute", "weld", "distance", "prismatic")
 EVENT_TYPES = ("merge", "unmerge", "sleep", "wake", "impact", "emit", "break")
-REASONS = ("none", "broken", "sliding", "relative-motion", "cycle", "user")
+REASONS = ("none", "broken", "sliding", "relative-motion", "user")
 
 _EVENT = np.dtype([("type", "U8"), ("reason", "U16"), ("a", "u4"), ("b", "u4"),
                    ("collection", "i4")])

@@ -17,8 +17,8 @@ const char* name(EventType type) {
 }
 
 const char* name(EventReason reason) {
-  static constexpr const char* kNames[] = {"none",  "broken", "sliding", "relative-motion",
-                                           "cycle", "user"};
+  static constexpr const char* kNames[kEventReasons.size()] = {"none", "broken", "sliding",
+                                                               "relative-motion", "user"};
   return kNames[static_cast<std::size_t>(reason)];
 }
 

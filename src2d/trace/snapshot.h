@@ -101,7 +101,10 @@ struct WeldView {
 };
 
 enum class EventType { Merge, Unmerge, Sleep, Wake, Impact, Emit, Break };
-enum class EventReason : std::uint8_t { None, Broken, Sliding, RelativeMotion, Cycle, User };
+enum class EventReason : std::uint8_t { None, Broken, Sliding, RelativeMotion, User };
+inline constexpr std::array kEventReasons = {EventReason::None, EventReason::Broken,
+                                             EventReason::Sliding, EventReason::RelativeMotion,
+                                             EventReason::User};
 
 /// What happened. A `Merge` is a join: of two things one was made, so that n bodies need n − 1 of
 /// them, however many contacts hold them together afterwards. An `Unmerge` is the end of one weld,
@@ -134,7 +137,7 @@ struct Decision {
   std::string_view verdict{};  ///< "merge", "wait", "apart", "keep", "unmerge", …
   int before = 0;              ///< the count up to the last step
   Vec2 at = Vec2::Zero();      ///< of tests of one contact: where it is, in the world [m]
-  /// Of "cycle": the first body of the group that holds the pair, or that came apart; −1: none.
+  /// Of "cycle": the first body of the group that holds the pair; −1: none.
   std::int32_t group = -1;
   std::int32_t members = -1;  ///< all its bodies: an index of Snapshot::groups
 };

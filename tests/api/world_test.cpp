@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "api_testing.h"
 
@@ -115,6 +117,15 @@ TEST(PublicWorld, SaysWhyTwoBodiesAreOne) {
     EXPECT_STRNE(d.criterion, "");
     EXPECT_STRNE(d.verdict, "");
   }
+}
+
+TEST(PublicWorld, NamesEveryReasonOfAnUnmerge) {
+  std::vector<std::string> names;
+  for (int reason = M2_REASON_NONE; reason <= M2_REASON_USER; ++reason) {
+    names.emplace_back(m2_reason_name(static_cast<m2_reason>(reason)));
+  }
+  EXPECT_THAT(names, ElementsAre("none", "broken", "sliding", "relative-motion", "user"));
+  EXPECT_STREQ(m2_reason_name(static_cast<m2_reason>(M2_REASON_USER + 1)), "unknown");
 }
 
 TEST(PublicWorld, TellsContactsAndEvents) {

@@ -45,6 +45,8 @@ TEST_F(Run, GivesTheKeysOfTheContractAsJson) {
                   "max_penetration", "ms_per_step", "real_time_factor", "unmerges_by_reason",
                   "kinetic_energy", "potential_energy", "provenance"));
   EXPECT_THAT(keysOf(summary["ms_per_step"]), ElementsAre("mean", "median"));
+  EXPECT_THAT(keysOf(summary["unmerges_by_reason"]),
+              ElementsAre("broken", "sliding", "relative-motion", "user"));
   EXPECT_EQ(summary["scene"], "stack");
   EXPECT_EQ(summary["mode"], "merge+sleep");
   EXPECT_EQ(summary["steps"], 50);

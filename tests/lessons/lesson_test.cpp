@@ -109,6 +109,9 @@ TEST_F(LessonFolder, MistakesAreShownWhereTheyAre) {
   EXPECT_THAT(errorOf("[[expect]]\nat = \"end\"\n"), HasSubstr("exactly one of together"));
   EXPECT_THAT(errorOf("[[expect]]\nhappens = \"first murge\"\n"),
               HasSubstr("'murge' is no moment and no event (did you mean 'merge'?)"));
+  EXPECT_THAT(errorOf("[[expect]]\nhappens = \"first unmerge by cycle\"\n"),
+              HasSubstr("'cycle' is no reason"))
+      << "no weld ends by it";
   EXPECT_THAT(errorOf("[part.question]\nask = \"?\"\nreveal = \"end\"\n"),
               HasSubstr("a question has exactly one of choices"));
 }

@@ -7,7 +7,7 @@ import type { State } from './state';
 import type { Trace } from './trace';
 
 const kReasons: Record<string, string> = {
-  broken: 'its contact broke', sliding: 'it slides', 'relative-motion': 'it moves', cycle: 'its cycle fell apart', user: 'it was pulled',
+  broken: 'its contact broke', sliding: 'it slides', 'relative-motion': 'it moves', user: 'it was pulled',
 };
 
 /** "brick[1,2] and brick[2,2] merged" */
