@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/called_name.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/folder_lock.h"
@@ -64,9 +65,11 @@ Interval readInterval(const std::string& text) {
   constexpr auto kMost = static_cast<std::int64_t>(Study::kMostRuns);
   const std::size_t dash = text.find('-');
   const std::int64_t first = readInteger("--only", text.substr(0, dash), 1, kMost);
-  const std::int64_t last = dash == std::string::npos
-                                ? first
-                                : readInteger("--only", text.substr(dash + 1), first, kMost);
+  const std::int64_t last =
+      dash == std::string::npos ? first : readInteger("--only", text.substr(dash + 1), 1, kMost);
+  if (last < first) {
+    throw UsageError(fmt::format("--only {}: the last run comes before the first", text));
+  }
   return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
 }
 
@@ -91,7 +94,7 @@ std::size_t processors() {
 }
 
 std::string shellCommand(const std::vector<std::string>& words) {
-  std::string line = "merge2d";
+  std::string line = shellQuoted(calledName());
   for (const std::string& word : words) line += " " + shellQuoted(word);
   return line;
 }

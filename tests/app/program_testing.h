@@ -96,6 +96,9 @@ class ProgramTest : public testing::Test {
     environment_[name] = value;
   }
 
+  /// The first word of the command lines of the runs that follow.
+  void callAs(const std::string& name) { called_ = name; }
+
   /// Starts the program and does not wait.
   pid_t start(const Words& arguments) const {
     // Also of a run that is killed before it has begun.
@@ -109,7 +112,7 @@ class ProgramTest : public testing::Test {
       value.empty() ? unsetenv(name.c_str()) : setenv(name.c_str(), value.c_str(), 1);
     }
     if (prepare_) prepare_();
-    std::vector<char*> argv{const_cast<char*>("merge2d")};
+    std::vector<char*> argv{const_cast<char*>(called_.c_str())};
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);
     const fs::path program = buildDir() / "merge2d";
@@ -152,6 +155,7 @@ class ProgramTest : public testing::Test {
   }
 
   fs::path root_;
+  std::string called_ = "merge2d";
   std::map<std::string, std::string> environment_;
   fs::path input_;
   std::string stdout_;

@@ -202,9 +202,20 @@ TEST_F(StudyCommand, TheListedCommandsMakeTheSameRows) {
   EXPECT_THAT(table(), SizeIs(12));
 }
 
+TEST_F(StudyCommand, TheListedCommandsCallTheProgramThatListsThem) {
+  callAs("/opt/my tools/merge2d");
+  const Words lines = linesOf(run({"study", "grid.toml", "-o", "out", "--list"}).out);
+  ASSERT_THAT(lines, SizeIs(12));
+  EXPECT_THAT(lines[0], StartsWith("'/opt/my tools/merge2d' study grid.toml --output out --only 1 "
+                                   "--quiet  # '/opt/my tools/merge2d' run "));
+}
+
 TEST_F(StudyCommand, APartMayEndBeyondTheLastRunButNotBeginThere) {
   EXPECT_EQ(run({"study", "grid.toml", "-o", "out", "--only", "11-20"}).code, 0);
   EXPECT_EQ(rowFiles(), 2U);
+  const Outcome backwards = run({"study", "grid.toml", "-o", "out", "--only", "2-1"});
+  EXPECT_EQ(backwards.code, 2);
+  EXPECT_THAT(backwards.err, HasSubstr("--only 2-1: the last run comes before the first"));
   const Outcome beyond = run({"study", "grid.toml", "-o", "out", "--only", "13"});
   EXPECT_EQ(beyond.code, 2);
   EXPECT_THAT(beyond.err, HasSubstr("begins with run 13, but the study has 12"));
