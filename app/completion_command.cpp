@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/completion_words.h"
 #include "app/console.h"
 #include "app/usage_error.h"
 #include "src2d/core/suggest.h"
@@ -25,89 +24,60 @@ An installed merge2d has these files in place already.)";
 
 constexpr std::array<std::string_view, 3> kShells = {"bash", "zsh", "fish"};
 
-/// The words that may follow an option; others are file names or anything.
-constexpr std::pair<std::string_view, std::string_view> kChoices[] = {
-    {"--mode", "reference sleep merge merge+sleep"},
-    {"--theme", "light dark print"},
-    {"--format", "png svg apng gif mp4"},
-    {"--context", "osmesa egl"},
-    {"--quality", "l m h p k"},
-    {"-q", "l m h p k"},
-};
-
 /// Prints the names of the scenes and lessons, for a shell.
 constexpr const char* kNames = R"(merge2d list 2>/dev/null | sed -n 's/^  \([^ ]*\) .*/\1/p')";
 
-/// An option as shells are told about it.
-struct OptionWords {
-  std::vector<std::string> names{};  ///< "-o", "--output"
-  std::string help{};                ///< in one line
-  bool takes_value = false;
-  bool takes_folder = false, takes_file = false;
-  std::string_view choices{};  ///< or empty
-};
-
-struct CommandWords {
-  std::string name{}, help{};
-  std::vector<OptionWords> options{};
-  bool takes_scene = false;
-};
-
-std::string inOneLine(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  return text;
+std::string namesOf(const std::vector<CommandWords>& commands) {
+  std::string names;
+  for (const CommandWords& command : commands) {
+    names += (names.empty() ? "" : " ") + command.name;
+  }
+  return names;
 }
 
-OptionWords wordsOf(const CLI::Option& option) {
-  OptionWords words{.help = inOneLine(option.get_description())};
-  for (const std::string& name : option.get_snames()) words.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) words.names.push_back("--" + name);
-  words.takes_value = option.get_type_size() != 0;
-  const std::string type = option.get_type_name();
-  words.takes_folder = type == "DIR";
-  words.takes_file = type.starts_with("FILE");
-  for (const auto& [name, choices] : kChoices) {
-    if (std::ranges::find(words.names, name) != words.names.end()) words.choices = choices;
-  }
-  return words;
+/// How bash completes the value of an option.
+std::string bashValue(const OptionWords& option) {
+  if (option.takes_folder) return "COMPREPLY=($(compgen -d -- \"$cur\")); return";
+  if (option.takes_file) return "COMPREPLY=($(compgen -f -- \"$cur\")); return";
+  if (option.choices.empty()) return "return";
+  return fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$cur\")); {}return",
+                     fmt::join(option.choices, " "),
+                     option.begins_only ? "compopt -o nospace 2>/dev/null; " : "");
 }
 
-std::vector<CommandWords> commandsOf(const CLI::App& program) {
-  std::vector<CommandWords> commands;
-  for (const CLI::App* command : program.get_subcommands({})) {
-    if (command->get_group().empty()) continue;
-    CommandWords words{.name = command->get_name(), .help = inOneLine(command->get_description())};
-    for (const CLI::Option* option : command->get_options()) {
-      if (option->get_positional()) {
-        words.takes_scene = option->get_name() != "SHELL";
-      } else if (!option->get_group().empty()) {
-        words.options.push_back(wordsOf(*option));
-      }
-    }
-    commands.push_back(std::move(words));
+/// How bash completes an argument of a command.
+std::string bashArgument(Argument argument, const std::string& names) {
+  switch (argument) {
+    case Argument::None:
+      return "";
+    case Argument::Scene:
+      return fmt::format(
+          "COMPREPLY=($(compgen -W \"$({})\" -- \"$cur\") $(compgen -f -- \"$cur\"))", kNames);
+    case Argument::File:
+      return "COMPREPLY=($(compgen -f -- \"$cur\"))";
+    case Argument::Shell:
+      return fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$cur\"))", fmt::join(kShells, " "));
+    case Argument::Command:
+      return fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$cur\"))", names);
   }
-  return commands;
+  return "";
 }
 
 std::string bashScript(const std::vector<CommandWords>& commands) {
-  std::string names, cases, values;
+  const std::string names = namesOf(commands);
+  std::string cases, values, arguments;
   for (const CommandWords& command : commands) {
-    names += (names.empty() ? "" : " ") + command.name;
     std::string options;
     for (const OptionWords& option : command.options) {
       options += fmt::format("{}{}", options.empty() ? "" : " ", fmt::join(option.names, " "));
       if (!option.takes_value) continue;
-      std::string words = "return";
-      if (!option.choices.empty()) {
-        words = fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$cur\")); return", option.choices);
-      }
-      if (option.takes_folder) words = "COMPREPLY=($(compgen -d -- \"$cur\")); return";
-      if (option.takes_file) words = "COMPREPLY=($(compgen -f -- \"$cur\")); return";
       for (const std::string& name : option.names) {
-        values += fmt::format("    {}:{}) {} ;;\n", command.name, name, words);
+        values += fmt::format("    {}:{}) {} ;;\n", command.name, name, bashValue(option));
       }
     }
     cases += fmt::format("    {}) options=\"{}\" ;;\n", command.name, options);
+    arguments +=
+        fmt::format("    {}) {} ;;\n", command.name, bashArgument(command.argument, names));
   }
   return fmt::format(R"sh(# bash completion for merge2d, written by `merge2d completion bash`
 _merge2d() {{
@@ -120,21 +90,28 @@ _merge2d() {{
     COMPREPLY=($(compgen -W "{0} --help --version" -- "$cur"))
     return
   fi
+  # bash takes "=" for a word of its own.
+  if [[ "$cur" == "=" ]]; then
+    cur=""
+    [[ "$prev" == -* ]] || return
+  elif [[ "$prev" == "=" ]]; then
+    prev="${{COMP_WORDS[COMP_CWORD-2]}}"
+    [[ "$prev" == -* ]] || return
+  fi
   case "$command:$prev" in
 {1}  esac
   case "$command" in
 {2}  esac
   if [[ "$cur" == -* ]]; then
     COMPREPLY=($(compgen -W "$options" -- "$cur"))
-  elif [[ "$command" == completion ]]; then
-    COMPREPLY=($(compgen -W "{3}" -- "$cur"))
-  else
-    COMPREPLY=($(compgen -W "$({4})" -- "$cur") $(compgen -f -- "$cur"))
+    return
   fi
+  case "$command" in
+{3}  esac
 }}
 complete -o filenames -F _merge2d merge2d
 )sh",
-                     names, values, cases, fmt::join(kShells, " "), kNames);
+                     names, values, cases, arguments);
 }
 
 /// Text inside of single quotes of a shell, without characters that `_arguments` takes as its own.
@@ -152,27 +129,46 @@ std::string zshText(const std::string& text) {
   return out;
 }
 
+/// How zsh completes the value of an option.
+std::string zshValue(const OptionWords& option) {
+  if (!option.takes_value) return "";
+  if (option.takes_folder) return ":folder:_files -/";
+  if (option.takes_file) return ":file:_files";
+  if (option.choices.empty()) return ":value:";
+  if (!option.begins_only) return fmt::format(":value:({})", fmt::join(option.choices, " "));
+  return fmt::format(":value:{{compadd -S \"\" -- {}}}", fmt::join(option.choices, " "));
+}
+
+/// How zsh completes the arguments of a command.
+std::string zshArgument(Argument argument, const std::string& names) {
+  switch (argument) {
+    case Argument::None:
+      return "*::nothing: ";
+    case Argument::Scene:
+      return "*:scene:_merge2d_scenes";
+    case Argument::File:
+      return "*:file:_files";
+    case Argument::Shell:
+      return fmt::format("1:shell:({})", fmt::join(kShells, " "));
+    case Argument::Command:
+      return fmt::format("1:command:({})", names);
+  }
+  return "";
+}
+
 std::string zshScript(const std::vector<CommandWords>& commands) {
+  const std::string all = namesOf(commands);
   std::string names, cases;
   for (const CommandWords& command : commands) {
     names += fmt::format("    '{}:{}'\n", command.name, zshText(command.help));
     cases += fmt::format("    {}) _arguments \\\n", command.name);
     for (const OptionWords& option : command.options) {
-      std::string value;
-      if (option.takes_value) value = ":value:";
-      if (!option.choices.empty()) value = fmt::format(":value:({})", option.choices);
-      if (option.takes_folder) value = ":folder:_files -/";
-      if (option.takes_file) value = ":file:_files";
       for (const std::string& name : option.names) {
-        cases += fmt::format("      '*{}[{}]{}' \\\n", name, zshText(option.help), value);
+        cases +=
+            fmt::format("      '*{}[{}]{}' \\\n", name, zshText(option.help), zshValue(option));
       }
     }
-    if (command.name == "completion") {
-      cases += fmt::format("      '1:shell:({})' ;;\n", fmt::join(kShells, " "));
-    } else {
-      cases += command.takes_scene ? "      '*:scene:_merge2d_scenes' ;;\n"
-                                   : "      '*::nothing: ' ;;\n";
-    }
+    cases += fmt::format("      '{}' ;;\n", zshArgument(command.argument, all));
   }
   return fmt::format(R"sh(#compdef merge2d
 # zsh completion for merge2d, written by `merge2d completion zsh`
@@ -216,9 +212,11 @@ std::string fishScript(const std::vector<CommandWords>& commands) {
                        command.name, fishText(command.help));
     const std::string here =
         fmt::format("complete -c merge2d -n '__fish_seen_subcommand_from {}'", command.name);
-    if (command.name == "completion") {
+    if (command.argument == Argument::Shell) {
       out += fmt::format("{} -f -a '{}'\n", here, fmt::join(kShells, " "));
-    } else if (command.takes_scene) {
+    } else if (command.argument == Argument::Command) {
+      out += fmt::format("{} -f -a '{}'\n", here, namesOf(commands));
+    } else if (command.argument == Argument::Scene) {
       out += fmt::format("{} -a {}\n", here, fishText(fmt::format("({})", kNames)));
     }
     for (const OptionWords& option : command.options) {
@@ -227,7 +225,9 @@ std::string fishScript(const std::vector<CommandWords>& commands) {
         out += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
       }
       if (option.takes_value) out += option.takes_file || option.takes_folder ? " -r" : " -x";
-      if (!option.choices.empty()) out += fmt::format(" -a '{}'", option.choices);
+      if (!option.choices.empty()) {
+        out += fmt::format(" -a '{}'", fmt::join(option.choices, " "));
+      }
       out += " -d " + fishText(option.help) + "\n";
     }
   }
@@ -238,7 +238,7 @@ void complete(const CLI::App& program, const std::string& shell) {
   if (shell.empty()) {
     throw UsageError(fmt::format("completion needs a shell: {}", fmt::join(kShells, ", ")));
   }
-  const std::vector<CommandWords> commands = commandsOf(program);
+  const std::vector<CommandWords> commands = commandWordsOf(program);
   if (shell == "bash") return print(bashScript(commands));
   if (shell == "zsh") return print(zshScript(commands));
   if (shell == "fish") return print(fishScript(commands));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <future>
@@ -44,7 +45,7 @@ constexpr std::string_view kPageStart =
 
 struct LessonOptions : SceneOptions {
   std::string output;  ///< empty: frames/<name>/lesson.html
-  bool live = true, embed = false, course = false;
+  bool no_live = false, embed = false, course = false;
   std::string language;  ///< of the page's own words; empty: English
 };
 
@@ -214,7 +215,7 @@ void writeCourse(const LessonOptions& options, const Console& console) {
                       .next_title = i + 1 < lessons.size() ? lessons[i + 1].title : "",
                       .next_file = i + 1 < lessons.size() ? fileOf(lessons[i + 1]) : "index.html"};
     if (!options.language.empty()) content.language = options.language;
-    write(fileOf(lesson), makePage(content, options.live));
+    write(fileOf(lesson), makePage(content, !options.no_live));
   }
   write("index.html", makeCourseIndex(entries));
 }
@@ -234,7 +235,14 @@ void run(const LessonOptions& options) {
       folder ? lessonPage(*folder, options, console, file) : scenePage(options, console, file);
   content.embed = options.embed;
   if (!options.language.empty()) content.language = options.language;
-  file->write(content, options.live);
+  file->write(content, !options.no_live);
+}
+
+std::string readLanguage(const std::string& text) {
+  constexpr std::array<std::string_view, 3> kLanguages = {"en", "de", "fr"};
+  if (isAmong(text, kLanguages)) return text;
+  throw UsageError(fmt::format("--language must be en, de or fr, but is '{}'{}", text,
+                               didYouMean(text, kLanguages)));
 }
 
 }  // namespace
@@ -252,14 +260,13 @@ void addLessonCommand(CLI::App& program, Action& action) {
       "The page; by default frames/NAME/lesson.html; - is the standard output. Of --course: a "
       "folder");
   command->add_flag("--course", options->course, "All lessons, and a page that lists them");
-  command
-      ->add_option("--language", options->language,
-                   "Of the page's own words: en, de or fr; what a lesson says stays as it is")
-      ->check(CLI::IsMember({"en", "de", "fr"}))
-      ->type_name("LANGUAGE");
+  addOption(
+      *command, "--language", "en|de|fr",
+      [options](const std::string& s) { options->language = readLanguage(s); },
+      "Of the page's own words; the text of a lesson stays as it is");
   command->add_flag("--embed", options->embed,
                     "A compact page for slides, notebooks and frames in other pages");
-  command->add_flag("!--no-live", options->live,
+  command->add_flag("--no-live", options->no_live,
                     "Leave the engine out (0.7 MB): the page plays the prepared run, and nobody "
                     "can take it over");
   addGeneralOptions(*command, *options);

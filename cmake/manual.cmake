@@ -22,12 +22,14 @@ find_program(HELP2MAN help2man)
 find_program(GZIP gzip)
 # `name` is that of the page, `summary` its first line; the rest are arguments of the program.
 function(merge2d_man_page name summary)
+  string(TOUPPER ${name} heading)
   set(output ${manual_dir}/${name}.1)
   add_custom_command(OUTPUT ${output}.gz
     COMMAND ${CMAKE_COMMAND} -E env LC_ALL=C.UTF-8 SOURCE_DATE_EPOCH=${MERGE2D_MANUAL_DATE}
             ${HELP2MAN} --no-info "--version-string=merge2d ${PROJECT_VERSION}" "--name=${summary}"
             --output=${output} "$<TARGET_FILE:merge2d> ${ARGN}"
-    COMMAND sed -i -e "/^.SH NAME/{n" -e "s/^merge2d/${name}/" -e "}" ${output}
+    COMMAND sed -i -e "/^.SH NAME/{n" -e "s/^merge2d/${name}/" -e "}"
+            -e "s/^[.]TH MERGE2D /.TH ${heading} /" ${output}
     COMMAND sed -i -f ${PROJECT_SOURCE_DIR}/cmake/manual.sed ${output}
     COMMAND ${GZIP} -9nf ${output}
     DEPENDS merge2d ${PROJECT_SOURCE_DIR}/cmake/manual.sed VERBATIM)

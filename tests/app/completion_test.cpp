@@ -37,6 +37,38 @@ TEST_F(Completion, OffersCommandsOptionsValuesAndScenes) {
   EXPECT_THAT(offered({"merge2d", "completion", "f"}), testing::ElementsAre("fish"));
 }
 
+TEST_F(Completion, OffersArgumentsBehindASwitch) {
+  EXPECT_THAT(offered({"merge2d", "run", "--json", "tower-pl"}), Contains("tower-platform"));
+  EXPECT_THAT(offered({"merge2d", "render", "-s", "tower-pl"}), Contains("tower-platform"));
+}
+
+TEST_F(Completion, OffersTheValuesThatTheCommandTakes) {
+  EXPECT_THAT(offered({"merge2d", "compare", "--format", ""}), testing::ElementsAre("png", "svg"));
+  EXPECT_THAT(offered({"merge2d", "render", "--format", ""}), Contains("mp4"));
+  EXPECT_THAT(offered({"merge2d", "render", "--overlay", "for"}), testing::ElementsAre("forces"));
+  EXPECT_THAT(offered({"merge2d", "lesson", "--language", ""}),
+              testing::ElementsAre("en", "de", "fr"));
+  EXPECT_THAT(offered({"merge2d", "run", "--set", "merging.vel"}),
+              testing::ElementsAre("merging.velocity="));
+  EXPECT_THAT(offered({"merge2d", "help", "st"}), testing::ElementsAre("study", "step"));
+}
+
+/// Bash takes the "=" for a word.
+TEST_F(Completion, OffersValuesBehindAnEqualsSign) {
+  EXPECT_THAT(offered({"merge2d", "run", "--mode", "="}), Contains("reference"));
+  EXPECT_THAT(offered({"merge2d", "run", "--mode", "=", "ref"}), testing::ElementsAre("reference"));
+  EXPECT_THAT(offered({"merge2d", "run", "--set", "merging.velocity", "="}),
+              testing::ElementsAre(""));
+}
+
+TEST_F(Completion, OffersFilesAloneWhereNoSceneIsMeant) {
+  write("grid.toml", "");
+  EXPECT_THAT(offered({"merge2d", "study", ""}),
+              AllOf(Contains("grid.toml"), Not(Contains("tower-platform"))));
+  EXPECT_THAT(offered({"merge2d", "cycles", "gr"}), testing::ElementsAre("grid.toml"));
+  EXPECT_THAT(offered({"merge2d", "list", ""}), testing::ElementsAre(""));
+}
+
 TEST_F(Completion, OffersFilesWhereTheyAreMeant) {
   write("my-scene.toml", kStack);
   fs::create_directories(folder() / "my-folder");

@@ -51,6 +51,12 @@ TEST_F(ProgramTest, LessonSuggestsLessonsAndScenes) {
   EXPECT_THAT(refusal("ball.toml"), HasSubstr("there is no file ball.toml"));
 }
 
+TEST_F(ProgramTest, LessonNamesTheLanguagesOfThePage) {
+  const Outcome unknown = run({"lesson", "books", "--language", "dd"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("--language must be en, de or fr, but is 'dd'"));
+}
+
 TEST_F(ProgramTest, LessonCarriesTheEngineUnlessItIsLeftOut) {
   write("ball.toml", "format = 1\n[[body]]\ncircle = 0.5\n");
   EXPECT_EQ(run({"lesson", "ball.toml", "--steps", "2", "-o", "live.html"}).code, 0);

@@ -1,4 +1,4 @@
-# The manual pages show commands and files line by line, and lost no character to an encoding.
+# The manual pages are headed by their names, show commands and files line by line, and lost no character to an encoding.
 cmake_minimum_required(VERSION 3.25)
 file(GLOB pages ${MANUAL}/*.1.gz)
 if(NOT pages)
@@ -6,6 +6,12 @@ if(NOT pages)
 endif()
 foreach(page IN LISTS pages)
   execute_process(COMMAND ${GZIP} -dc ${page} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  get_filename_component(name ${page} NAME_WE)
+  string(TOUPPER "\n.TH ${name} " heading)
+  string(FIND "${text}" "${heading}" at)
+  if(at LESS 0)
+    message(FATAL_ERROR "${page} is not headed by its name")
+  endif()
   if(NOT text MATCHES "\n\\.SH EXAMPLES\n")
     message(FATAL_ERROR "${page} has no examples")
   endif()
