@@ -31,6 +31,15 @@ m2_piece pieceOf(const ConvexShape& shape) {
   return piece;
 }
 
+/// A name stands for one body of the run, also after that was removed: as in scenes.
+void requireNewName(const std::vector<BodyInfo>& bodies, const std::string& name) {
+  if (name.empty()) return;
+  const auto has_it = [&](const BodyInfo& body) { return body.name == name; };
+  if (std::any_of(bodies.begin(), bodies.end(), has_it)) {
+    throw InputError(fmt::format("two bodies are called '{}'", name));
+  }
+}
+
 /// Of the hand's spring: how fast it would swing on its own [rad/s].
 constexpr double kHandSwing = 12.0;
 
@@ -78,7 +87,9 @@ m2_status m2_world_add_body(m2_world* world, const m2_body_def* def, m2_body* bo
       throw merge2d::InputError(
           fmt::format("a world has at most {} bodies", merge2d::SceneLimits::kBodies));
     }
-    const BodyId id = w.world.addBody(merge2d::toDesc(given(def, "def")));
+    const merge2d::BodyDesc desc = merge2d::toDesc(given(def, "def"));
+    merge2d::requireNewName(w.world.bodies(), desc.name);
+    const BodyId id = w.world.addBody(desc);
     if (body != nullptr) *body = static_cast<m2_body>(id);
   });
 }

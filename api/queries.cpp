@@ -52,6 +52,15 @@ m2_status m2_world_query_point(m2_world* world, m2_vec point, m2_body* bodies, s
 
 m2_status m2_world_query_box(m2_world* world, m2_vec lower, m2_vec upper, m2_body* bodies,
                              size_t capacity, size_t* count) {
+  const bool finite = std::isfinite(upper.x - lower.x) && std::isfinite(upper.y - lower.y);
+  if (finite && (lower.x >= upper.x || lower.y >= upper.y)) {
+    return guarded([&] {
+      throw merge2d::InputError(
+          fmt::format("the lower corner of a box is left of and below the upper one, but they are "
+                      "({}, {}) and ({}, {})",
+                      lower.x, lower.y, upper.x, upper.y));
+    });
+  }
   m2_shape box = m2_box(upper.x - lower.x, upper.y - lower.y);
   return m2_world_query_shape(world, &box, {0.5 * (lower.x + upper.x), 0.5 * (lower.y + upper.y)},
                               0.0, bodies, capacity, count);

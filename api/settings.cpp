@@ -32,8 +32,18 @@ std::vector<std::string> settingNames() {
   throw InputError(fmt::format("there is no setting '{}'{}", key, didYouMean(key, views)));
 }
 
+/// A world has functions of its own for some keys of its scene.
+[[noreturn]] void refuseKeyOfTheScene(const std::string& key) {
+  std::string instead;
+  if (key == "step") instead = ": set its time step instead";
+  if (key == "gravity") instead = ": set its gravity instead";
+  throw InputError(fmt::format("'{}' is of the scene, not a setting of a world{}", key, instead));
+}
+
 void requireKey(const std::string& key, bool of_scene) {
   std::vector<std::string> names = settingNames();
+  const auto* end = std::end(kOfTheScene);
+  if (!of_scene && std::find(std::begin(kOfTheScene), end, key) != end) refuseKeyOfTheScene(key);
   if (of_scene) names.insert(names.end(), std::begin(kOfTheScene), std::end(kOfTheScene));
   if (std::find(names.begin(), names.end(), key) == names.end()) refuseKey(key, names);
 }

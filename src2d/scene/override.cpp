@@ -111,7 +111,17 @@ bool isDottedKey(std::string_view key) {
          !key.ends_with('.') && key.find("..") == std::string_view::npos;
 }
 
-/// The table `key = value`; a bare word is a text.
+/// A text as TOML has it.
+std::string tomlText(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+/// The table `key = value`; a bare word is a text, and so is any title.
 toml::table parseAssignment(std::string_view key, const std::string& value,
                             const std::string& place) {
   const auto parse = [&](std::string_view written) {
@@ -119,12 +129,14 @@ toml::table parseAssignment(std::string_view key, const std::string& value,
     return parseToml(SourceText(place, text));
   };
   if (value.find_first_of("\n\r") != std::string::npos) fail(place, "a value is one line");
+  const bool in_quotes = value.starts_with('"') || value.starts_with('\'');
+  if (key == "title" && !in_quotes) return parse(tomlText(value));
   try {
     return parse(value);
   } catch (const InputError&) {
     const bool word = !value.empty() && std::isalpha(static_cast<unsigned char>(value[0])) != 0 &&
                       value.find_first_of("\"\\[]{}") == std::string::npos;
-    if (word) return parse('"' + value + '"');
+    if (word) return parse(tomlText(value));
   }
   fail(place, fmt::format("'{}' is not a number, true or false, \"a text\" or [a, list]", value));
 }

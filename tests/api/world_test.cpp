@@ -276,9 +276,28 @@ TEST(PublicWorld, RefusesWhatMakesNoSense) {
   EXPECT_THAT(refusal([&] { world.set("merging.velocty", 0.1); }),
               HasSubstr("did you mean 'merging.velocity'"));
   EXPECT_THAT(refusal([&] { world.set("merging.velocity", -1.0); }), HasSubstr("0 or more"));
-  EXPECT_THAT(refusal([&] { world.set("gravity", "[0, 0]"); }), HasSubstr("no setting"));
+  EXPECT_THAT(refusal([&] { world.set("gravity", "[0, 0]"); }),
+              HasSubstr("'gravity' is of the scene, not a setting of a world: set its gravity"));
+  EXPECT_THAT(refusal([&] {
+                world.inBox({1.0, 1.0}, {0.0, 2.0});
+              }),
+              HasSubstr("the lower corner of a box is left of and below the upper one"));
   EXPECT_THAT(refusal([&] { world.why(1, 1); }), HasSubstr("no pair"));
   EXPECT_THAT(refusal([&] { world.restore("rubbish"); }), HasSubstr("saved state"));
+}
+
+TEST(PublicWorld, ANameStandsForOneBodyOfARun) {
+  World world(towerOf(2));
+  const auto add = [&](const char* name) {
+    world.add({.name = name, .position = {9.0, 9.0}, .shapes = {Shape::circle(0.5)}});
+  };
+  EXPECT_THAT(refusal([&] { add("box 1"); }), HasSubstr("two bodies are called 'box 1'"));
+  world.removeBody(world.find("box 1"));
+  EXPECT_THAT(refusal([&] { add("box 1"); }), HasSubstr("two bodies are called 'box 1'"));
+  add("");
+  add("");
+  add("box 2");
+  EXPECT_EQ(world.find("box 2"), 5U);
 }
 
 TEST(PublicWorld, SettingsAreReadAsTheyWereSet) {

@@ -50,6 +50,13 @@ TEST(Override, ATextNeedsNoQuotes) {
   EXPECT_EQ(with({{"solver.method", "\"pgs\""}}).settings.solver.method, SolverMethod::Pgs);
 }
 
+TEST(Override, ATitleIsAnyLine) {
+  for (const char* title : {"a \"quote\"", "3", "true", "[list", "back\\slash", "Füße = 2"}) {
+    EXPECT_EQ(with({{"title", title}}).title, title);
+  }
+  EXPECT_THROW(with({{"title", "two\nlines"}}), InputError);
+}
+
 TEST(Override, ReachesBodiesByNameAndByNumber) {
   const Scene scene = with({{"body.a.friction", "0.1"},
                             {"body.dotted.name.friction", "0.2"},
