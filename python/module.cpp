@@ -9,8 +9,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <new>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 namespace py = pybind11;
 
@@ -22,6 +25,20 @@ using merge2d::Vec2;
 /// A place, a velocity or another pair of numbers.
 struct Pair {
   double first, second;
+};
+/// A number, a whole number, a text, a switch: the plain type of an argument.
+template <class T>
+struct Plain {
+  T value;
+  operator T() const { return value; }  // NOLINT(google-explicit-constructor): stands for a T
+};
+using Real = Plain<double>;
+using Whole = Plain<std::int64_t>;
+using Text = Plain<std::string>;
+using Flag = Plain<bool>;
+/// (x, y, visible height), or nothing: the camera of the scene.
+struct CameraArg {
+  std::optional<std::tuple<double, double, double>> value;
 };
 /// A body by its number or its name.
 struct BodyArg {
@@ -65,6 +82,56 @@ BodyArg bodyArgOf(const py::handle& object) {
   throw py::type_error("a body goes by its number or its name, not by " + shown(object));
 }
 
+/// A whole number, or nothing; one of more than 64 bits is an error.
+std::optional<std::int64_t> wholeOf(const py::handle& object) {
+  if (PyIndex_Check(object.ptr()) == 0) return std::nullopt;
+  const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
+  if (!number) return PyErr_Clear(), std::nullopt;
+  int overflow = 0;
+  const std::int64_t value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+  if (overflow != 0) throw py::value_error("the number " + shown(object) + " is too large");
+  return value;
+}
+
+template <class T>
+constexpr const char* kKindOf = "key frames, each (time, x, y, angle)";
+template <>
+constexpr const char* kKindOf<double> = "a number";
+template <>
+constexpr const char* kKindOf<std::int64_t> = "a whole number";
+template <>
+constexpr const char* kKindOf<std::string> = "a text";
+template <>
+constexpr const char* kKindOf<bool> = "True or False";
+
+/// What an object is as a T, or nothing for an object of another kind.
+template <class T>
+std::optional<T> plainOf(const py::handle& object) {
+  if constexpr (std::is_same_v<T, double>) {
+    return numberOf(object);
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    return wholeOf(object);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    try {
+      return py::cast<bool>(object);
+    } catch (const py::cast_error&) {
+      return std::nullopt;
+    }
+  } else {
+    if (!py::isinstance<py::str>(object)) return std::nullopt;
+    return py::cast<std::string>(object);
+  }
+}
+
+CameraArg cameraArgOf(const py::handle& object) {
+  if (object.is_none()) return {};
+  try {
+    return {py::cast<std::tuple<double, double, double>>(object)};
+  } catch (const py::cast_error&) {
+    throw py::type_error("a camera is (x, y, visible height), not " + shown(object));
+  }
+}
+
 }  // namespace
 
 /// Arguments of these types are refused in words that name no C++ types.
@@ -79,6 +146,28 @@ struct type_caster<Pair> {
   }
   static handle cast(const Pair& pair, return_value_policy, handle) {
     return make_tuple(pair.first, pair.second).release();
+  }
+};
+
+template <class T>
+struct type_caster<Plain<T>> {
+  PYBIND11_TYPE_CASTER(Plain<T>, make_caster<T>::name);
+  bool load(handle object, bool) {
+    std::optional<T> plain = plainOf<T>(object);
+    if (!plain) {
+      throw type_error(std::string(kKindOf<T>) + " is needed, not " + shown(object));
+    }
+    value.value = *std::move(plain);
+    return true;
+  }
+};
+
+template <>
+struct type_caster<CameraArg> {
+  PYBIND11_TYPE_CASTER(CameraArg, const_name("Optional[Tuple[float, float, float]]"));
+  bool load(handle object, bool) {
+    value = cameraArgOf(object);
+    return true;
   }
 };
 
@@ -97,8 +186,32 @@ namespace {
 
 Vec2 vec(const Pair& p) { return {p.first, p.second}; }
 
+/// Memory that is zero at first. pybind11 hands an object to its methods also where its constructor
+/// threw; one of zeros owns nothing and refuses calls, as one that was moved from does.
+struct ZeroedAtFirst {
+  static void* operator new(std::size_t size) {
+    void* memory = std::calloc(1, size);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+  }
+  static void operator delete(void* memory) { std::free(memory); }
+};
+
+class PyScene : public ZeroedAtFirst, public merge2d::Scene {
+ public:
+  PyScene() = default;
+  PyScene(merge2d::Scene&& scene) : Scene(std::move(scene)) {}
+  PyScene(const PyScene& other) : ZeroedAtFirst(), Scene(other.made()) {}
+
+ private:
+  const Scene& made() const {
+    if (get() == nullptr) throw merge2d::InputError("this scene was not made");
+    return *this;
+  }
+};
+
 /// A world, and who uses it: Python's lock is not held while it steps.
-class PyWorld {
+class PyWorld : public ZeroedAtFirst {
  public:
   PyWorld(const merge2d::Scene& scene, merge2d::Mode mode) : world_(scene, mode) {}
 
@@ -157,7 +270,8 @@ void stepMany(merge2d::World& world, std::int64_t count) {
   }
 }
 
-void step(PyWorld& self, std::int64_t count) {
+void step(PyWorld& self, Whole steps) {
+  const std::int64_t count = steps;
   if (count < 0) throw py::value_error("the number of steps must be 0 or more");
   const Use world(self);
   const py::gil_scoped_release unlocked;
@@ -287,15 +401,6 @@ merge2d::Mode modeOf(const std::string& name) {
   return static_cast<merge2d::Mode>(mode);
 }
 
-template <class T>
-constexpr const char* kKindOf = "made of other numbers";  // key frames
-template <>
-constexpr const char* kKindOf<double> = "a number";
-template <>
-constexpr const char* kKindOf<std::string> = "a text";
-template <>
-constexpr const char* kKindOf<bool> = "True or False";
-
 /// An argument of a function that takes many; TypeError names it.
 template <class T>
 T argument(const py::dict& args, const char* name) {
@@ -378,8 +483,8 @@ Body addBody(To& to, const py::dict& args) {
 /// Adds a spring to a scene or a world.
 template <class Home>
 merge2d::Spring addSpring(Home& home, const BodyArg& body, const Pair& anchor, const Pair& to,
-                          const std::optional<BodyArg>& to_body, double stiffness, double damping,
-                          double rest_length) {
+                          const std::optional<BodyArg>& to_body, Real stiffness, Real damping,
+                          Real rest_length) {
   merge2d::SpringDef def = merge2d::springDef();
   def.body = bodyOf(home, body);
   def.anchor = vec(anchor);
@@ -437,6 +542,27 @@ void change(PyWorld& self, const BodyArg& body, Do&& work) {
   work(*world, bodyOf(*world, body));
 }
 
+/// An argument that is a number of a smaller range.
+template <class T>
+T within(std::int64_t number, const char* name) {
+  if (std::in_range<T>(number)) return static_cast<T>(number);
+  throw py::value_error(std::string("'") + name + "' must be 0 or more" +
+                        (number < 0 ? "" : " and not so large") + ", not " +
+                        std::to_string(number));
+}
+
+/// The number of a spring or a joint.
+std::uint32_t numberFrom(const Whole& number) {
+  if (std::in_range<std::uint32_t>(number.value)) return static_cast<std::uint32_t>(number.value);
+  throw py::index_error("there is no number " + std::to_string(number.value));
+}
+
+/// The library refuses sizes that no picture has.
+int pixels(const Whole& number) {
+  constexpr std::int64_t kMany = 1'000'000;
+  return static_cast<int>(std::clamp(number.value, -kMany, kMany));
+}
+
 void bindShapes(py::module_& m) {
   py::class_<merge2d::Shape>(m, "Shape").def("__repr__", [](const merge2d::Shape& shape) {
     static constexpr const char* kKinds[] = {"circle", "box", "polygon"};
@@ -444,11 +570,11 @@ void bindShapes(py::module_& m) {
   });
   m.def(
       "circle",
-      [](double radius, const Pair& center) { return merge2d::Shape::circle(radius, vec(center)); },
+      [](Real radius, const Pair& center) { return merge2d::Shape::circle(radius, vec(center)); },
       py::arg("radius"), py::arg("center"));
   m.def(
       "box",
-      [](double width, double height, const Pair& center, double angle) {
+      [](Real width, Real height, const Pair& center, Real angle) {
         return merge2d::Shape::box(width, height, vec(center), angle);
       },
       py::arg("width"), py::arg("height"), py::arg("center"), py::arg("angle"));
@@ -460,42 +586,45 @@ void bindShapes(py::module_& m) {
 }
 
 void bindScene(py::module_& m) {
-  using merge2d::Scene;
+  using Scene = PyScene;
   py::class_<Scene>(m, "Scene")
       .def(py::init<>())
       .def(py::init<const Scene&>())
-      .def_static("load", &Scene::load)
-      .def_static("parse",
-                  [](const std::string& text, const std::string& source,
-                     const std::vector<std::string>& changes) {
-                    return Scene::parse(text, source, changes);
+      .def_static("load",
+                  [](const std::string& name_or_path, const std::vector<std::string>& changes) {
+                    return Scene(merge2d::Scene::load(name_or_path, changes));
                   })
-      .def("set",
-           [](Scene& s, const std::string& key, const std::string& value) { s.set(key, value); })
-      .def("get", [](const Scene& s, const std::string& key) { return s.get(key); })
+      .def_static(
+          "parse",
+          [](const Text& text, const Text& source, const std::vector<std::string>& changes) {
+            return Scene(merge2d::Scene::parse(text.value, source, changes));
+          })
+      .def("set", [](Scene& s, const Text& key, const Text& value) { s.set(key, value); })
+      .def("get", [](const Scene& s, const Text& key) { return s.get(key); })
       .def("add_body", &addBody<Scene>)
       .def("add_spring", &addSpring<Scene>)
       .def("add_joint", [](Scene& s, const py::dict& args) { return s.add(jointDef(s, args)); })
       .def("add_impulse",
-           [](Scene& s, const BodyArg& body, const Pair& at, const Pair& impulse, double time) {
+           [](Scene& s, const BodyArg& body, const Pair& at, const Pair& impulse, Real time) {
              s.addImpulse(bodyOf(s, body), vec(at), vec(impulse), time);
            })
       .def("add_force",
-           [](Scene& s, const BodyArg& body, const Pair& at, const Pair& force, double from,
-              double until) { s.addForce(bodyOf(s, body), vec(at), vec(force), from, until); })
-      .def("add_magnet", [](Scene& s, const BodyArg& body, double from,
-                            double until) { s.addMagnet(bodyOf(s, body), from, until); })
+           [](Scene& s, const BodyArg& body, const Pair& at, const Pair& force, Real from,
+              Real until) { s.addForce(bodyOf(s, body), vec(at), vec(force), from, until); })
+      .def("add_magnet", [](Scene& s, const BodyArg& body, Real from,
+                            Real until) { s.addMagnet(bodyOf(s, body), from, until); })
       .def("add_emitter",
-           [](Scene& s, const py::dict& args, double every, std::uint32_t count, double start,
-              const Pair& spread, std::uint64_t seed) {
+           [](Scene& s, const py::dict& args, Real every, Whole count, Real start,
+              const Pair& spread, Whole seed) {
              addBodyTo(args, [&](const merge2d::BodyDef& def) {
-               s.addEmitter(def, every, count, start, vec(spread), seed);
+               s.addEmitter(def, every, within<std::uint32_t>(count, "count"), start, vec(spread),
+                            within<std::uint64_t>(seed, "seed"));
                return Body{0};
              });
            })
       .def(
           "set_camera",
-          [](Scene& s, const Pair& center, double height) { s.setCamera(vec(center), height); },
+          [](Scene& s, const Pair& center, Real height) { s.setCamera(vec(center), height); },
           py::arg("center"), py::arg("height"),
           "The view of pictures: `height` metres about `center` [m].")
       .def(
@@ -510,7 +639,7 @@ void bindScene(py::module_& m) {
       .def("body_count", &Scene::bodyCount)
       .def("to_toml", &Scene::toToml)
       .def("warnings", &Scene::warnings)
-      .def("page", [](const Scene& s, const std::string& mode, bool live) {
+      .def("page", [](const Scene& s, const Text& mode, Flag live) {
         const merge2d::Mode m2 = modeOf(mode);
         const py::gil_scoped_release unlocked;
         return merge2d::scenePage(s, m2, live);
@@ -518,7 +647,7 @@ void bindScene(py::module_& m) {
 }
 
 void bindTime(py::class_<PyWorld>& c) {
-  c.def(py::init([](const merge2d::Scene& scene, const std::string& mode) {
+  c.def(py::init([](const PyScene& scene, const Text& mode) {
      return std::make_unique<PyWorld>(scene, modeOf(mode));
    }))
       .def("step", &step, py::arg("count") = 1,
@@ -528,22 +657,25 @@ void bindTime(py::class_<PyWorld>& c) {
       .def("time", [](PyWorld& w) { return Use(w)->time(); })
       .def("time_step", [](PyWorld& w) { return Use(w)->timeStep(); })
       .def(
-          "set_time_step", [](PyWorld& w, double h) { Use(w)->setTimeStep(h); }, py::arg("h"))
+          "set_time_step", [](PyWorld& w, Real h) { Use(w)->setTimeStep(h); }, py::arg("h"))
       .def("mode", [](PyWorld& w) { return m2_mode_name(static_cast<m2_mode>(Use(w)->mode())); })
-      .def("set_mode", [](PyWorld& w, const std::string& mode) { Use(w)->setMode(modeOf(mode)); })
+      .def("set_mode", [](PyWorld& w, const Text& mode) { Use(w)->setMode(modeOf(mode)); })
       .def("gravity",
            [](PyWorld& w) {
              const Vec2 g = Use(w)->gravity();
              return Pair(g.x, g.y);
            })
       .def("set_gravity", [](PyWorld& w, const Pair& g) { Use(w)->setGravity(vec(g)); })
-      .def("set", [](PyWorld& w, const std::string& k, const std::string& v) { Use(w)->set(k, v); })
-      .def("get", [](PyWorld& w, const std::string& key) { return Use(w)->get(key); })
+      .def("set", [](PyWorld& w, const Text& k, const Text& v) { Use(w)->set(k, v); })
+      .def("get", [](PyWorld& w, const Text& key) { return Use(w)->get(key); })
       .def("save", [](PyWorld& w) { return py::bytes(Use(w)->save()); })
       .def(
           "restore",
-          [](PyWorld& w, const py::bytes& bytes, bool other_settings) {
-            Use(w)->restore(std::string_view(bytes), other_settings);
+          [](PyWorld& w, const py::object& state, Flag other_settings) {
+            if (!py::isinstance<py::bytes>(state)) {
+              throw py::type_error("a saved state is bytes, not " + shown(state));
+            }
+            Use(w)->restore(std::string_view(py::bytes(state)), other_settings);
           },
           py::arg("state"), py::arg("other_settings"));
 }
@@ -557,8 +689,8 @@ void bindChanges(py::class_<PyWorld>& c) {
         })
       .def("add_spring",
            [](PyWorld& w, const BodyArg& body, const Pair& anchor, const Pair& to,
-              const std::optional<BodyArg>& to_body, double stiffness, double damping,
-              double rest_length) {
+              const std::optional<BodyArg>& to_body, Real stiffness, Real damping,
+              Real rest_length) {
              const Use world(w);
              return addSpring(*world, body, anchor, to, to_body, stiffness, damping, rest_length);
            })
@@ -574,14 +706,14 @@ void bindChanges(py::class_<PyWorld>& c) {
           },
           py::arg("body"), "Removes a body with its joints and springs.")
       .def(
-          "remove_spring", [](PyWorld& w, std::uint32_t s) { Use(w)->removeSpring(s); },
+          "remove_spring", [](PyWorld& w, Whole s) { Use(w)->removeSpring(numberFrom(s)); },
           py::arg("spring"), "Removes a spring by its number.")
       .def(
-          "remove_joint", [](PyWorld& w, std::uint32_t j) { Use(w)->removeJoint(j); },
+          "remove_joint", [](PyWorld& w, Whole j) { Use(w)->removeJoint(numberFrom(j)); },
           py::arg("joint"), "Removes a joint by its number.")
       .def(
           "move_spring",
-          [](PyWorld& w, std::uint32_t s, const Pair& to) { Use(w)->moveSpring(s, vec(to)); },
+          [](PyWorld& w, Whole s, const Pair& to) { Use(w)->moveSpring(numberFrom(s), vec(to)); },
           py::arg("spring"), py::arg("to"),
           "Moves the end of a spring that holds to the world [m].")
       .def(
@@ -612,21 +744,21 @@ void bindChanges(py::class_<PyWorld>& c) {
           "A force [N] at a world point [m], during the next step.")
       .def(
           "set_pose",
-          [](PyWorld& w, const BodyArg& b, const Pair& at, double angle) {
+          [](PyWorld& w, const BodyArg& b, const Pair& at, Real angle) {
             change(w, b, [&](World& world, Body body) { world.setPose(body, vec(at), angle); });
           },
           py::arg("body"), py::arg("center"), py::arg("angle"),
           "Places the centre of mass [m], turned by `angle` [rad]. The body leaves its collection.")
       .def(
           "set_velocity",
-          [](PyWorld& w, const BodyArg& b, const Pair& v, double spin) {
+          [](PyWorld& w, const BodyArg& b, const Pair& v, Real spin) {
             change(w, b, [&](World& world, Body body) { world.setVelocity(body, vec(v), spin); });
           },
           py::arg("body"), py::arg("velocity"), py::arg("spin"),
           "Of the centre of mass [m/s], and [rad/s]. The body leaves its collection.")
       .def(
           "set_friction",
-          [](PyWorld& w, const BodyArg& b, double friction) {
+          [](PyWorld& w, const BodyArg& b, Real friction) {
             change(w, b, [&](World& world, Body body) { world.setFriction(body, friction); });
           },
           py::arg("body"), py::arg("friction"), "The coefficient of its surface.")
@@ -698,7 +830,7 @@ void bindRecords(py::class_<PyWorld>& c) {
       .def("springs", [](PyWorld& w) { return copy(Use(w)->springs()); })
       .def("collection_array", &collectionArray)
       .def("events", [](PyWorld& w) { return copy(Use(w)->events()); })
-      .def("note_decisions", [](PyWorld& w, bool on) { Use(w)->noteDecisions(on); })
+      .def("note_decisions", [](PyWorld& w, Flag on) { Use(w)->noteDecisions(on); })
       .def("decisions", [](PyWorld& w) { return copy(Use(w)->decisions()); })
       .def("why",
            [](PyWorld& w, const BodyArg& a, const BodyArg& b) {
@@ -719,7 +851,7 @@ void bindRecords(py::class_<PyWorld>& c) {
           "The bodies that touch or overlap an upright box [m], ascending.")
       .def(
           "touching",
-          [](PyWorld& w, const merge2d::Shape& shape, const Pair& at, double angle) {
+          [](PyWorld& w, const merge2d::Shape& shape, const Pair& at, Real angle) {
             return found(Use(w)->touching(shape, vec(at), angle));
           },
           py::arg("shape"), py::arg("at"), py::arg("angle") = 0.0,
@@ -729,19 +861,19 @@ void bindRecords(py::class_<PyWorld>& c) {
            "The first body on the way: body, collection, fraction, point, normal; or None.")
       .def(
           "render",
-          [](PyWorld& w, int width, int height, const std::string& overlays,
-             const std::string& theme, bool transparent,
-             const std::optional<std::tuple<double, double, double>>& camera) {
-            return render(w, {width, height, overlays, theme, transparent, camera});
+          [](PyWorld& w, Whole width, Whole height, const Text& overlays, const Text& theme,
+             Flag transparent, const CameraArg& camera) {
+            return render(
+                w, {pixels(width), pixels(height), overlays, theme, transparent, camera.value});
           },
           py::arg("width"), py::arg("height"), py::arg("overlays"), py::arg("theme"),
           py::arg("transparent"), py::arg("camera"))
       .def(
           "write_png",
-          [](PyWorld& w, const std::string& path, int width, int height,
-             const std::string& overlays, const std::string& theme, bool transparent,
-             const std::optional<std::tuple<double, double, double>>& camera) {
-            const PictureArgs args{width, height, overlays, theme, transparent, camera};
+          [](PyWorld& w, const Text& path, Whole width, Whole height, const Text& overlays,
+             const Text& theme, Flag transparent, const CameraArg& camera) {
+            const PictureArgs args{pixels(width), pixels(height), overlays,
+                                   theme,         transparent,    camera.value};
             Use(w)->writePng(path, args.def());
           },
           py::arg("path"), py::arg("width"), py::arg("height"), py::arg("overlays"),
@@ -776,7 +908,7 @@ PYBIND11_MODULE(_merge2d, m) {
     merge2d::detail::check(m2_scene_list(&text));
     return merge2d::detail::taken(text);
   });
-  m.def("lesson_page", [](const std::string& name, bool live) {
+  m.def("lesson_page", [](const Text& name, Flag live) {
     const py::gil_scoped_release unlocked;
     return merge2d::lessonPage(name, live);
   });

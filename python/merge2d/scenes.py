@@ -77,6 +77,14 @@ def _positive(what, value):
     return value
 
 
+def _key_frame(key):
+    try:
+        time, x, y, angle = (float(number) for number in key)
+    except (TypeError, ValueError):
+        raise TypeError(f"each of 'keyframes' is (time, x, y, angle), not {key!r:.60}") from None
+    return time, x, y, angle
+
+
 def _script(script):
     if not hasattr(script, "keys"):
         raise TypeError(f"'script' must be a dictionary, not {script!r:.60}")
@@ -92,7 +100,7 @@ def _script(script):
             "a script has axis, amplitude and period; or keyframes = [(t, x, y, angle), …]; or "
             f"velocity and spin; but not {sorted(wrong or script)}")
     if kind == "keyframes":
-        return {"kind": kind, "keyframes": [tuple(key) for key in script["keyframes"]]}
+        return {"kind": kind, "keyframes": [_key_frame(key) for key in script["keyframes"]]}
     if kind == "steady":
         return {"kind": kind, "velocity": script.get("velocity", (0.0, 0.0)),
                 "spin": script.get("spin", 0.0)}
@@ -120,6 +128,10 @@ def key_of(name):
 
 def text_of(value):
     """A value as a scene file has it."""
+    if hasattr(value, "tolist"):  # a number or an array of NumPy
+        value = value.tolist()
+    if value is None:
+        raise TypeError("a value is a number, True or False, a text or a list, not None")
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (tuple, list)):
@@ -248,10 +260,23 @@ class Scene(_merge2d.Scene):
                             spread, seed)
 
     def copy(self):
-        """A scene of its own."""
+        """A scene of its own; copy.copy(), copy.deepcopy() and pickle work as well."""
         other = Scene.__new__(Scene)
         _merge2d.Scene.__init__(other, self)
         return other
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo):
+        return self.copy()
+
+    def __reduce__(self):
+        return _from_toml, (self.to_toml(),)
+
+    def page(self, mode="merge+sleep", *, live=True):
+        """The scene, run for its duration in this mode and as reference, as a page for a browser."""
+        from .pages import Page
+        return Page(super().page(mode, live))
 
     @property
     def warnings(self):
@@ -265,7 +290,15 @@ class Scene(_merge2d.Scene):
         return True
 
     def __repr__(self):
-        return f"<merge2d.Scene of {len(self)} bodies>"
+        try:
+            return f"<merge2d.Scene of {len(self)} bodies>"
+        except _merge2d.InputError:
+            return "<merge2d.Scene that was not made>"
+
+
+def _from_toml(text):
+    """The inverse of Scene.to_toml, for pickle."""
+    return Scene(text)
 
 
 def scenes():

@@ -305,11 +305,12 @@ class World(_merge2d.World):
         return png_of(self.render(720, 405))
 
     def page(self, live=True):
-        """The scene, run for its duration, as a page for a browser."""
-        from .pages import Page
-        return Page(_merge2d.Scene.page(self._scene, self.mode, live))
+        """The scene as it was at first, run for its duration, as a page for a browser."""
+        return self._scene.page(self.mode, live=live)
 
     def __repr__(self):
+        if not hasattr(self, "_scene"):
+            return "<merge2d.World that was not made>"
         return f"<merge2d.World of {len(self)} bodies, {self.mode}, t = {self.time:g} s>"
 
 
