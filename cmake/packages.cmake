@@ -75,5 +75,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/packages/triggers)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS ffmpeg)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS "libosmesa6 | libegl1")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "merge2d")  # the program, and the documentation
+# The program, and the documentation; the others are for those who link the archive.
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
+    "merge2d, libbox2d-dev, libcmark-dev, libdeflate-dev, libfmt-dev, libfreetype-dev, libpng-dev")
 include(CPack)

@@ -3,7 +3,7 @@
 /** @file
  * merge2d: 2D rigid bodies that touch and move as one are simulated as one.
  *
- * This is the whole public interface. In C it is what stands below; C++ gets the classes of
+ * This is the whole public interface. In C it is what stands below; C++20 gets the classes of
  * merge2d/merge2d.hpp on top of it, by the same `#include <merge2d/merge2d.h>`.
  *
  * Units: metres, kilograms, seconds, radians; x to the right, y up, counter-clockwise positive.
@@ -367,7 +367,7 @@ typedef struct m2_piece {
 M2_API m2_status m2_world_body_pieces(m2_world* world, m2_body body, m2_piece* pieces,
                                       size_t capacity, size_t* count);
 
-/** Adds a dynamic or pinned body. */
+/** Adds a dynamic or pinned body. Its name, if it has one, is new in this run. */
 M2_API m2_status m2_world_add_body(m2_world* world, const m2_body_def* def, m2_body* body);
 /** Removes a body with its joints and springs. */
 M2_API m2_status m2_world_remove_body(m2_world* world, m2_body body);
@@ -655,7 +655,7 @@ M2_API m2_status m2_scene_page(const m2_scene* scene, m2_mode mode, bool live, c
 
 #ifdef __cplusplus
 }  // extern "C"
-#ifndef MERGE2D_BUILDING
+#if !defined(MERGE2D_BUILDING) && __cplusplus > 201703L
 #include "merge2d/merge2d.hpp"
 #endif
 #endif

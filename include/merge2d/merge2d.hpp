@@ -11,6 +11,10 @@
  * may come from different compilers.
  */
 
+#if __cplusplus <= 201703L
+#error "merge2d/merge2d.hpp needs C++20: older C++ has the functions for C of merge2d/merge2d.h"
+#endif
+
 #include <charconv>
 #include <cstddef>
 #include <cstdint>

@@ -23,11 +23,12 @@ foreach(program consumer consumer_static consumer_c)
 endforeach()
 
 # The same without CMake: only an installed tree has its pkg-config file. The examples stand alone.
+# A machine of its users need not have the packages that the library was built of.
 if(TREE STREQUAL "install")
   file(GLOB_RECURSE pc ${prefix}/merge2d.pc)
   get_filename_component(pc_folder ${pc} DIRECTORY)
   get_filename_component(libraries ${pc_folder} DIRECTORY)
-  set(ENV{PKG_CONFIG_PATH} ${pc_folder})
+  set(ENV{PKG_CONFIG_LIBDIR} ${pc_folder})
   set(ENV{LD_LIBRARY_PATH} ${libraries})
   file(MAKE_DIRECTORY ${work}/examples)
   file(GLOB examples ${EXAMPLES}/*.cpp ${EXAMPLES}/*.c)
@@ -40,4 +41,19 @@ if(TREE STREQUAL "install")
                $(pkg-config --cflags --libs merge2d) -lm" WORKING_DIRECTORY ${work}/examples)
     run(./example WORKING_DIRECTORY ${work}/examples)
   endforeach()
+
+  # C++ before C++20 has the functions for C.
+  file(WRITE ${work}/examples/old.cpp
+       "#include <merge2d/merge2d.h>\nint main() { return m2_version()[0] == 0; }\n")
+  run(sh -c "c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -o old old.cpp \
+             $(pkg-config --cflags --libs merge2d)" WORKING_DIRECTORY ${work}/examples)
+  run(./old WORKING_DIRECTORY ${work}/examples)
+
+  # With the archive.
+  set(ENV{LD_LIBRARY_PATH})
+  list(GET examples 0 example)
+  run(sh -c "c++ -std=c++20 -o example ${example} $(pkg-config --cflags merge2d) \
+             $(pkg-config --static --libs merge2d | sed s/-lmerge2d/-l:libmerge2d.a/)"
+      WORKING_DIRECTORY ${work}/examples)
+  run(./example WORKING_DIRECTORY ${work}/examples)
 endif()
