@@ -2,13 +2,17 @@
 
 #include <algorithm>
 
+#include "src2d/dynamics/joint_matrix.h"
+
 namespace merge2d {
 namespace {
 
-/// A pivot below this part of its row's own K says nothing new, and the row then gets the other
-/// part of K as softness. A pivot p leaves rounding of 1e-16 / p to those after it, which must tell
-/// nothing from something still.
-constexpr double kDependent = 1e-7, kSoftened = 1e-4;
+/// A pivot below this part of its row's K is weak: an error of its row moves bodies by 30 times as
+/// much and more.
+constexpr double kWeak = 1e-3;
+
+/// More weak rows than these are solved in their order: their matrix is dense.
+constexpr std::size_t kMostWeakRows = 64;
 
 bool isInsideBounds(const JointBlock& k, std::size_t i) {
   return k.lambda[i] > k.rows[i].lower && k.lambda[i] < k.rows[i].upper;
@@ -49,6 +53,7 @@ JointSolver::JointSolver(std::span<JointBlock> joints, std::vector<SolverVelocit
     : joints_(joints), u_(u), m_(memory), pattern_(patternOf()) {
   chooseRows();
   factorise();
+  reconcile();
 }
 
 /// Islands come in the same order in each step, and most of them unchanged.
@@ -111,38 +116,44 @@ JointMatrix JointSolver::diagonalOf(const JointColumn& c) const {
   return k;
 }
 
-/// Of a symmetric matrix, by L D Lᵀ of its rows.
-JointMatrix JointSolver::inverseOf(JointMatrix k, JointColumn& c) const {
-  std::array<double, 3> d{};
-  JointMatrix l{};
+JointRow& JointSolver::rowAt(std::uint32_t column, std::size_t row) {
+  JointColumn& c = m_.columns[column];
+  return c.joint->rows[c.row[row]];
+}
+
+void JointSolver::soften(std::uint32_t column, std::size_t row, double more) {
+  if (row >= static_cast<std::size_t>(m_.columns[column].rows)) return;
+  m_.softened.push_back({column, row, more});
+  rowAt(column, row).softness += more;
+}
+
+/// Of a symmetric matrix, by Gauss-Jordan elimination. The row that says most beyond those before
+/// it comes next, as among weak rows. Rows that are solved later are left out, as rows of zeros.
+JointMatrix JointSolver::inverseOf(JointMatrix k, std::uint32_t column) {
+  JointColumn& c = m_.columns[column];
   const JointMatrix own = diagonalOf(c);
+  std::array<bool, 3> done{}, deferred{};
+  const auto left = [&](std::size_t i) { return k[i][i] / own[i][i]; };
+  for (std::size_t n = 0; n < 3; ++n) {
+    const std::size_t i = strongestRow(3, left, [&](std::size_t r) { return done[r]; });
+    done[i] = true;
+    const bool dependent = left(i) <= kDependent, weak = left(i) < kWeak;
+    has_dependent_ |= dependent;
+    has_weak_ |= weak && !dependent;
+    deferred[i] = weak && defers_;
+    if (deferred[i]) {
+      m_.weak.push_back({.column = column, .row = i, .own = own[i][i], .coupled{}, .solved{}});
+      continue;
+    }
+    if (dependent) soften(column, i, k[i][i] = kSoftened * own[i][i]);
+    exchangeRow([&](std::size_t r, std::size_t s) -> double& { return k[r][s]; }, 3, i);
+  }
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      double x = k[i][j];
-      for (std::size_t n = 0; n < j; ++n) x -= l[i][n] * l[j][n] * d[n];
-      l[i][j] = x / d[j];
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (deferred[i] || deferred[j]) k[i][j] = 0.0;
     }
-    d[i] = k[i][i];
-    for (std::size_t n = 0; n < i; ++n) d[i] -= l[i][n] * l[i][n] * d[n];
-    if (d[i] > kDependent * own[i][i]) continue;
-    const double more = kSoftened * own[i][i];
-    d[i] = more;
-    if (i < static_cast<std::size_t>(c.rows)) c.joint->rows[c.row[i]].softness += more;
   }
-  JointMatrix inverse{};
-  for (std::size_t e = 0; e < 3; ++e) {  // column by column
-    JointVector x{};
-    x[e] = 1.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t n = 0; n < i; ++n) x[i] -= l[i][n] * x[n];
-    }
-    for (std::size_t i = 3; i-- > 0;) {
-      x[i] /= d[i];
-      for (std::size_t n = i + 1; n < 3; ++n) x[i] -= l[n][i] * x[n];
-    }
-    for (std::size_t i = 0; i < 3; ++i) inverse[i][e] = x[i];
-  }
-  return inverse;
+  return k;
 }
 
 JointMatrix& JointSolver::blockAt(std::uint32_t row, std::uint32_t column) {
@@ -153,6 +164,26 @@ JointMatrix& JointSolver::blockAt(std::uint32_t row, std::uint32_t column) {
 }
 
 void JointSolver::factorise() {
+  defers_ = false;
+  m_.weak.clear();
+  m_.softened.clear();
+  factoriseColumns();
+  if (!has_weak_ || !has_dependent_) return;
+  for (const SoftenedRow& s : m_.softened) rowAt(s.column, s.row).softness -= s.more;
+  m_.softened.clear();
+  defers_ = true;
+  factoriseColumns();
+  if (m_.weak.size() <= kMostWeakRows) {
+    factoriseWeakRows();
+    return;
+  }
+  defers_ = false;
+  m_.weak.clear();
+  factoriseColumns();
+}
+
+void JointSolver::factoriseColumns() {
+  has_weak_ = has_dependent_ = false;
   m_.inverse.resize(m_.columns.size());
   m_.lower.resize(pattern_.rows.size());
   for (std::uint32_t c = 0; c < m_.columns.size(); ++c) {
@@ -166,7 +197,7 @@ void JointSolver::factorise() {
 
 /// Turns K of a column into D⁻¹ and L, and subtracts its update from the columns that follow.
 void JointSolver::eliminate(std::uint32_t column) {
-  const JointMatrix inverse = inverseOf(m_.inverse[column], m_.columns[column]);
+  const JointMatrix inverse = inverseOf(m_.inverse[column], column);
   m_.inverse[column] = inverse;
   const std::uint32_t begin = pattern_.first[column], end = pattern_.first[column + 1];
   for (std::uint32_t e = begin; e < end; ++e) {
@@ -191,6 +222,19 @@ void JointSolver::findChange() {
       x[c][i] = -jointRest(k, column.row[i], {}, u_[k.a], u_[k.b]);
     }
   }
+  solve(x);
+}
+
+void JointSolver::solve(std::vector<JointVector>& x) {
+  if (m_.weak.empty()) {
+    substitute(x);
+  } else {
+    addWeakRows(x);
+  }
+}
+
+/// x = A⁻¹ x, with zeros in the rows that are solved later.
+void JointSolver::substitute(std::vector<JointVector>& x) const {
   const auto forEachBlock = [&](std::size_t c, auto&& f) {
     for (std::uint32_t e = pattern_.first[c]; e < pattern_.first[c + 1]; ++e) {
       f(m_.lower[e], x[pattern_.rows[e]]);

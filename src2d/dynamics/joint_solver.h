@@ -6,8 +6,15 @@
 /// solved by a sparse L D Lᵀ in blocks of one joint. Chains and trees of n joints take O(n), as in
 /// Baraff, "Linear-Time Dynamics using Lagrange Multipliers" (1996); loops fill in a few blocks.
 /// Motors and limits are such rows while they are inside their bounds. Letters: joint_block.h.
-/// Deviation: the paper sweeps joints as it does contacts; a chain then stretches the more, the
-/// heavier its end is. Guarded by Chain.HangsAsLongAsItIs.
+///
+/// Where joints of a loop say the same, some rows depend on others and get a little softness. If
+/// some rows are weak too, which say little beyond the others, the order of elimination would
+/// decide which of them depend: a weak row must not stand for a strong one that comes later, as it
+/// would turn its small error into a large motion. Then weak rows are solved after all others, by
+/// their Schur complement S = D − Bᵀ A⁻¹ B, the strongest first. A row that depends on others may
+/// have an error that contradicts theirs, of a loop that was closed with it: then it goes by
+/// theirs. Deviation: the paper sweeps joints as it does contacts; a chain then stretches the more,
+/// the heavier its end is. Guarded by Chain.HangsAsLongAsItIs.
 
 #include <array>
 #include <cstdint>
@@ -15,19 +22,32 @@
 #include <vector>
 
 #include "src2d/dynamics/joint_block.h"
+#include "src2d/dynamics/joint_matrix.h"
 #include "src2d/dynamics/joint_pattern.h"
 
 namespace merge2d {
-
-/// Three rows of one joint against three of another; a joint with fewer has rows of zeros.
-using JointMatrix = std::array<std::array<double, 3>, 3>;
-using JointVector = std::array<double, 3>;
 
 /// The rows of a joint that are solved together.
 struct JointColumn {
   JointBlock* joint = nullptr;
   int rows = 0;
   std::array<std::uint8_t, 3> row{};
+};
+
+/// A row that is solved after all others, and its coupling with them.
+struct WeakRow {
+  std::uint32_t column = 0;
+  std::size_t row = 0;               ///< of the column
+  double own = 0.0;                  ///< its own K + C
+  std::vector<JointVector> coupled;  ///< its column of B
+  std::vector<JointVector> solved;   ///< its column of A⁻¹ B
+};
+
+/// A row that depends on others and was made softer by `more`.
+struct SoftenedRow {
+  std::uint32_t column = 0;
+  std::size_t row = 0;  ///< of the column
+  double more = 0.0;
 };
 
 /// The patterns that the solvers of the islands keep from step to step, and their memory.
@@ -40,6 +60,10 @@ struct JointMemory {
   std::vector<JointMatrix> inverse;    ///< D⁻¹, per column
   std::vector<JointMatrix> lower;      ///< L, per block below the diagonal
   std::vector<JointVector> change;     ///< per column
+  std::vector<SoftenedRow> softened;
+  std::vector<WeakRow> weak;
+  std::vector<double> schur;        ///< S, then its inverse, row by row
+  std::vector<double> weak_change;  ///< per weak row
 };
 
 class JointSolver {
@@ -58,12 +82,21 @@ class JointSolver {
   const JointPattern& patternOf();
   void chooseRows();
   void factorise();
+  void factoriseColumns();
   void eliminate(std::uint32_t column);
+  void factoriseWeakRows();
+  void invertSchur();
+  void soften(std::uint32_t column, std::size_t row, double more);
+  JointRow& rowAt(std::uint32_t column, std::size_t row);
+  void reconcile();
+  void solve(std::vector<JointVector>& x);
   JointMatrix& blockAt(std::uint32_t row, std::uint32_t column);
   JointMatrix diagonalOf(const JointColumn& c) const;
   JointMatrix coupling(const JointColumn& x, const JointColumn& y) const;
-  JointMatrix inverseOf(JointMatrix k, JointColumn& c) const;
+  JointMatrix inverseOf(JointMatrix k, std::uint32_t column);
   void findChange();
+  void substitute(std::vector<JointVector>& x) const;
+  void addWeakRows(std::vector<JointVector>& x);
   bool dropWhatIsBeyondItsBounds();
   void applyChange();
   bool solvesBound(const JointBlock& k, std::size_t row) const;
@@ -72,6 +105,8 @@ class JointSolver {
   std::vector<SolverVelocity>& u_;
   JointMemory& m_;
   const JointPattern& pattern_;
+  bool defers_ = false;  ///< weak rows are solved last
+  bool has_weak_ = false, has_dependent_ = false;
 };
 
 }  // namespace merge2d
