@@ -1,8 +1,11 @@
 #include "src2d/dynamics/integrate.h"
 
+#include <algorithm>
+
 #include "src2d/contact/approach.h"
 #include "src2d/dynamics/stabilise.h"
 #include "src2d/dynamics/task_pool.h"
+#include "src2d/dynamics/turn_stop.h"
 
 namespace merge2d {
 
@@ -40,6 +43,19 @@ void followHits(State& state, const Scratch& scratch) {
   }
 }
 
+/// Takes back what is left of the ways of bodies that are stopped.
+void stopTurns(State& state, const Scratch& scratch, const std::vector<StoppedTurn>& stopped) {
+  for (const StoppedTurn& stop : stopped) {
+    Rigid& r = state[stop.id];
+    const auto hit = std::ranges::find(scratch.hit_ways, stop.id, &HitWay::id);
+    const bool was_hit = hit != scratch.hit_ways.end();
+    const double left = 1.0 - stop.part;
+    r.moveBy(-left * (was_hit ? hit->way : Vec2(state.h * r.v)));
+    r.angle -= left * (was_hit ? hit->turn : state.h * r.omega);
+    r.rotation = Rotation::of(r.angle);
+  }
+}
+
 /// Brings anchored collections to their frame's pose and velocity.
 void followAnchors(State& state) {
   for (const Collection& c : state.collections) {
@@ -60,6 +76,8 @@ void followAnchors(State& state) {
 }  // namespace
 
 void advancePositions(State& state, Scratch& scratch) {
+  thread_local std::vector<StoppedTurn> stopped;  // its memory is kept
+  findStoppedTurns(state, scratch, stopped);
   state.moved = farthestMove(state, scratch);
   const auto& present = state.present.ids();
   forEachIndex(scratch.tasks, present.size(), kRunOfRigids, [&](std::size_t i, int) {
@@ -73,6 +91,7 @@ void advancePositions(State& state, Scratch& scratch) {
     r.rotation = Rotation::of(r.angle);
   });
   followHits(state, scratch);
+  stopTurns(state, scratch, stopped);
   correctPositions(state, scratch);
   followAnchors(state);
 }
