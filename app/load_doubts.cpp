@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -52,44 +53,97 @@ double depthUnder(double lambda, const Ends& ends, const Scene& scene) {
   return compliance * ends.inv_mass * lambda * scene.step / s.erp;
 }
 
-/// The contact that yields most, by more than the given part of the size of its bodies.
-Press heaviest(const World& world, double part) {
-  constexpr double kResting = 0.05;  // [m/s]
-  std::map<std::pair<BodyId, BodyId>, Press> loads;
-  for (const ContactView& contact : world.capture().contacts) {
-    Ends ends;
-    ends.add(world.bodies()[index(contact.a)]);
-    ends.add(world.bodies()[index(contact.b)]);
-    // Where C λ is more than the fastest correction, the bodies sink without end.
-    const bool sinks = contact.lambda_n > 0.0 && -contact.gap > part * ends.size;
-    if (std::abs(contact.w_n) > kResting && !sinks) continue;
-    const double depth =
-        std::max(depthUnder(contact.lambda_n, ends, world.scene()), sinks ? -contact.gap : 0.0);
-    Press& load = loads[{contact.a, contact.b}];
-    load.a = contact.a;
-    load.b = contact.b;
-    load.force += contact.lambda_n / world.scene().step;
-    if (depth > part * ends.size) load.depth = std::max(load.depth, depth);
+/// By more than this the overlap of two bodies is told [m].
+double muchFor(const Ends& ends) {
+  constexpr double kLittle = 0.02;  // of the size; and 2 cm
+  return kLittle * std::min(ends.size, 1.0);
+}
+
+/// The loads on the contacts of a world, and how deep they push its bodies into each other.
+class LoadWatch {
+ public:
+  explicit LoadWatch(const World& world) : world_(world) {}
+
+  /// After each step: overlaps as they are, of blows too, but for those of the start.
+  void see() {
+    const bool first = seen_++ == 0;
+    for (const auto& [pair, load] : loads(&overlapNow)) {
+      if (load.depth == 0.0) continue;
+      if (first) from_the_start_.insert(pair);
+      if (from_the_start_.contains(pair)) continue;
+      if (load.depth > deepest_.depth) deepest_ = load;
+    }
   }
-  Press most;
-  for (const auto& [pair, load] : loads) {
-    if (load.depth > most.depth) most = load;
+
+  /// At the end: contacts at rest may have further to go.
+  Press deepest() const {
+    Press most = deepest_;
+    for (const auto& [pair, load] : loads(&overlapToCome)) {
+      if (load.depth > most.depth) most = load;
+    }
+    return most;
   }
-  return most;
+
+ private:
+  using Pair = std::pair<BodyId, BodyId>;
+
+  static double overlapNow(const ContactView& contact, const Ends&, const Scene&) {
+    return contact.lambda_n > 0.0 ? -contact.gap : 0.0;
+  }
+  static double overlapToCome(const ContactView& contact, const Ends& ends, const Scene& scene) {
+    constexpr double kResting = 0.05;  // [m/s]
+    if (std::abs(contact.w_n) > kResting) return 0.0;
+    return depthUnder(contact.lambda_n, ends, scene);
+  }
+
+  /// The force of each pair, and the depth of its contacts where it is much.
+  template <class Depth>
+  std::map<Pair, Press> loads(Depth&& depthOf) const {
+    std::map<Pair, Press> loads;
+    for (const ContactView& contact : world_.capture().contacts) {
+      Ends ends;
+      ends.add(world_.bodies()[index(contact.a)]);
+      ends.add(world_.bodies()[index(contact.b)]);
+      Press& load = loads[{contact.a, contact.b}];
+      load.a = contact.a;
+      load.b = contact.b;
+      load.force += contact.lambda_n / world_.scene().step;
+      const double depth = depthOf(contact, ends, world_.scene());
+      if (depth > muchFor(ends)) load.depth = std::max(load.depth, depth);
+    }
+    return loads;
+  }
+
+  const World& world_;
+  std::set<Pair> from_the_start_;
+  Press deepest_;
+  int seen_ = 0;
+};
+
+/// How long a scene is watched: until the contact forces of a stack have settled, and most falls
+/// have ended, where that does not take long.
+int stepsToWatch(const Scene& scene) {
+  constexpr int kLeast = 100, kWork = 200'000;  // steps, and steps times bodies
+  constexpr double kLong = 3.0;                 // [s]
+  const auto bodies = static_cast<int>(scene.bodies.size()) + 1;
+  const double wanted = std::min(kLong, scene.duration) / scene.step;
+  return std::max(kLeast, std::min(static_cast<int>(wanted), kWork / bodies));
 }
 
 }  // namespace
 
 void warnOfHeavyLoads(Scene& scene) {
-  constexpr int kSteps = 100;       // until the contact forces of a stack have settled
-  constexpr double kLittle = 0.02;  // of the size
   World world(scene, {.mode = Mode::Reference, .timings = false});
+  LoadWatch watch(world);
   try {
-    for (int i = 0; i < kSteps; ++i) world.step();
+    for (int i = stepsToWatch(scene); i > 0; --i) {
+      world.step();
+      watch.see();
+    }
   } catch (const SimulationError&) {
     return;  // the run will tell
   }
-  const Press load = heaviest(world, kLittle);
+  const Press load = watch.deepest();
   if (load.depth == 0.0) return;
   const auto& bodies = world.bodies();
   scene.warnings.push_back(

@@ -5,8 +5,9 @@
 
 namespace merge2d {
 
-/// Contacts that are at rest soon after the start, and whose load will push the two bodies into
-/// each other: with the figure to expect.
+/// Contacts whose load, or a blow, pushes two bodies into each other by more than 2 % of the
+/// smaller one, or 2 cm, within the first 3 s (100 steps at least, less where bodies are many):
+/// with the figure to expect.
 void warnOfHeavyLoads(Scene& scene);
 
 /// Bodies so small that they fall by more than their size in a step.
