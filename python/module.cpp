@@ -590,12 +590,12 @@ void bindScene(py::module_& m) {
   py::class_<Scene>(m, "Scene")
       .def(py::init<>())
       .def(py::init<const Scene&>())
-      .def_static("load",
+      .def_static("_load",
                   [](const std::string& name_or_path, const std::vector<std::string>& changes) {
                     return Scene(merge2d::Scene::load(name_or_path, changes));
                   })
       .def_static(
-          "parse",
+          "_parse",
           [](const Text& text, const Text& source, const std::vector<std::string>& changes) {
             return Scene(merge2d::Scene::parse(text.value, source, changes));
           })
@@ -636,7 +636,7 @@ void bindScene(py::module_& m) {
       .def(
           "body", [](const Scene& s, const BodyArg& body) { return bodyOf(s, body); },
           py::arg("body"), "The number of a body by its name; InputError suggests another.")
-      .def("body_count", &Scene::bodyCount)
+      .def("_body_count", &Scene::bodyCount)
       .def("to_toml", &Scene::toToml)
       .def("warnings", &Scene::warnings)
       .def("page", [](const Scene& s, const Text& mode, Flag live) {
@@ -657,15 +657,15 @@ void bindTime(py::class_<PyWorld>& c) {
       .def("time", [](PyWorld& w) { return Use(w)->time(); })
       .def("time_step", [](PyWorld& w) { return Use(w)->timeStep(); })
       .def(
-          "set_time_step", [](PyWorld& w, Real h) { Use(w)->setTimeStep(h); }, py::arg("h"))
+          "_set_time_step", [](PyWorld& w, Real h) { Use(w)->setTimeStep(h); }, py::arg("h"))
       .def("mode", [](PyWorld& w) { return m2_mode_name(static_cast<m2_mode>(Use(w)->mode())); })
-      .def("set_mode", [](PyWorld& w, const Text& mode) { Use(w)->setMode(modeOf(mode)); })
+      .def("_set_mode", [](PyWorld& w, const Text& mode) { Use(w)->setMode(modeOf(mode)); })
       .def("gravity",
            [](PyWorld& w) {
              const Vec2 g = Use(w)->gravity();
              return Pair(g.x, g.y);
            })
-      .def("set_gravity", [](PyWorld& w, const Pair& g) { Use(w)->setGravity(vec(g)); })
+      .def("_set_gravity", [](PyWorld& w, const Pair& g) { Use(w)->setGravity(vec(g)); })
       .def("set", [](PyWorld& w, const Text& k, const Text& v) { Use(w)->set(k, v); })
       .def("get", [](PyWorld& w, const Text& key) { return Use(w)->get(key); })
       .def("save", [](PyWorld& w) { return py::bytes(Use(w)->save()); })
@@ -794,7 +794,7 @@ void bindViews(py::class_<PyWorld>& c) {
       .def("velocities", [](const py::object& self) { return rows(self, true, Part::Vectors); })
       .def("spins", [](const py::object& self) { return rows(self, true, Part::Angles); })
       .def("collection_ids", &collectionIds)
-      .def("body_count", [](PyWorld& w) { return Use(w)->bodyCount(); })
+      .def("_body_count", [](PyWorld& w) { return Use(w)->bodyCount(); })
       .def(
           "name",
           [](PyWorld& w, const BodyArg& body) {
@@ -828,9 +828,9 @@ void bindRecords(py::class_<PyWorld>& c) {
   c.def("contacts", [](PyWorld& w) { return copy(Use(w)->contacts()); })
       .def("joints", [](PyWorld& w) { return copy(Use(w)->joints()); })
       .def("springs", [](PyWorld& w) { return copy(Use(w)->springs()); })
-      .def("collection_array", &collectionArray)
+      .def("_collection_array", &collectionArray)
       .def("events", [](PyWorld& w) { return copy(Use(w)->events()); })
-      .def("note_decisions", [](PyWorld& w, Flag on) { Use(w)->noteDecisions(on); })
+      .def("_note_decisions", [](PyWorld& w, Flag on) { Use(w)->noteDecisions(on); })
       .def("decisions", [](PyWorld& w) { return copy(Use(w)->decisions()); })
       .def("why",
            [](PyWorld& w, const BodyArg& a, const BodyArg& b) {

@@ -183,9 +183,9 @@ class Scene(_merge2d.Scene):
             for name, value in settings.items():
                 self.set(key_of(name), value)
         elif isinstance(source, str) and _is_text(source):
-            super().__init__(_merge2d.Scene.parse(source, "scene", changes))
+            super().__init__(_merge2d.Scene._parse(source, "scene", changes))
         else:
-            super().__init__(_merge2d.Scene.load(os.fspath(source), changes))
+            super().__init__(_merge2d.Scene._load(os.fspath(source), changes))
 
     def set(self, key, value):
         """Sets a value by its name in scene files: `scene.set("merging.velocity", 0.02)`."""
@@ -284,7 +284,7 @@ class Scene(_merge2d.Scene):
         return super().warnings().splitlines()
 
     def __len__(self):
-        return super().body_count()
+        return super()._body_count()
 
     def __bool__(self):
         return True

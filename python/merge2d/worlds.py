@@ -81,7 +81,7 @@ class World(_merge2d.World):
 
     @time_step.setter
     def time_step(self, h):
-        super().set_time_step(h)
+        super()._set_time_step(h)
 
     @property
     def mode(self):
@@ -90,7 +90,7 @@ class World(_merge2d.World):
 
     @mode.setter
     def mode(self, mode):
-        super().set_mode(mode)
+        super()._set_mode(mode)
 
     @property
     def gravity(self):
@@ -99,7 +99,7 @@ class World(_merge2d.World):
 
     @gravity.setter
     def gravity(self, gravity):
-        super().set_gravity(gravity)
+        super()._set_gravity(gravity)
 
     def set(self, key, value):
         """Changes a setting: `world.set("merging.velocity", 0.02)`."""
@@ -155,7 +155,7 @@ class World(_merge2d.World):
         return super().collection_ids()
 
     def __len__(self):
-        return super().body_count()
+        return super()._body_count()
 
     def __bool__(self):
         return True
@@ -244,7 +244,7 @@ class World(_merge2d.World):
 
     @noting.setter
     def noting(self, on):
-        super().note_decisions(bool(on))
+        super()._note_decisions(bool(on))
         self._noting = bool(on)
 
     @property
@@ -277,13 +277,13 @@ class World(_merge2d.World):
         >>> int(world.collections["count"].sum()) == len(world.members)
         True
         """
-        return super().collection_array()[0]
+        return super()._collection_array()[0]
 
     @property
     def members(self):
         """The bodies of all collections, ascending in each: those of `c` are
         `members[c["first"]:c["first"] + c["count"]]`."""
-        return super().collection_array()[1]
+        return super()._collection_array()[1]
 
     # Pictures
 
