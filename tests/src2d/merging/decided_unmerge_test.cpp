@@ -135,32 +135,6 @@ velocity = [)" +
   EXPECT_EQ(timeOfFall(swing("2.5"), Mode::Merge, "seat", "high", 8.0), 99.0) << "to 20.6 degrees";
 }
 
-/// A block on a slope that tilts by a degree per second slides at arctan μ = 30.96 degrees.
-TEST(DecidedUnmerge, ABlockOnATiltingSlopeSlidesAsInTheReference) {
-  const auto angle = [](Mode mode) {
-    Simulation run(R"(
-format = 1
-[[body]]
-name = "slope"
-motion = "scripted"
-at = [0, -0.5]
-box = [20, 1]
-script = { spin = 1 }
-[[body]]
-name = "block"
-at = [0, 0.25]
-box = [1, 0.5]
-)",
-                   mode);
-    const auto place = [&] { return seenFrom(run.body("slope"), run.body("block")).position.x(); };
-    run.until(5.0);
-    const double start = place();
-    while (run.world().time() < 45.0 && std::abs(place() - start) < 0.01) run.steps(1);
-    return run.body("slope").angle / kDegree;
-  };
-  EXPECT_NEAR(angle(Mode::Merge), angle(Mode::Reference), 0.2);
-}
-
 int eventsAfterSettling(const Scene& of, double until) {
   Scene scene = of;
   Simulation run(scene, Mode::Merge);
