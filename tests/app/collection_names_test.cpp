@@ -12,8 +12,6 @@
 namespace merge2d {
 namespace {
 
-using testing::HasSubstr;
-
 class CollectionNames : public ProgramTest {
  protected:
   CollectionNames() { write("stack.toml", kStack); }

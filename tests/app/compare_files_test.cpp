@@ -7,12 +7,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
-
 class CompareFiles : public ProgramTest {
  protected:
   CompareFiles() { write("stack.toml", kStack); }

@@ -10,9 +10,6 @@
 namespace merge2d {
 namespace {
 
-using testing::IsEmpty;
-using testing::SizeIs;
-
 /// Pebbles that fall by a metre, and a ball of 50 kg that falls by five.
 constexpr const char* kFalling = R"(
 format = 1

@@ -9,16 +9,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::ContainsRegex;
-using testing::Each;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::SizeIs;
-using testing::StartsWith;
-
 /// A column of boxes of which the uppermost is pushed down after they have merged.
 constexpr const char* kToppled = R"(
 format = 1

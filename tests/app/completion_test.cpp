@@ -5,10 +5,6 @@
 namespace merge2d {
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
-using testing::Not;
-
 class Completion : public ProgramTest {
  protected:
   /// The completions of bash for these words, of which the last is being typed.
@@ -29,12 +25,11 @@ class Completion : public ProgramTest {
 };
 
 TEST_F(Completion, OffersCommandsOptionsValuesAndScenes) {
-  EXPECT_THAT(offered({"merge2d", "st"}), testing::ElementsAre("study", "step"));
-  EXPECT_THAT(offered({"merge2d", "run", "--mo"}), testing::ElementsAre("--mode"));
-  EXPECT_THAT(offered({"merge2d", "run", "--mode", "merge"}),
-              testing::ElementsAre("merge", "merge+sleep"));
+  EXPECT_THAT(offered({"merge2d", "st"}), ElementsAre("study", "step"));
+  EXPECT_THAT(offered({"merge2d", "run", "--mo"}), ElementsAre("--mode"));
+  EXPECT_THAT(offered({"merge2d", "run", "--mode", "merge"}), ElementsAre("merge", "merge+sleep"));
   EXPECT_THAT(offered({"merge2d", "render", "tower-pl"}), Contains("tower-platform"));
-  EXPECT_THAT(offered({"merge2d", "completion", "f"}), testing::ElementsAre("fish"));
+  EXPECT_THAT(offered({"merge2d", "completion", "f"}), ElementsAre("fish"));
 }
 
 TEST_F(Completion, OffersArgumentsBehindASwitch) {
@@ -43,38 +38,35 @@ TEST_F(Completion, OffersArgumentsBehindASwitch) {
 }
 
 TEST_F(Completion, OffersTheValuesThatTheCommandTakes) {
-  EXPECT_THAT(offered({"merge2d", "compare", "--format", ""}), testing::ElementsAre("png", "svg"));
+  EXPECT_THAT(offered({"merge2d", "compare", "--format", ""}), ElementsAre("png", "svg"));
   EXPECT_THAT(offered({"merge2d", "render", "--format", ""}), Contains("mp4"));
-  EXPECT_THAT(offered({"merge2d", "render", "--overlay", "for"}), testing::ElementsAre("forces"));
-  EXPECT_THAT(offered({"merge2d", "lesson", "--language", ""}),
-              testing::ElementsAre("en", "de", "fr"));
+  EXPECT_THAT(offered({"merge2d", "render", "--overlay", "for"}), ElementsAre("forces"));
+  EXPECT_THAT(offered({"merge2d", "lesson", "--language", ""}), ElementsAre("en", "de", "fr"));
   EXPECT_THAT(offered({"merge2d", "run", "--set", "merging.vel"}),
-              testing::ElementsAre("merging.velocity="));
-  EXPECT_THAT(offered({"merge2d", "help", "st"}), testing::ElementsAre("study", "step"));
+              ElementsAre("merging.velocity="));
+  EXPECT_THAT(offered({"merge2d", "help", "st"}), ElementsAre("study", "step"));
 }
 
 /// Bash takes the "=" for a word.
 TEST_F(Completion, OffersValuesBehindAnEqualsSign) {
   EXPECT_THAT(offered({"merge2d", "run", "--mode", "="}), Contains("reference"));
-  EXPECT_THAT(offered({"merge2d", "run", "--mode", "=", "ref"}), testing::ElementsAre("reference"));
-  EXPECT_THAT(offered({"merge2d", "run", "--set", "merging.velocity", "="}),
-              testing::ElementsAre(""));
+  EXPECT_THAT(offered({"merge2d", "run", "--mode", "=", "ref"}), ElementsAre("reference"));
+  EXPECT_THAT(offered({"merge2d", "run", "--set", "merging.velocity", "="}), ElementsAre(""));
 }
 
 TEST_F(Completion, OffersFilesAloneWhereNoSceneIsMeant) {
   write("grid.toml", "");
   EXPECT_THAT(offered({"merge2d", "study", ""}),
               AllOf(Contains("grid.toml"), Not(Contains("tower-platform"))));
-  EXPECT_THAT(offered({"merge2d", "cycles", "gr"}), testing::ElementsAre("grid.toml"));
-  EXPECT_THAT(offered({"merge2d", "list", ""}), testing::ElementsAre(""));
+  EXPECT_THAT(offered({"merge2d", "cycles", "gr"}), ElementsAre("grid.toml"));
+  EXPECT_THAT(offered({"merge2d", "list", ""}), ElementsAre(""));
 }
 
 TEST_F(Completion, OffersFilesWhereTheyAreMeant) {
   write("my-scene.toml", kStack);
   fs::create_directories(folder() / "my-folder");
   EXPECT_THAT(offered({"merge2d", "run", "my-"}), Contains("my-scene.toml"));
-  EXPECT_THAT(offered({"merge2d", "render", "pile", "-o", "my-"}),
-              testing::ElementsAre("my-folder"));
+  EXPECT_THAT(offered({"merge2d", "render", "pile", "-o", "my-"}), ElementsAre("my-folder"));
 }
 
 TEST_F(Completion, EveryShellKnowsEveryCommand) {

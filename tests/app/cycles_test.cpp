@@ -5,11 +5,6 @@
 namespace merge2d {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
-
 constexpr const char* kGraph =
     "pinned ground\nground A 1\nA B 1\nB ground 1\nB C 2\nC D 1  # a pivot\n";
 

@@ -5,11 +5,6 @@
 namespace merge2d {
 namespace {
 
-using testing::ContainsRegex;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::StartsWith;
-
 class Doctor : public ProgramTest {
  protected:
   static Json check(const Json& report, const std::string& name) {

@@ -6,11 +6,6 @@
 namespace merge2d {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::StartsWith;
-
 class ExplainCommand : public ProgramTest {
  protected:
   ExplainCommand() { write("stack.toml", kStack); }

@@ -11,12 +11,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
-
 /// What a file holds, and what the program says about it behind the file's name.
 struct Wrong {
   std::string bytes;

@@ -5,10 +5,6 @@
 namespace merge2d {
 namespace {
 
-using testing::ContainsRegex;
-using testing::ElementsAre;
-using testing::IsEmpty;
-
 class List : public ProgramTest {};
 
 TEST_F(List, NamesEachSceneInALineWithItsTitle) {

@@ -2,6 +2,7 @@
 /// Runs the real program in a folder of its own, as a shell would.
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -21,12 +22,25 @@
 #include <vector>
 
 #include "tests/support/build_dir.h"
+#include "tests/support/temporary_folder.h"
 
 namespace merge2d {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
+
+// What is said of an output.
+using testing::AllOf;
+using testing::Contains;
+using testing::ContainsRegex;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+using testing::StartsWith;
 
 /// What a run of the program left.
 struct Outcome {
@@ -61,10 +75,7 @@ inline Words keysOf(const Json& object) {
 /// A test in an empty folder, which is gone afterwards; the program runs in there.
 class ProgramTest : public testing::Test {
  protected:
-  ProgramTest() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::path(testing::TempDir()) /
-            ("merge2d_app_" + std::string(test->test_suite_name()) + "_" + test->name());
+  ProgramTest() : root_(pathOfThisTest()) {
     fs::remove_all(root_);
     fs::create_directories(folder());
   }

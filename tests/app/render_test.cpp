@@ -5,14 +5,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::StartsWith;
-
 class Render : public ProgramTest {
  protected:
   Render() { write("stack.toml", kStack); }

@@ -6,15 +6,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::Each;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::SizeIs;
-using testing::StartsWith;
-
 class Run : public ProgramTest {
  protected:
   Run() { write("stack.toml", kStack); }

@@ -11,10 +11,6 @@
 namespace merge2d {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
-
 class Step : public ProgramTest {
  protected:
   Step() { write("stack.toml", kStack); }

@@ -7,15 +7,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::SizeIs;
-using testing::StartsWith;
-
 /// A table as rows of values by their columns.
 using Rows = std::vector<std::map<std::string, std::string>>;
 

@@ -8,12 +8,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::Contains;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
-
 constexpr const char* kSvg = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- merge2d -->\n<svg ";
 
 class VectorGraphics : public ProgramTest {
@@ -75,7 +69,7 @@ TEST_F(VectorGraphics, StagesAreTheShapesOfPicturesAndNeedNoOpenGl) {
                            "out",    "--contact-sheet", "4x3"};
   const Outcome outcome = run(arguments);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(files("out/stages"), testing::SizeIs(13));
+  EXPECT_THAT(files("out/stages"), SizeIs(13));
   EXPECT_THAT(read("out/stages/step_000005_11_Merge.svg"),
               AllOf(StartsWith(kSvg), HasSubstr("Step 5, stage 11: Merge</text>"),
                     HasSubstr("<desc>Three boxes. Step 5, stage 11 of 11")));

@@ -8,12 +8,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::StartsWith;
-
 constexpr int kFine = 0, kWrongUsage = 2, kBadScene = 3, kFailed = 4;
 
 class Usage : public ProgramTest {

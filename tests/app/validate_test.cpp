@@ -6,11 +6,6 @@
 namespace merge2d {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
-
 class Validate : public ProgramTest {
  protected:
   Validate() { write("stack.toml", kStack); }

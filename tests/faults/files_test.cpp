@@ -10,11 +10,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-
 constexpr mode_t kUmask = 022;
 
 class Files : public FaultTest {
@@ -231,7 +226,7 @@ TEST_F(Files, FoldersInTheWayAreCalledThat) {
     const Outcome outcome = run(command);
     EXPECT_EQ(outcome.code, code) << testing::PrintToString(command) << outcome.err;
     for (const char* word : {"filesystem error", "basic_", "iostream", "std::", "vector"}) {
-      EXPECT_THAT(outcome.err, testing::Not(HasSubstr(word)));
+      EXPECT_THAT(outcome.err, Not(HasSubstr(word)));
     }
   }
 }

@@ -5,11 +5,6 @@
 namespace merge2d {
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-
 class Kill : public FaultTest {
  protected:
   /// Starts the program and kills it after so many milliseconds. Whether it had ended before.

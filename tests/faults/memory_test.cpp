@@ -5,8 +5,6 @@
 namespace merge2d {
 namespace {
 
-using testing::HasSubstr;
-
 /// Bodies of which each overlaps some dozens of others: allowed, and expensive.
 constexpr const char* kDense = R"(
 [[body]]
@@ -46,7 +44,7 @@ TEST_F(Memory, EveryCommandThatSimulatesKeepsToTheLimit) {
               "error: this needs more memory than the limit of 60 MB; --memory-limit changes it\n")
         << arguments[0];
     fs::remove_all(folder() / "frames");  // a rendering may go on from its frames
-    EXPECT_THAT(leftOver({"dense.toml", "stack.toml"}), testing::IsEmpty()) << arguments[0];
+    EXPECT_THAT(leftOver({"dense.toml", "stack.toml"}), IsEmpty()) << arguments[0];
   }
 }
 

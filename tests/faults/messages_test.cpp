@@ -7,10 +7,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
-
 class Messages : public FaultTest {
  protected:
   /// Without root's rights, which know no locked doors.
@@ -77,7 +73,7 @@ TEST_F(Messages, AFolderIsNoFile) {
     const Outcome outcome = run(arguments);
     EXPECT_TRUE(outcome.code == kBadScene || outcome.code == kFailed) << arguments[0];
     EXPECT_THAT(outcome.err, plain());
-    EXPECT_THAT(outcome.err, testing::ContainsRegex("folder|directory"));
+    EXPECT_THAT(outcome.err, ContainsRegex("folder|directory"));
   }
 }
 

@@ -5,8 +5,6 @@
 namespace merge2d {
 namespace {
 
-using testing::HasSubstr;
-
 class Pipes : public FaultTest {
  protected:
   /// Writes to a named pipe, once, from a process of its own.
@@ -71,7 +69,7 @@ TEST_F(Pipes, APictureIsKnownByItsContent) {
   const std::string picture = read("shot/frame_000005.png");
   sendInput(picture);
   const Outcome piped = run({"validate", "-"});
-  EXPECT_THAT(piped.err + piped.out, testing::Not(HasSubstr("not valid UTF-8")));
+  EXPECT_THAT(piped.err + piped.out, Not(HasSubstr("not valid UTF-8")));
   EXPECT_EQ(piped.code, run({"validate", "shot/frame_000005.png"}).code);
 }
 

@@ -8,11 +8,6 @@
 namespace merge2d {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
-
 class Rivals : public FaultTest {
  protected:
   /// Every frame in the folder is the one that its run.json tells of.

@@ -5,9 +5,6 @@
 namespace merge2d {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-
 class Signals : public FaultTest {
  protected:
   Signals() { makePipe("pipe"); }
@@ -38,7 +35,7 @@ TEST_F(Signals, WhatWasIgnoredStaysIgnored) {
     drain(pipe);
     const Outcome outcome = wait(child);
     EXPECT_EQ(outcome.code, kFine) << strsignal(signal) << outcome.err << outcome.signal;
-    EXPECT_THAT(leavings(), testing::ElementsAre("run.csv", "run.state"));
+    EXPECT_THAT(leavings(), ElementsAre("run.csv", "run.state"));
   }
 }
 
@@ -189,7 +186,7 @@ TEST_F(Film, TheReasonOfAFailureIsOneLine) {
     const Outcome outcome = run(renderStack({"--format", "mp4", "--resume", "--quiet"}));
     EXPECT_EQ(outcome.code, kFailed);
     EXPECT_THAT(outcome.err, HasSubstr("ffmpeg could not write frames/stack/" + reason));
-    EXPECT_THAT(linesOf(outcome.err), testing::SizeIs(1)) << outcome.err;
+    EXPECT_THAT(linesOf(outcome.err), SizeIs(1)) << outcome.err;
     EXPECT_THAT(temporaries(), IsEmpty());
   }
   installFfmpeg("");
@@ -200,10 +197,10 @@ TEST_F(Film, TheReasonOfAFailureIsOneLine) {
 TEST_F(Film, NoPathLooksLikeAnOptionOrAProtocol) {
   installFfmpeg("for a; do echo \"$a\"; done > \"$last\"\n");
   EXPECT_EQ(run(renderStack({"--format", "mp4", "-o", "a:b"})).code, kFine);
-  EXPECT_THAT(linesOf(read("a:b/stack.mp4")), testing::Contains("./a:b/frame_%06d.png"));
-  EXPECT_THAT(linesOf(read("a:b/stack.mp4")).back(), testing::StartsWith("./a:b/"));
+  EXPECT_THAT(linesOf(read("a:b/stack.mp4")), Contains("./a:b/frame_%06d.png"));
+  EXPECT_THAT(linesOf(read("a:b/stack.mp4")).back(), StartsWith("./a:b/"));
   EXPECT_EQ(run(renderStack({"--format", "gif", "-o", "./-x"})).code, kFine);
-  EXPECT_THAT(read("-x/stack.gif"), testing::Not(HasSubstr("\n-x")));
+  EXPECT_THAT(read("-x/stack.gif"), Not(HasSubstr("\n-x")));
 }
 
 }  // namespace

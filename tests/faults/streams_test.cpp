@@ -6,11 +6,6 @@
 namespace merge2d {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::StartsWith;
-
 /// How a standard stream can be of no use.
 struct Broken {
   const char* how;
@@ -135,7 +130,7 @@ TEST_F(Streams, AReaderThatLeavesEndsTheProgramSilently) {
     const Outcome outcome = runWith(kBroken[2], {STDOUT_FILENO}, arguments);
     EXPECT_EQ(outcome.signal, SIGPIPE) << outcome.code << outcome.err;
     EXPECT_THAT(outcome.err, Not(HasSubstr("error")));
-    EXPECT_THAT(files(), testing::ElementsAre("stack.toml"));
+    EXPECT_THAT(files(), ElementsAre("stack.toml"));
   }
   beforeStart([] {
     signal(SIGPIPE, SIG_IGN);

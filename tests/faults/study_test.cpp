@@ -9,8 +9,6 @@
 namespace merge2d {
 namespace {
 
-using testing::HasSubstr;
-
 class StudyFault : public FaultTest {
  protected:
   static constexpr int kRuns = 60;

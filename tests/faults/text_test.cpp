@@ -5,9 +5,6 @@
 namespace merge2d {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
-
 /// ESC [31m, a C1 control, a change of writing direction, and an empty line.
 constexpr const char* kHostileToml = R"(a\u001b[31mb\u009b2J\u202Ec\u2066d\n\n9 --> 10)";
 

@@ -11,6 +11,7 @@
 
 #include "lessons/markdown.h"
 #include "src2d/core/error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace merge2d {
 namespace {
@@ -52,15 +53,10 @@ at = "start"
 /// Folders of lessons, gone afterwards.
 class LessonFolder : public testing::Test {
  protected:
-  LessonFolder() {
-    folder_ = fs::path(testing::TempDir()) /
-              ("merge2d_lesson_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::create_directories(folder_);
+  LessonFolder() : folder_(temporary_.path()) {
     write("scene.toml", kScene);
     write("text.md", "Hello.\n\n## One\nSome *text*.\n");
   }
-  ~LessonFolder() override { fs::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
@@ -82,7 +78,8 @@ class LessonFolder : public testing::Test {
     return failures(lesson, recordLesson(lesson));
   }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_;
 };
 
 TEST_F(LessonFolder, BecomesPartsOfHtml) {

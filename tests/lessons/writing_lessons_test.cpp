@@ -8,13 +8,14 @@
 #include "lessons/lesson.h"
 #include "lessons/page.h"
 #include "tests/docs/docs_testing.h"
+#include "tests/support/temporary_folder.h"
 
 namespace merge2d::docs {
 namespace {
 
 TEST(WritingLessons, TheExampleBecomesAPage) {
-  const fs::path folder = fs::path(testing::TempDir()) / "merge2d_writing_lessons";
-  fs::create_directories(folder);
+  const TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   const Page page = pageOf(read(kRoot / "docs/writing-lessons.md"));
   std::vector<std::string> toml, markdown;
   for (const Block& block : page.blocks) {
@@ -34,7 +35,6 @@ TEST(WritingLessons, TheExampleBecomesAPage) {
       .title = lesson.title, .lesson = lessonJson(lesson, recordings), .traces = {}};
   content.traces.push_back({"as it is", std::move(recordings[0])});
   EXPECT_THAT(makePage(content), testing::HasSubstr("<title>Two boxes become one</title>"));
-  fs::remove_all(folder);
 }
 
 }  // namespace

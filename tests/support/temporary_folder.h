@@ -2,18 +2,24 @@
 /// A folder that is gone after the test.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
 
 namespace merge2d {
 
+/// A path for the running test alone: also the tests of another checkout may run at this time.
+inline std::filesystem::path pathOfThisTest() {
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  return std::filesystem::path(testing::TempDir()) /
+         (std::string("merge2d_") + std::to_string(getpid()) + "_" + test->test_suite_name() + "_" +
+          test->name());
+}
+
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(testing::TempDir()) /
-            (std::string("merge2d_") + test->test_suite_name() + "_" + test->name());
+  TemporaryFolder() : path_(pathOfThisTest()) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
