@@ -97,31 +97,51 @@ void moveLeaves(State& state, Scratch& scratch, const Approaches& approaches) {
     scratch.moved_flag[index(id)] = r.resized ? kResized : kMoved;
     r.resized = false;
   }
+  state.broadphase.tree.settle();
 }
 
-/// Asks the tree who is near something that moved: shape pairs at once where both have one shape,
-/// near pairs otherwise.
+/// Lists two rigid things that are near each other: as a pair of shapes at once where both have one
+/// shape, as a near pair otherwise.
+void listNeighbours(const State& state, RigidId a, RigidId b, std::vector<ContactKey>& candidates,
+                    std::vector<NearPair>& near) {
+  if (!canTouch(state, a, b)) return;
+  if (hasShapeTree(state, a) || hasShapeTree(state, b)) {
+    NearPair pair{.a = std::min(a, b), .b = std::max(a, b)};
+    near.push_back(pair);
+  } else if (!joined(state, BodyId{static_cast<std::uint32_t>(a)},
+                     BodyId{static_cast<std::uint32_t>(b)})) {
+    candidates.push_back(keyOf(state, onlyShape(state, a), onlyShape(state, b)));
+  }
+}
+
+/// Asks the tree who is near something that moved.
 void findNeighboursOf(const State& state, const Scratch& scratch, RigidId id,
                       std::vector<ContactKey>& candidates, std::vector<NearPair>& near) {
-  const Rigid& r = state[id];
-  state.broadphase.tree.queryLeaf(r.leaf, [&](std::uint32_t other) {
+  state.broadphase.tree.queryLeaf(state[id].leaf, [&](std::uint32_t other) {
     const RigidId o{other};
-    if (o == id || (scratch.moved_flag[other] && o < id) || !canTouch(state, id, o)) return;
-    if (hasShapeTree(state, id) || hasShapeTree(state, o)) {
-      NearPair pair{.a = std::min(id, o), .b = std::max(id, o)};
-      near.push_back(pair);
-    } else if (!joined(state, BodyId{static_cast<std::uint32_t>(id)}, BodyId{other})) {
-      candidates.push_back(keyOf(state, onlyShape(state, id), onlyShape(state, o)));
-    }
+    if (o == id || (scratch.moved_flag[other] && o < id)) return;
+    listNeighbours(state, id, o, candidates, near);
   });
 }
 
-/// The same for all that moved.
+/// Asks the tree for all that are near each other, where that costs less.
+void findAllNeighbours(const State& state, Scratch& scratch) {
+  state.broadphase.tree.forEachPair([&](std::uint32_t a, std::uint32_t b) {
+    if (!scratch.moved_flag[a] && !scratch.moved_flag[b]) return;
+    listNeighbours(state, RigidId{a}, RigidId{b}, scratch.candidates, scratch.near_candidates);
+  });
+}
+
+/// Who is near anything that moved.
 void findNeighbours(State& state, Scratch& scratch) {
   constexpr std::size_t kGrain = 128;
+  constexpr std::size_t kMany = 4;  // where one of so many moved, all pairs are asked for at once
   scratch.candidates.clear();
   scratch.near_candidates.clear();
   const auto& moved = scratch.moved;
+  if (kMany * moved.size() > state.broadphase.tree.size()) {
+    return findAllNeighbours(state, scratch);
+  }
   if (!scratch.tasks) {
     for (const RigidId id : moved) {
       findNeighboursOf(state, scratch, id, scratch.candidates, scratch.near_candidates);

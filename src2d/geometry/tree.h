@@ -1,138 +1,168 @@
 #pragma once
-/// Box2D's dynamic tree of bounding boxes, behind the few calls that the broadphase needs.
-
-#include <box2d/b2_dynamic_tree.h>
+/// A tree of bounding boxes, for what is near what.
+///
+/// A binary tree of boxes around boxes, balanced by rotations as in Box2D 2.4 (b2_dynamic_tree.h,
+/// after N. Presson's btDbvt): a leaf enters beside the box that grows least. Deviations: leaves
+/// that have left their boxes are collected, and where they are many the boxes above all leaves are
+/// made anew in one pass instead; and all pairs of leaves that meet are found by one descent of the
+/// tree against itself. Answers depend on the leaves' boxes alone, not on the shape of the tree.
+/// Guarded by tests/src2d/geometry/tree_test.cpp.
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <memory>
+#include <vector>
 
 #include "src2d/geometry/box.h"
 
 namespace merge2d {
 
 /// Leaves hold a number and a fat box: the given one grown by 0.1 m, so that small motions cost
-/// nothing. Box2D keeps the boxes in float; the fat margin covers the rounding up to 10^6 m.
+/// nothing. Boxes are kept in float; the fat margin covers the rounding up to 10^6 m.
 class AabbTree {
  public:
-  AabbTree() = default;
-  AabbTree(const AabbTree&) = delete;
-  AabbTree& operator=(const AabbTree&) = delete;
-
-  int insert(const Aabb& box, std::uint32_t value) {
-    grow();
-    return tree_.CreateProxy(toB2(box), toUserData(value));
-  }
+  int insert(const Aabb& box, std::uint32_t value);
   /// A leaf with this very fat box, which another tree's `fatBox` gave: a tree that is built anew
   /// answers as the old one did.
-  int insertFat(const Aabb& fat, std::uint32_t value) {
-    b2AABB box;
-    b2Vec2 ahead(0.0F, 0.0F);
-    shrink(static_cast<float>(fat.lower.x()), static_cast<float>(fat.upper.x()), box.lowerBound.x,
-           box.upperBound.x, ahead.x);
-    shrink(static_cast<float>(fat.lower.y()), static_cast<float>(fat.upper.y()), box.lowerBound.y,
-           box.upperBound.y, ahead.y);
-    // Moving a leaf from far away gives it just the box that `box` and `ahead` ask for.
-    const b2Vec2 far(1e8F, 1e8F);
-    grow();
-    const int leaf = tree_.CreateProxy({far, far}, toUserData(value));
-    tree_.MoveProxy(leaf, box, ahead);
-    return leaf;
-  }
-  void remove(int leaf) {
-    tree_.DestroyProxy(leaf);
-    --leaves_;
-  }
+  int insertFat(const Aabb& fat, std::uint32_t value);
+  void remove(int leaf);
 
-  /// True when the box left its fat box and the leaf was placed anew, with room ahead along
-  /// `displacement` [m].
-  bool move(int leaf, const Aabb& box, const Vec2& displacement) {
-    return tree_.MoveProxy(leaf, toB2(box), toB2(displacement));
-  }
-  bool overlap(int leaf, int other) const {
-    return b2TestOverlap(tree_.GetFatAABB(leaf), tree_.GetFatAABB(other));
-  }
-  Aabb fatBox(int leaf) const {
-    const b2AABB& box = tree_.GetFatAABB(leaf);
-    return {{box.lowerBound.x, box.lowerBound.y}, {box.upperBound.x, box.upperBound.y}};
-  }
+  /// True when the box left its fat box, or the fat box is too large for it: the leaf gets a new
+  /// one with room ahead along `displacement` [m]. `settle` must follow before anything is asked.
+  bool move(int leaf, const Aabb& box, const Vec2& displacement);
+  void settle();
+
+  bool overlap(int leaf, int other) const { return meet(boxOf(~leaf), boxOf(~other)); }
+  Aabb fatBox(int leaf) const;
 
   /// Calls visit(value) for each leaf whose fat box meets `box`.
   template <class Visit>
   void query(const Aabb& box, Visit&& visit) const {
-    Callback<Visit> callback{&tree_, &visit};
-    tree_.Query(&callback, toB2(box));
+    query(toFloats(box), visit);
   }
   template <class Visit>
   void queryLeaf(int leaf, Visit&& visit) const {
-    Callback<Visit> callback{&tree_, &visit};
-    tree_.Query(&callback, tree_.GetFatAABB(leaf));
+    query(boxOf(~leaf), visit);
+  }
+  /// Calls visit(value, value) once for each two leaves whose fat boxes meet.
+  template <class Visit>
+  void forEachPair(Visit&& visit) const {
+    if (root_ >= 0) pairsWithin(root_, visit);
   }
 
-  /// Box2D keeps its nodes, twice as many as leaves, in an array that doubles from sixteen.
-  std::size_t memoryBytes() const {
-    const std::size_t nodes = 2 * most_leaves_;
-    return std::bit_ceil(std::max<std::size_t>(nodes, 16)) * sizeof(b2TreeNode);
-  }
+  std::size_t size() const { return leaf_count_; }
+  /// Boxes from the root to the deepest leaf.
+  int height() const { return root_ == kNone ? 0 : heightOf(root_) + 1; }
+  std::size_t memoryBytes() const;
 
   /// Holds a small part of the leaves that it once had.
-  bool sparse() const { return most_leaves_ > 64 && 4 * leaves_ < most_leaves_; }
-  void clear() {
-    std::destroy_at(&tree_);
-    std::construct_at(&tree_);
-    leaves_ = most_leaves_ = 0;
-  }
+  bool sparse() const { return leaves_.size() > 64 && 4 * leaf_count_ < leaves_.size(); }
+  void clear() { *this = {}; }
 
  private:
-  void grow() { most_leaves_ = std::max(most_leaves_, ++leaves_); }
+  /// A node or a leaf: its place in nodes_, or the complement of that in leaves_.
+  using Ref = std::int32_t;
+  static constexpr Ref kNone = -2147483647 - 1;
 
-  /// Bounds that Box2D grows to [lower, upper] exactly. Growing rounds, so that not every number
-  /// can be reached from one side; `ahead`, which only moves one bound outwards, gives the rest. As
-  /// fat boxes are wider than twice their margin, at most one side needs it.
-  static void shrink(float lower, float upper, float& from, float& to, float& ahead) {
-    constexpr float kUp = std::numeric_limits<float>::infinity();
-    from = lower + b2_aabbExtension;
-    while (from - b2_aabbExtension > lower) from = std::nextafter(from, -kUp);
-    while (from - b2_aabbExtension < lower) from = std::nextafter(from, kUp);
-    to = upper - b2_aabbExtension;
-    while (to + b2_aabbExtension < upper) to = std::nextafter(to, kUp);
-    while (to + b2_aabbExtension > upper) to = std::nextafter(to, -kUp);
-    const float below = lower - (from - b2_aabbExtension);  // at most 0
-    const float above = upper - (to + b2_aabbExtension);    // at least 0
-    ahead = (below < 0.0F ? below : above) / b2_aabbMultiplier;
+  struct Box {
+    float lower_x = 0.0F, lower_y = 0.0F, upper_x = 0.0F, upper_y = 0.0F;
+  };
+  struct Leaf {
+    Box box;
+    Ref parent = kNone;  ///< kNone: the root; of a leaf that is not in use, the next such one
+    std::uint32_t value = 0;
+  };
+  struct Node {
+    Box box;
+    std::array<Ref, 2> child{kNone, kNone};
+    Ref parent = kNone;  ///< as in Leaf
+    std::int32_t height = 1;
+  };
+
+  /// Perimeters of all boxes [m].
+  struct Cost {
+    double nodes = 0.0, leaves = 0.0;
+  };
+
+  static bool meet(const Box& a, const Box& b) {
+    return (static_cast<int>(a.lower_x <= b.upper_x) & static_cast<int>(b.lower_x <= a.upper_x) &
+            static_cast<int>(a.lower_y <= b.upper_y) & static_cast<int>(b.lower_y <= a.upper_y)) !=
+           0;
+  }
+  static Box toFloats(const Aabb& box);
+  static Box around(const Box& a, const Box& b);
+  static bool contains(const Box& outer, const Box& inner);
+  static float perimeter(const Box& box);
+  static Vec2 middleOf(const Box& box);
+
+  Leaf& leaf(Ref ref) { return leaves_[static_cast<std::size_t>(~ref)]; }
+  const Leaf& leaf(Ref ref) const { return leaves_[static_cast<std::size_t>(~ref)]; }
+  Node& node(Ref ref) { return nodes_[static_cast<std::size_t>(ref)]; }
+  const Node& node(Ref ref) const { return nodes_[static_cast<std::size_t>(ref)]; }
+  const Box& boxOf(Ref ref) const { return ref < 0 ? leaf(ref).box : node(ref).box; }
+  int heightOf(Ref ref) const { return ref < 0 ? 0 : node(ref).height; }
+  Ref& parentOf(Ref ref) { return ref < 0 ? leaf(ref).parent : node(ref).parent; }
+
+  Ref newLeaf(const Box& box, std::uint32_t value);
+  Ref newNode();
+  void freeNode(Ref ref);
+  void replaceChild(Ref parent, Ref child, Ref by);
+  Ref bestSibling(const Box& box) const;
+  void link(Ref ref);
+  void unlink(Ref ref);
+  void climb(Ref ref);
+  void refresh(Node& of) const;
+  Ref balanced(Ref ref);
+  void fit(Ref ref, Cost& cost);
+  void refit();
+  void rebuild();
+  Ref build(std::vector<Ref>& order, std::size_t begin, std::size_t end);
+
+  template <class Visit>
+  void query(const Box& box, Visit& visit) const {
+    if (root_ == kNone) return;
+    std::array<Ref, kMostWaiting> waiting;
+    std::size_t count = 0;
+    waiting[count++] = root_;
+    while (count > 0) {
+      const Ref ref = waiting[--count];
+      if (!meet(boxOf(ref), box)) continue;
+      if (ref < 0) {
+        visit(leaf(ref).value);
+      } else {
+        waiting[count++] = node(ref).child[0];
+        waiting[count++] = node(ref).child[1];
+      }
+    }
   }
 
   template <class Visit>
-  struct Callback {
-    const b2DynamicTree* tree;
-    Visit* visit;
-    bool QueryCallback(int32 leaf) {
-      (*visit)(toValue(tree->GetUserData(leaf)));
-      return true;
-    }
-  };
-
-  static b2Vec2 toB2(const Vec2& a) {
-    return {static_cast<float>(a.x()), static_cast<float>(a.y())};
+  void pairsWithin(Ref ref, Visit& visit) const {
+    const auto [a, b] = node(ref).child;
+    if (a >= 0) pairsWithin(a, visit);
+    if (b >= 0) pairsWithin(b, visit);
+    pairsBetween(a, b, visit);
   }
-  static b2AABB toB2(const Aabb& box) {
-    b2AABB result;
-    result.lowerBound = toB2(box.lower);
-    result.upperBound = toB2(box.upper);
-    return result;
-  }
-  static void* toUserData(std::uint32_t value) {
-    return reinterpret_cast<void*>(static_cast<std::uintptr_t>(value));
-  }
-  static std::uint32_t toValue(void* data) {
-    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(data));
+  template <class Visit>
+  void pairsBetween(Ref a, Ref b, Visit& visit) const {
+    if (!meet(boxOf(a), boxOf(b))) return;
+    if (heightOf(a) < heightOf(b)) std::swap(a, b);
+    if (a < 0) return visit(leaf(a).value, leaf(b).value);
+    pairsBetween(node(a).child[0], b, visit);
+    pairsBetween(node(a).child[1], b, visit);
   }
 
-  b2DynamicTree tree_;
-  std::size_t leaves_ = 0, most_leaves_ = 0;
+  /// A balanced tree of as many nodes as there are numbers is less high.
+  static constexpr std::size_t kMostWaiting = 64;
+
+  std::vector<Leaf> leaves_;
+  std::vector<Node> nodes_;
+  std::vector<Ref> moved_;  ///< leaves with new boxes, before `settle`
+  std::size_t leaf_count_ = 0;
+  Ref root_ = kNone;
+  Ref free_leaf_ = kNone, free_node_ = kNone;
+  double built_cost_ = 0.0;  ///< perimeters of the nodes per leaf's when it was last built at once
 };
 
 }  // namespace merge2d
