@@ -1,5 +1,6 @@
-/// Box2D 2.4.1 finds the reference face by separating axes, in float and relative to A's centre.
-/// The incident edge is then cut to the width of that face in double, from the exact vertices:
+/// The reference face is found as Box2D 2.4.1 does, by separating axes, in float and relative to
+/// A's centre (reference_face.h). The incident edge is then cut to the width of that face in
+/// double, from the exact vertices:
 ///
 ///              incident edge                 n
 ///        \________________________          ^
@@ -17,6 +18,7 @@
 #include <utility>
 
 #include "src2d/geometry/collide_pairs.h"
+#include "src2d/geometry/reference_face.h"
 
 namespace merge2d {
 
@@ -70,34 +72,30 @@ int faceAgainst(const Collider& collider, const Vec2& direction) {
   return best;
 }
 
-/// Box2D's manifold, for points up to `margin` apart. Only the sum of the two radii matters to it.
-void findFaces(b2Manifold& found, const Polygons& polygons, double margin) {
+/// Box2D's reference face, for points up to `margin` apart.
+ReferenceFace findReference(const Polygons& polygons, double margin) {
   const auto& [a, b, b_in_a] = polygons;
   b2Transform xf;
   xf.p = toFloat(b_in_a.exactly(b.origin()) - a.origin());
   xf.q.s = static_cast<float>(b_in_a.rotation.s);
   xf.q.c = static_cast<float>(b_in_a.rotation.c);
-  if (static_cast<float>(margin) == Collider::kUsualMargin) {
-    b2CollidePolygons(&found, &a.polygon(), identity(), &b.polygon(), xf);
-    return;
-  }
-  b2PolygonShape padded = a.polygon();
-  padded.m_radius = static_cast<float>(margin) + kFloatSlack - b.polygon().m_radius;
-  b2CollidePolygons(&found, &padded, identity(), &b.polygon(), xf);
+  const float radius_b = b.polygon().m_radius;
+  const bool usual = static_cast<float>(margin) == Collider::kUsualMargin;
+  const float radius_a =
+      usual ? a.polygon().m_radius : static_cast<float>(margin) + kFloatSlack - radius_b;
+  return referenceFace(a.polygon(), b.polygon(), xf, radius_a + radius_b);
 }
 
-FacePair facePair(const b2Manifold& found, const Polygons& polygons) {
+FacePair facePair(const ReferenceFace& reference, const Polygons& polygons) {
   const auto& [a, b, b_in_a] = polygons;
   FacePair pair;
-  pair.swapped = found.type == b2Manifold::e_faceB;
-  int face_a = 0;
-  int face_b = 0;
+  pair.swapped = reference.swapped;
+  int face_a = reference.face;
+  int face_b = reference.face;
   if (pair.swapped) {
-    face_b = faceWithMiddle(b.polygon(), found.localPoint);
     pair.normal = b_in_a.rotation * b.normal(face_b);
     face_a = faceAgainst(a, pair.normal);
   } else {
-    face_a = faceWithMiddle(a.polygon(), found.localPoint);
     pair.normal = a.normal(face_a);
     face_b = faceAgainst(b, b_in_a.rotation.inverse() * pair.normal);
   }
@@ -217,10 +215,9 @@ Manifold clippedContact(const Polygons& polygons, const FacePair& pair, double m
 
 Manifold collidePolygons(const Collider& a, const Collider& b, const Pose& b_in_a, double margin) {
   const Polygons polygons{a, b, b_in_a};
-  b2Manifold found;
-  findFaces(found, polygons, margin);
-  if (found.pointCount == 0) return {};
-  return clippedContact(polygons, facePair(found, polygons), margin);
+  const ReferenceFace reference = findReference(polygons, margin);
+  if (!reference.found) return {};
+  return clippedContact(polygons, facePair(reference, polygons), margin);
 }
 
 }  // namespace merge2d

@@ -1,0 +1,21 @@
+#pragma once
+/// The face of two polygons that parts them best: Box2D's reference face. Not for other folders.
+
+#include "src2d/geometry/collide.h"
+
+namespace merge2d {
+
+struct ReferenceFace {
+  bool found = false;    ///< the polygons are near each other
+  bool swapped = false;  ///< it is a face of B
+  int face = 0;          ///< from this vertex to the next one
+};
+
+/// The same face, for points up to `radius` [m] apart, as b2CollidePolygons gives: with the same
+/// operations on the same floats, but for several faces at once, and without the contact points,
+/// which collidePolygons finds in double.
+/// Guarded by ReferenceFace.IsTheOneThatBox2DFinds.
+ReferenceFace referenceFace(const b2PolygonShape& a, const b2PolygonShape& b,
+                            const b2Transform& b_in_a, float radius);
+
+}  // namespace merge2d
