@@ -11,6 +11,7 @@
 #include "src2d/dynamics/collections.h"
 #include "src2d/dynamics/islands.h"
 #include "src2d/dynamics/joint_solver.h"
+#include "src2d/dynamics/wide_blocks.h"
 #include "src2d/trace/notes.h"
 
 namespace merge2d {
@@ -190,6 +191,12 @@ struct FoundByTask {
   std::vector<std::pair<std::uint32_t, Contact>> touching;  ///< with the index of the idle pair
 };
 
+/// Memory of the thread that solves an island, kept from one to the next.
+struct SweepMemory {
+  NncgBuffers nncg;
+  WideBlocks wide;
+};
+
 /// Lives for one step; its memory is kept.
 struct Scratch {
   std::vector<Load> loads;
@@ -275,8 +282,9 @@ struct Scratch {
   std::vector<std::uint32_t> island_roots;  ///< ascending
   std::vector<HitWay> hit_ways;
   NncgBuffers nncg;
-  std::vector<NncgBuffers> nncg_of_threads;  ///< of those beside the caller's
-  std::vector<SweepChange> island_changes;   ///< per island
+  WideBlocks wide;
+  std::vector<SweepMemory> sweeps_of_threads;  ///< of those beside the caller's
+  std::vector<SweepChange> island_changes;     ///< per island
 };
 
 }  // namespace merge2d

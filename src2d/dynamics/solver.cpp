@@ -1,5 +1,6 @@
 #include "src2d/dynamics/solver.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "src2d/dynamics/hits.h"
@@ -116,10 +117,13 @@ void solveBends(const State& state, const IslandParts& island, std::vector<Solve
 /// Islands of fewer blocks are swept one by one: packing them would cost as much.
 constexpr std::size_t kLeastWide = 8;
 
+bool isWide(const Island& island) {
+  return island.first_joint == island.last_joint && island.last - island.first >= kLeastWide;
+}
+
 /// The sweeps of an island without joints, four blocks at a time.
 SweepChange solveWide(Scratch& scratch, const Island& island, const SolverSettings& settings,
-                      NncgBuffers& buffers) {
-  thread_local WideBlocks wide;  // its memory is kept, and serves all worlds of the thread
+                      NncgBuffers& buffers, WideBlocks& wide) {
   const std::size_t size = island.last - island.first;
   const std::span blocks(scratch.blocks.data() + island.first, size);
   auto& u = scratch.u;
@@ -139,7 +143,7 @@ SweepChange solveWide(Scratch& scratch, const Island& island, const SolverSettin
 
 /// Far-away bodies do not matter: each island has its own ρ.
 SweepChange solveIsland(const State& state, Scratch& scratch, const Island& island,
-                        NncgBuffers& buffers) {
+                        NncgBuffers& buffers, WideBlocks& wide) {
   const SolverSettings& settings = state.settings.solver;
   const std::span blocks(scratch.blocks.data() + island.first, island.last - island.first);
   const std::span bodies(scratch.island_bodies.data() + island.first_body,
@@ -155,9 +159,9 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   }
   const auto body = [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; };
   const bool accelerate = isAccelerated(settings.method);
-  if (joints.empty() && scratch.sweep_path != SweepPath::OneByOne &&
-      settings.method != SolverMethod::Pgs && blocks.size() >= kLeastWide) {
-    return solveWide(scratch, island, settings, buffers);
+  if (isWide(island) && scratch.sweep_path != SweepPath::OneByOne &&
+      settings.method != SolverMethod::Pgs) {
+    return solveWide(scratch, island, settings, buffers, wide);
   }
   if (joints.empty()) {
     Nncg iteration(
@@ -189,20 +193,23 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
 void solveIslands(const State& state, Scratch& scratch) {
   constexpr std::size_t kGrain = 4;  // islands
   const auto& islands = scratch.islands;
-  auto& others = scratch.nncg_of_threads;
+  auto& others = scratch.sweeps_of_threads;
   if (scratch.tasks) others.resize(static_cast<std::size_t>(scratch.tasks->threads() - 1));
   scratch.island_changes.assign(islands.size(), {});
   const auto hasJoints = [](const Island& i) { return i.first_joint != i.last_joint; };
-  const auto solve = [&](std::size_t i, NncgBuffers& buffers) {
-    scratch.island_changes[i] = solveIsland(state, scratch, islands[i], buffers);
+  const auto solve = [&](std::size_t i, NncgBuffers& buffers, WideBlocks& wide) {
+    scratch.island_changes[i] = solveIsland(state, scratch, islands[i], buffers, wide);
   };
   forEachIndex(scratch.tasks, islands.size(), kGrain, [&](std::size_t i, int thread) {
     if (hasJoints(islands[i])) return;
-    solve(i, thread == 0 ? scratch.nncg : others[static_cast<std::size_t>(thread - 1)]);
+    if (thread == 0) return solve(i, scratch.nncg, scratch.wide);
+    SweepMemory& other = others[static_cast<std::size_t>(thread - 1)];
+    solve(i, other.nncg, other.wide);
   });
+  if (std::ranges::none_of(islands, isWide)) scratch.wide.release();
   scratch.joint_memory.next = 0;
   for (std::size_t i = 0; i < islands.size(); ++i) {
-    if (hasJoints(islands[i])) solve(i, scratch.nncg);
+    if (hasJoints(islands[i])) solve(i, scratch.nncg, scratch.wide);
   }
 }
 

@@ -168,4 +168,8 @@ void WideBlocks::storeImpulses(std::span<ContactBlock> blocks) const {
   for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].lambda = impulses_[i];
 }
 
+std::size_t WideBlocks::memoryBytes() const {
+  return bytesOf(wide_, alone_, colours_, impulses_, pairs_, singles_);
+}
+
 }  // namespace merge2d

@@ -51,6 +51,10 @@ class WideBlocks {
 
   void storeImpulses(std::span<ContactBlock> blocks) const;
 
+  std::size_t memoryBytes() const;
+  /// Gives its memory back; no sweep may follow before blocks are packed again.
+  void release() { *this = {}; }
+
  private:
   /// Groups that may be solved in any order, then blocks that may.
   struct Colour {

@@ -81,31 +81,67 @@ inline void solveByCases(const WideBlock& k, const Four& w1, const Four& w2, con
   x2 = both ? x2 : (first ? zero : other2);
 }
 
-inline void solvePairs(const WideBlock& k, Impulses* impulses, SolverVelocity* u) {
+/// Four blocks while they are solved: velocities and impulses of both points, by components. All of
+/// it stays in registers, as long as the functions that share it are inlined.
+struct FourBlocks {
   FourVelocities a, b;
-  gather(a, u, k.a);
-  gather(b, u, k.b);
-  Four l1, l2, t1, t2;
-  load(l1, impulses[k.block[0]].data());
-  load(l2, impulses[k.block[1]].data());
-  load(t1, impulses[k.block[2]].data());
-  load(t2, impulses[k.block[3]].data());
-  transpose(l1, l2, t1, t2);
+  Four n1, n2, t1, t2;
+  Four v_n, v_t;  ///< of the centres of mass against each other, with the belts
+};
 
-  const Four dx = b.vx - a.vx, dy = b.vy - a.vy;
-  const Four v_n = k.nx * dx + k.ny * dy;
-  const Four v_t = k.nx * dy - k.ny * dx + k.surface_a + k.surface_b;
+[[gnu::always_inline]] inline void read(FourBlocks& s, const WideBlock& k, const Impulses* impulses,
+                                        const SolverVelocity* u) {
+  gather(s.a, u, k.a);
+  gather(s.b, u, k.b);
+  load(s.n1, impulses[k.block[0]].data());
+  load(s.n2, impulses[k.block[1]].data());
+  load(s.t1, impulses[k.block[2]].data());
+  load(s.t2, impulses[k.block[3]].data());
+  transpose(s.n1, s.n2, s.t1, s.t2);
+  const Four dx = s.b.vx - s.a.vx, dy = s.b.vy - s.a.vy;
+  s.v_n = k.nx * dx + k.ny * dy;
+  s.v_t = k.nx * dy - k.ny * dx + k.surface_a + k.surface_b;
+}
+
+/// Moves the centres of mass by what was added along normal and tangent, and writes all back.
+[[gnu::always_inline]] inline void write(FourBlocks& s, const WideBlock& k, const Four& p_n,
+                                         const Four& p_t, Impulses* impulses, SolverVelocity* u) {
+  const Four px = k.nx * p_n - k.ny * p_t, py = k.ny * p_n + k.nx * p_t;
+  s.a.vx -= s.a.inv_mass * px;
+  s.a.vy -= s.a.inv_mass * py;
+  s.b.vx += s.b.inv_mass * px;
+  s.b.vy += s.b.inv_mass * py;
+  scatter(s.a, u, k.a);
+  scatter(s.b, u, k.b);
+  transpose(s.n1, s.n2, s.t1, s.t2);
+  store(impulses[k.block[0]].data(), s.n1);
+  store(impulses[k.block[1]].data(), s.n2);
+  store(impulses[k.block[2]].data(), s.t1);
+  store(impulses[k.block[3]].data(), s.t2);
+}
+
+/// w + bias + Cλ of the normal of point `i`, whose impulse is `l`.
+[[gnu::always_inline]] inline void normalVelocity(Four& w, const FourBlocks& s, const WideBlock& k,
+                                                  int i, const Four& l) {
+  w = s.v_n + k.arm_bn[i] * s.b.omega - k.arm_an[i] * s.a.omega + k.bias[i] + k.softness * l;
+}
+
+inline void solvePairs(const WideBlock& k, Impulses* impulses, SolverVelocity* u) {
+  FourBlocks s;
+  read(s, k, impulses, u);
 
   // Both normals.
-  const Four w1 = v_n + k.arm_bn[0] * b.omega - k.arm_an[0] * a.omega + k.bias[0] + k.softness * l1;
-  const Four w2 = v_n + k.arm_bn[1] * b.omega - k.arm_an[1] * a.omega + k.bias[1] + k.softness * l2;
-  Four x1 = l1 - (k.k22 * w1 - k.k12 * w2) * k.inv_det;
-  Four x2 = l2 - (k.k11 * w2 - k.k12 * w1) * k.inv_det;
-  if (!allOf((x1 >= Four{}) & (x2 >= Four{}))) solveByCases(k, w1, w2, l1, l2, x1, x2);
-  const Four p1 = x1 - l1, p2 = x2 - l2;
-  const Four p_n = p1 + p2;
-  a.omega -= k.inv_inertia_a * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
-  b.omega += k.inv_inertia_b * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
+  Four w1, w2;
+  normalVelocity(w1, s, k, 0, s.n1);
+  normalVelocity(w2, s, k, 1, s.n2);
+  Four x1 = s.n1 - (k.k22 * w1 - k.k12 * w2) * k.inv_det;
+  Four x2 = s.n2 - (k.k11 * w2 - k.k12 * w1) * k.inv_det;
+  if (!allOf((x1 >= Four{}) & (x2 >= Four{}))) solveByCases(k, w1, w2, s.n1, s.n2, x1, x2);
+  const Four p1 = x1 - s.n1, p2 = x2 - s.n2;
+  s.n1 = x1;
+  s.n2 = x2;
+  s.a.omega -= k.inv_inertia_a * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
+  s.b.omega += k.inv_inertia_b * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
 
   // Their friction, as one row: ManifoldFriction.
   const Four pressure = x1 + x2, half = Four{} + 0.5;
@@ -115,67 +151,35 @@ inline void solvePairs(const WideBlock& k, Impulses* impulses, SolverVelocity* u
   const Four arm_a = of1 * k.arm_at[0] + of2 * k.arm_at[1];
   const Four arm_b = of1 * k.arm_bt[0] + of2 * k.arm_bt[1];
   const Four inv_k = of1 * k.inv_kt[0] + of2 * k.inv_kt[1];
-  Four both = t1 + t2 - inv_k * (v_t + arm_b * b.omega - arm_a * a.omega);
+  Four both = s.t1 + s.t2 - inv_k * (s.v_t + arm_b * s.b.omega - arm_a * s.a.omega);
   clamp(both, k.mu * pressure);
-  Four y1 = of1 * both, y2 = of2 * both;
-  const Four f1 = y1 - t1, f2 = y2 - t2;
-  const Four p_t = f1 + f2;
-  a.omega -= k.inv_inertia_a * (k.arm_at[0] * f1 + k.arm_at[1] * f2);
-  b.omega += k.inv_inertia_b * (k.arm_bt[0] * f1 + k.arm_bt[1] * f2);
-
-  const Four px = k.nx * p_n - k.ny * p_t, py = k.ny * p_n + k.nx * p_t;
-  a.vx -= a.inv_mass * px;
-  a.vy -= a.inv_mass * py;
-  b.vx += b.inv_mass * px;
-  b.vy += b.inv_mass * py;
-  scatter(a, u, k.a);
-  scatter(b, u, k.b);
-  transpose(x1, x2, y1, y2);
-  store(impulses[k.block[0]].data(), x1);
-  store(impulses[k.block[1]].data(), x2);
-  store(impulses[k.block[2]].data(), y1);
-  store(impulses[k.block[3]].data(), y2);
+  const Four f1 = of1 * both - s.t1, f2 = of2 * both - s.t2;
+  s.t1 = of1 * both;
+  s.t2 = of2 * both;
+  s.a.omega -= k.inv_inertia_a * (k.arm_at[0] * f1 + k.arm_at[1] * f2);
+  s.b.omega += k.inv_inertia_b * (k.arm_bt[0] * f1 + k.arm_bt[1] * f2);
+  write(s, k, p1 + p2, f1 + f2, impulses, u);
 }
 
 /// Of single points; what else stands in their impulses stays.
 inline void solveSingles(const WideBlock& k, Impulses* impulses, SolverVelocity* u) {
-  FourVelocities a, b;
-  gather(a, u, k.a);
-  gather(b, u, k.b);
-  Four l, unused_n, t, unused_t;
-  load(l, impulses[k.block[0]].data());
-  load(unused_n, impulses[k.block[1]].data());
-  load(t, impulses[k.block[2]].data());
-  load(unused_t, impulses[k.block[3]].data());
-  transpose(l, unused_n, t, unused_t);
-
-  const Four dx = b.vx - a.vx, dy = b.vy - a.vy;
-  const Four v_n = k.nx * dx + k.ny * dy;
-  const Four v_t = k.nx * dy - k.ny * dx + k.surface_a + k.surface_b;
-  const Four w = v_n + k.arm_bn[0] * b.omega - k.arm_an[0] * a.omega + k.bias[0] + k.softness * l;
-  Four x = l - w / k.k11;
+  FourBlocks s;
+  read(s, k, impulses, u);
+  Four w;
+  normalVelocity(w, s, k, 0, s.n1);
+  Four x = s.n1 - w / k.k11;
   notNegative(x);
-  const Four p_n = x - l;
-  a.omega -= k.inv_inertia_a * k.arm_an[0] * p_n;
-  b.omega += k.inv_inertia_b * k.arm_bn[0] * p_n;
-  Four y = t - k.inv_kt[0] * (v_t + k.arm_bt[0] * b.omega - k.arm_at[0] * a.omega);
+  const Four p_n = x - s.n1;
+  s.n1 = x;
+  s.a.omega -= k.inv_inertia_a * k.arm_an[0] * p_n;
+  s.b.omega += k.inv_inertia_b * k.arm_bn[0] * p_n;
+  Four y = s.t1 - k.inv_kt[0] * (s.v_t + k.arm_bt[0] * s.b.omega - k.arm_at[0] * s.a.omega);
   clamp(y, k.mu * x);
-  const Four p_t = y - t;
-  a.omega -= k.inv_inertia_a * k.arm_at[0] * p_t;
-  b.omega += k.inv_inertia_b * k.arm_bt[0] * p_t;
-
-  const Four px = k.nx * p_n - k.ny * p_t, py = k.ny * p_n + k.nx * p_t;
-  a.vx -= a.inv_mass * px;
-  a.vy -= a.inv_mass * py;
-  b.vx += b.inv_mass * px;
-  b.vy += b.inv_mass * py;
-  scatter(a, u, k.a);
-  scatter(b, u, k.b);
-  transpose(x, unused_n, y, unused_t);
-  store(impulses[k.block[0]].data(), x);
-  store(impulses[k.block[1]].data(), unused_n);
-  store(impulses[k.block[2]].data(), y);
-  store(impulses[k.block[3]].data(), unused_t);
+  const Four p_t = y - s.t1;
+  s.t1 = y;
+  s.a.omega -= k.inv_inertia_a * k.arm_at[0] * p_t;
+  s.b.omega += k.inv_inertia_b * k.arm_bt[0] * p_t;
+  write(s, k, p_n, p_t, impulses, u);
 }
 
 inline void sweepWide(const WideBlock* first, const WideBlock* end_of_pairs, const WideBlock* last,

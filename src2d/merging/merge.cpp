@@ -128,6 +128,7 @@ void releaseRows(State& state, Scratch& scratch) {
   scratch.nncg.direction.clear();
   scratch.nncg.u_before.clear();
   scratch.nncg.u_direction.clear();
+  scratch.wide.release();
   trim(scratch.blocks, scratch.row_sources, scratch.block_order, scratch.sweep_contacts,
        scratch.candidates, scratch.near_candidates, scratch.nncg.before, scratch.nncg.direction,
        scratch.nncg.u_before, scratch.nncg.u_direction, scratch.pairs, scratch.ready, scratch.u,

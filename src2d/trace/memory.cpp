@@ -48,6 +48,14 @@ std::size_t bytesOfBuffers(const NncgBuffers& m) {
   return bytesOf(m.before, m.direction, m.u_before, m.u_direction);
 }
 
+std::size_t bytesOfSweeps(const Scratch& s) {
+  std::size_t total = bytesOfBuffers(s.nncg) + s.wide.memoryBytes() + bytesOf(s.sweeps_of_threads);
+  for (const SweepMemory& of_thread : s.sweeps_of_threads) {
+    total += bytesOfBuffers(of_thread.nncg) + of_thread.wide.memoryBytes();
+  }
+  return total;
+}
+
 std::size_t bytesOfScratch(const Scratch& s) {
   return bytesOf(s.loads, s.kicks, s.springs, s.stretches, s.spring_gain, s.pairs, s.events,
                  s.moved, s.moved_flag, s.candidates, s.touching, s.seams, s.casts, s.kick_order,
@@ -57,8 +65,8 @@ std::size_t bytesOfScratch(const Scratch& s) {
                  s.load_place, s.doubts, s.trial_u, s.push_stale, s.overloaded_joints, s.ready) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order, s.hit_ways) +
-         bytesOfBuffers(s.nncg) + s.sets.memoryBytes() +
-         bytesOf(s.ahead, s.found, s.nncg_of_threads, s.island_changes, s.island_roots);
+         bytesOfSweeps(s) + s.sets.memoryBytes() +
+         bytesOf(s.ahead, s.found, s.island_changes, s.island_roots);
 }
 
 }  // namespace
