@@ -24,7 +24,7 @@ class Collider {
   const b2CircleShape& circle() const { return circle_; }
   const b2PolygonShape& polygon() const { return polygon_; }
 
-  static constexpr float kUsualMargin = 0.005F;  ///< [m]; other margins cost a copy per collision
+  static constexpr float kUsualMargin = 0.005F;  ///< [m]; half of it is in the polygons' radius
 
   const Vec2& origin() const { return origin_; }  ///< centre of disc or vertices, body frame [m]
   double radius() const { return radius_; }       ///< of a disc, 0 for polygons [m]
