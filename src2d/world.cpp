@@ -224,7 +224,7 @@ void World::capture(Snapshot& out) const {
 }
 
 void World::captureMotion(Snapshot& out) const {
-  merge2d::captureMotion(impl_->wholeState(), impl_->setup.actions, impl_->scratch, out);
+  merge2d::captureMotion(impl_->setup.state, impl_->setup.actions, impl_->scratch, out);
   out.decisions.clear();
   out.groups.clear();
 }

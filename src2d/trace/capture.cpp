@@ -141,12 +141,20 @@ CollectionView view(const State& state, const Collection& c) {
   return seen;
 }
 
+/// Parked ones too.
 void captureCollections(const State& state, Snapshot& out) {
   out.collections.clear();
+  for (const Collection& c : state.collections.all()) {
+    if (c.id != kNoCollection) out.collections.push_back(view(state, c));
+  }
+  std::sort(out.collections.begin(), out.collections.end(),
+            [](const CollectionView& x, const CollectionView& y) { return x.id < y.id; });
+}
+
+void captureWelds(const State& state, Snapshot& out) {
   out.welds.clear();
   for (const Collection& c : state.collections) {
     if (c.id == kNoCollection) continue;
-    out.collections.push_back(view(state, c));
     for (const Weld& weld : c.welds) {
       if (weld.expected) continue;
       int contacts = 0;
@@ -156,8 +164,6 @@ void captureCollections(const State& state, Snapshot& out) {
       out.welds.push_back({weld.a, weld.b, contacts});
     }
   }
-  std::sort(out.collections.begin(), out.collections.end(),
-            [](const CollectionView& x, const CollectionView& y) { return x.id < y.id; });
   std::sort(out.welds.begin(), out.welds.end(), [](const WeldView& x, const WeldView& y) {
     return std::pair(x.a, x.b) < std::pair(y.a, y.b);
   });
@@ -214,6 +220,7 @@ void captureState(const State& state, const Actions& actions, const Scratch& scr
   captureBodies(state, out);
   captureContacts(state, scratch, out);
   captureCollections(state, out);
+  captureWelds(state, out);
   out.springs = scratch.springs;
   captureJoints(state, out);
   out.events = scratch.events;

@@ -216,6 +216,27 @@ TEST(World, AHeapHoldsAboutTwoKilobytesPerBodyOnAverage) {
   }
 }
 
+/// What sleeps is in no list of the step, but is seen all the same.
+TEST(World, TheMotionOfASleepingHeapIsCapturedLikeAllElse) {
+  World world(wall(6, 6), inMode(Mode::MergeSleep));
+  runSteps(world, 400);
+  Snapshot motion;
+  world.captureMotion(motion);
+  const Snapshot all = world.capture();
+  ASSERT_FALSE(all.collections.empty());
+  ASSERT_TRUE(all.collections.front().asleep);
+  ASSERT_EQ(motion.bodies.size(), all.bodies.size());
+  for (std::size_t i = 0; i < all.bodies.size(); ++i) {
+    EXPECT_EQ(motion.bodies[i].x, all.bodies[i].x) << i;
+    EXPECT_EQ(motion.bodies[i].collection, all.bodies[i].collection) << i;
+    EXPECT_EQ(motion.bodies[i].asleep, all.bodies[i].asleep) << i;
+  }
+  ASSERT_EQ(motion.collections.size(), all.collections.size());
+  EXPECT_EQ(motion.collections.front().id, all.collections.front().id);
+  EXPECT_EQ(motion.collections.front().bodies, all.collections.front().bodies);
+  EXPECT_EQ(motion.stats.asleep, all.stats.asleep);
+}
+
 TEST(World, CountsTheMemoryOfItsWideSweeps) {
   const auto bytesBy = [](SweepPath path) {
     WorldOptions options = inMode(Mode::Reference);
