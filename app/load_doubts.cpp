@@ -30,6 +30,7 @@ double sizeOf(const std::vector<ConvexShape>& shapes) {
 struct Press {
   BodyId a{}, b{};
   double force = 0.0, depth = 0.0;
+  bool sinks = false;  ///< by a quarter of their size, as no blow does
 };
 
 /// 1/m and the smallest size of the bodies that respond to forces.
@@ -64,11 +65,14 @@ class LoadWatch {
  public:
   explicit LoadWatch(const World& world) : world_(world) {}
 
-  /// After each step: overlaps as they are, of blows too, but for those of the start.
+  /// After each step: overlaps as they are, of blows too, but for those of the start and those of
+  /// bodies that press each other with little more than their own mass.
   void see() {
     const bool first = seen_++ == 0;
+    const std::vector<double> heaviest = heaviestNeighbours();
     for (const auto& [pair, load] : loads(&overlapNow)) {
       if (load.depth == 0.0) continue;
+      if (!first && !load.sinks && !isPressed(pair, heaviest)) continue;
       if (first) from_the_start_.insert(pair);
       if (from_the_start_.contains(pair)) continue;
       if (load.depth > deepest_.depth) deepest_ = load;
@@ -86,6 +90,32 @@ class LoadWatch {
 
  private:
   using Pair = std::pair<BodyId, BodyId>;
+
+  static bool responds(const BodyInfo& body) { return body.motion == Motion::Dynamic; }
+
+  /// Per body: the mass of the heaviest dynamic body that it touches [kg].
+  std::vector<double> heaviestNeighbours() const {
+    std::vector<double> heaviest(world_.bodies().size(), 0.0);
+    const auto add = [&](BodyId to, BodyId of) {
+      const BodyInfo& body = world_.bodies()[index(of)];
+      if (responds(body)) heaviest[index(to)] = std::max(heaviest[index(to)], body.mass);
+    };
+    for (const ContactView& contact : world_.capture().contacts) {
+      add(contact.a, contact.b);
+      add(contact.b, contact.a);
+    }
+    return heaviest;
+  }
+
+  /// By something of ten times the mass of one of the two.
+  bool isPressed(const Pair& pair, const std::vector<double>& heaviest) const {
+    constexpr double kHeavy = 10.0;
+    const auto pressed = [&](BodyId b) {
+      const BodyInfo& body = world_.bodies()[index(b)];
+      return responds(body) && heaviest[index(b)] >= kHeavy * body.mass;
+    };
+    return pressed(pair.first) || pressed(pair.second);
+  }
 
   static double overlapNow(const ContactView& contact, const Ends&, const Scene&) {
     return contact.lambda_n > 0.0 ? -contact.gap : 0.0;
@@ -109,6 +139,7 @@ class LoadWatch {
       load.b = contact.b;
       load.force += contact.lambda_n / world_.scene().step;
       const double depth = depthOf(contact, ends, world_.scene());
+      load.sinks |= depth > 0.25 * ends.size;
       if (depth > muchFor(ends)) load.depth = std::max(load.depth, depth);
     }
     return loads;

@@ -220,6 +220,52 @@ mass = 1
   }
 }
 
+/// The figure is what a run shows, to a factor of two, for a blow that comes after some steps.
+TEST_F(Validate, TellsTheOverlapOfAHeavyBodyThatFallsOnALightOne) {
+  for (const double mass : {100.0, 300.0, 1000.0}) {
+    write("fall.toml", fmt::format(R"(
+duration = 3
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [40, 1]
+[[body]]
+name = "light"
+at = [0, 0.5]
+box = [1, 1]
+mass = 1
+[[body]]
+name = "heavy"
+at = [0, 4]
+circle = 0.5
+mass = {}
+)",
+                                   mass));
+    for (const int rate : {60, 100, 240}) {
+      SCOPED_TRACE(fmt::format("{} kg at 1/{} s", mass, rate));
+      const std::string step = fmt::format("step={}", 1.0 / rate);
+      const Json end =
+          run({"run", "fall.toml", "--json", "--mode", "reference", "--set", step}).json();
+      const double overlap = end["max_penetration"];
+      const Json warnings =
+          run({"validate", "fall.toml", "--json", "--set", step}).json()["warnings"];
+      ASSERT_FALSE(warnings.empty()) << overlap;
+      const std::string text = warnings[0].get<std::string>(), before = "pushes them ";
+      const double told = std::stod(text.substr(text.find(before) + before.size()));
+      EXPECT_GT(told, 0.5 * overlap);
+      EXPECT_LT(told, 2.0 * overlap);
+    }
+  }
+}
+
+/// Bodies of like mass that hit each other are as they should be.
+TEST_F(Validate, TellsNoOverlapOfBuiltInScenes) {
+  for (const std::string scene : {"pile", "tripod", "dominoes", "tower-impulse", "wagon"}) {
+    EXPECT_THAT(run({"validate", scene, "--json"}).json()["warnings"], IsEmpty()) << scene;
+  }
+}
+
 TEST_F(Validate, WarnsOfBodiesThatFallByMoreThanTheirSizeInAStep) {
   write("grain.toml", "[[body]]\nname = \"grain\"\ncircle = 0.0001\n");
   EXPECT_EQ(run({"validate", "grain.toml", "--json"}).json()["warnings"],
