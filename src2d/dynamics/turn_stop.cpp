@@ -9,9 +9,10 @@
 namespace merge2d {
 namespace {
 
-constexpr double kFarTurn = 0.1;  ///< a turn beyond which rows may miss something [rad]
-constexpr double kFarWay = 0.5;   ///< of the thinner shape: likewise a way, for one that turns
-constexpr double kDeeper = 0.1;   ///< of the thinner shape: an overlap that is let be
+constexpr double kFarTurn = 0.1;     ///< a turn beyond which rows may miss something [rad]
+constexpr double kLeastTurn = 1e-3;  ///< moves no corner by as much as a shape is thick [rad]
+constexpr double kFarWay = 0.5;      ///< of the thinner shape: likewise a way, for one that turns
+constexpr double kDeeper = 0.1;      ///< of the thinner shape: an overlap that is let be
 
 /// What a thing does in this step.
 struct StepMotion {
@@ -90,8 +91,9 @@ class Passage {
 
 bool goesFar(const State& state, RigidId id) {
   const Rigid& r = state[id];
-  if (!r.floating() || r.asleep || r.omega == 0.0 || state.isCollection(id)) return false;
-  if (std::abs(state.h * r.omega) > kFarTurn) return true;
+  const double turn = std::abs(state.h * r.omega);
+  if (turn < kLeastTurn || !r.floating() || r.asleep || state.isCollection(id)) return false;
+  if (turn > kFarTurn) return true;
   const double thin = state.extent(r).bounds.extent().minCoeff();
   return state.h * r.v.norm() > 0.5 * kFarWay * thin;
 }
