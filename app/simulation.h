@@ -28,7 +28,10 @@ std::int64_t stepCount(const Scene& scene);
 class Simulation {
  public:
   Simulation(std::shared_ptr<const Scene> scene, const WorldOptions& options)
-      : scene_(std::move(scene)), world_(scene_, options), steps_(stepCount(*scene_)) {}
+      : scene_(std::move(scene)),
+        world_(scene_, options),
+        steps_(stepCount(*scene_)),
+        timed_(options.timings) {}
 
   const World& world() const { return world_; }
   const std::shared_ptr<const Scene>& shared() const { return scene_; }
@@ -46,13 +49,14 @@ class Simulation {
 
   /// Of each step so far [ms].
   const std::vector<double>& milliseconds() const { return milliseconds_; }
-  /// Processor time of the steps so far, in all threads [s].
+  /// Processor time of the steps so far, in all threads; 0 without timings [s].
   double cpuSeconds() const { return cpu_seconds_; }
 
  private:
   std::shared_ptr<const Scene> scene_;
   World world_;
   std::int64_t steps_;
+  bool timed_;
   std::vector<double> milliseconds_;
   double cpu_seconds_ = 0.0;
 };
