@@ -655,7 +655,13 @@ M2_API m2_status m2_scene_page(const m2_scene* scene, m2_mode mode, bool live, c
 
 #ifdef __cplusplus
 }  // extern "C"
-#if !defined(MERGE2D_BUILDING) && __cplusplus > 201703L
+#if __cplusplus <= 201703L && defined(__GNUC__)
+/** Older C++ has none of the classes, and is told so where it uses them. */
+namespace merge2d {
+class __attribute__((deprecated("the classes of merge2d need C++20"))) Scene;
+class __attribute__((deprecated("the classes of merge2d need C++20"))) World;
+}  // namespace merge2d
+#elif __cplusplus > 201703L && !defined(MERGE2D_BUILDING)
 #include "merge2d/merge2d.hpp"
 #endif
 #endif

@@ -48,6 +48,13 @@ if(TREE STREQUAL "install")
   run(sh -c "c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -o old old.cpp \
              $(pkg-config --cflags --libs merge2d)" WORKING_DIRECTORY ${work}/examples)
   run(./old WORKING_DIRECTORY ${work}/examples)
+  file(WRITE ${work}/examples/classes.cpp
+       "#include <merge2d/merge2d.h>\nint main() { merge2d::World world; }\n")
+  execute_process(COMMAND sh -c "c++ -std=c++17 -c classes.cpp $(pkg-config --cflags merge2d)"
+                  WORKING_DIRECTORY ${work}/examples ERROR_VARIABLE said RESULT_VARIABLE result)
+  if(result EQUAL 0 OR NOT said MATCHES "the classes of merge2d need C[+][+]20")
+    message(FATAL_ERROR "the classes in C++17: ${said}")
+  endif()
 
   # With the archive.
   set(ENV{LD_LIBRARY_PATH})
