@@ -1,7 +1,6 @@
 #include "src2d/geometry/reference_face.h"
 
 #include <array>
-#include <cstring>
 
 #include "src2d/geometry/collide_pairs.h"
 
@@ -10,7 +9,6 @@ namespace {
 
 /// Of four faces or vertices side by side.
 using FourFloats = float __attribute__((vector_size(16)));
-using FourChoices = decltype(FourFloats{} < FourFloats{});
 
 struct FourPoints {
   FourFloats x, y;

@@ -96,8 +96,12 @@ class AabbTree {
   static float perimeter(const Box& box);
   static Vec2 middleOf(const Box& box);
 
-  Leaf& leaf(Ref ref) { return leaves_[static_cast<std::size_t>(~ref)]; }
-  const Leaf& leaf(Ref ref) const { return leaves_[static_cast<std::size_t>(~ref)]; }
+  static std::size_t leafPlace(Ref ref) {
+    const Ref place = ~ref;
+    return static_cast<std::size_t>(place);
+  }
+  Leaf& leaf(Ref ref) { return leaves_[leafPlace(ref)]; }
+  const Leaf& leaf(Ref ref) const { return leaves_[leafPlace(ref)]; }
   Node& node(Ref ref) { return nodes_[static_cast<std::size_t>(ref)]; }
   const Node& node(Ref ref) const { return nodes_[static_cast<std::size_t>(ref)]; }
   const Box& boxOf(Ref ref) const { return ref < 0 ? leaf(ref).box : node(ref).box; }
