@@ -30,7 +30,7 @@ struct Pair {
 template <class T>
 struct Plain {
   T value;
-  operator T() const { return value; }  // NOLINT(google-explicit-constructor): stands for a T
+  operator T() const { return value; }  // it stands for a T
 };
 using Real = Plain<double>;
 using Whole = Plain<std::int64_t>;
