@@ -20,12 +20,34 @@ struct StepMotion {
   double turn = 0.0;        ///< [rad]
 };
 
-StepMotion motionOf(const State& state, const Scratch& scratch, RigidId id) {
-  const Rigid& r = state[id];
-  const auto hit = std::ranges::find(scratch.hit_ways, id, &HitWay::id);
-  if (hit != scratch.hit_ways.end()) return {hit->way, hit->turn};
-  return {state.h * r.v, state.h * r.omega};
-}
+/// The step as it is known so far.
+struct Step {
+  const State& state;
+  const Scratch& scratch;
+  std::vector<StoppedTurn>& stopped;
+
+  StepMotion motionOf(RigidId id) const {
+    const Rigid& r = state[id];
+    const auto hit = std::ranges::find(scratch.hit_ways, id, &HitWay::id);
+    const bool was_hit = hit != scratch.hit_ways.end();
+    const double part = partOf(id);
+    if (was_hit) return {part * hit->way, part * hit->turn};
+    return {part * state.h * r.v, part * state.h * r.omega};
+  }
+  double partOf(RigidId id) const {
+    const auto known = std::ranges::find(stopped, id, &StoppedTurn::id);
+    return known == stopped.end() ? 1.0 : known->part;
+  }
+  /// After a part of the way that it would have gone.
+  void stop(RigidId id, double part) const {
+    const auto known = std::ranges::find(stopped, id, &StoppedTurn::id);
+    if (known == stopped.end()) {
+      stopped.push_back({id, part});
+    } else {
+      known->part *= part;
+    }
+  }
+};
 
 /// One body on its way, seen from `origin`.
 struct Path {
@@ -35,13 +57,12 @@ struct Path {
   const Collider& shape;
   double reach = 0.0;
 
-  Path(const State& state, const Scratch& scratch, BodyId body, std::uint32_t of,
-       const Vec2& origin)
-      : start(state.pose(body)),
-        center(state.rigid(body).x - origin),
-        motion(motionOf(state, scratch, state[body].rigid)),
-        shape(state.collider(of)) {
-    reach = reachFrom(shape, start.toLocal(state.rigid(body).x));
+  Path(const Step& step, BodyId body, std::uint32_t of, const Vec2& origin)
+      : start(step.state.pose(body)),
+        center(step.state.rigid(body).x - origin),
+        motion(step.motionOf(step.state[body].rigid)),
+        shape(step.state.collider(of)) {
+    reach = reachFrom(shape, start.toLocal(step.state.rigid(body).x));
     start.position -= origin;
   }
   Pose at(double part) const {
@@ -89,10 +110,16 @@ class Passage {
   double thin_, allowed_;
 };
 
+/// A body on its own, and awake.
+bool isFree(const State& state, RigidId id) {
+  const Rigid& r = state[id];
+  return r.floating() && !r.asleep && !state.isCollection(id);
+}
+
 bool goesFar(const State& state, RigidId id) {
   const Rigid& r = state[id];
   const double turn = std::abs(state.h * r.omega);
-  if (turn < kLeastTurn || !r.floating() || r.asleep || state.isCollection(id)) return false;
+  if (turn < kLeastTurn || !isFree(state, id)) return false;
   if (turn > kFarTurn) return true;
   const double thin = state.extent(r).bounds.extent().minCoeff();
   return state.h * r.v.norm() > 0.5 * kFarWay * thin;
@@ -116,38 +143,98 @@ bool bendsFar(const Path& p, double thin) {
   return 0.5 * turn * turn * p.reach > kDeeper * thin || p.motion.way.norm() > kFarWay * thin;
 }
 
-void stop(RigidId id, double part, std::vector<StoppedTurn>& stopped) {
-  const auto known = std::ranges::find(stopped, id, &StoppedTurn::id);
-  if (known == stopped.end()) {
-    stopped.push_back({id, part});
-  } else {
-    known->part = std::min(known->part, part);
+/// A blow gave it a way in this step that could lead through something: nobody has looked there for
+/// contacts.
+bool isLaunched(const State& state, const Scratch& scratch, RigidId id) {
+  if (!isFree(state, id)) return false;
+  const Rigid& r = state[id];
+  const auto& gained = scratch.u[index(id)].gained;
+  const double more = state.h * std::hypot(gained[0], gained[1]);
+  return more > kFarWay * state.extent(r).bounds.extent().minCoeff();
+}
+
+/// Calls `visit(body, shape)` for the shapes of a rigid thing.
+template <class Visit>
+void forEachShape(const State& state, RigidId id, Visit&& visit) {
+  const auto ofBody = [&](BodyId b) {
+    for (std::uint32_t s = 0; s < state[b].shape_count; ++s) visit(b, state[b].first_shape + s);
+  };
+  if (!state.isCollection(id)) return ofBody(BodyId{static_cast<std::uint32_t>(id)});
+  for (const BodyId b : state.collection(id).members) ofBody(b);
+}
+
+/// The part of the step after which the first overlaps with the second.
+double partUntil(const Step& step, RigidId id, RigidId other) {
+  const State& state = step.state;
+  double part = 1.0;
+  const Vec2 origin = state[id].x;
+  forEachShape(state, id, [&](BodyId a, std::uint32_t shape_a) {
+    forEachShape(state, other, [&](BodyId b, std::uint32_t shape_b) {
+      const Path path_a(step, a, shape_a, origin), path_b(step, b, shape_b, origin);
+      const double thin = std::min(state.bounds(shape_a).extent().minCoeff(),
+                                   state.bounds(shape_b).extent().minCoeff());
+      part = std::min(part, Passage(path_a, path_b, thin).end());
+    });
+  });
+  return part;
+}
+
+/// True when some body has to stop, or to stop earlier.
+bool stopLaunched(const Step& step) {
+  const State& state = step.state;
+  bool any = false;
+  for (const RigidId id : state.present) {
+    if (!isLaunched(state, step.scratch, id) || isJoined(state, id)) continue;
+    const Rigid& r = state[id];
+    const Vec2 end = r.x + step.motionOf(id).way;
+    const Vec2 around = Vec2::Constant(state.extent(r).bounds.extent().norm());
+    const Aabb swept{r.x.cwiseMin(end) - around, r.x.cwiseMax(end) + around};
+    double part = 1.0;
+    state.broadphase.tree.query(swept, [&](std::uint32_t other) {
+      const RigidId o{other};
+      const double until = o == id ? 1.0 : partUntil(step, id, o);
+      if (until == 1.0) return;
+      part = std::min(part, until);
+      // It may be the other that runs into the one that a blow has slowed down.
+      if (isFree(state, o) && !isJoined(state, o)) step.stop(o, until);
+    });
+    if (part == 1.0) continue;
+    step.stop(id, part);
+    any = true;
   }
+  return any;
+}
+
+/// The two bodies of a contact.
+void stopTurning(const Step& step, const ContactKey& key) {
+  const State& state = step.state;
+  const RigidId rigid_a = state[key.a].rigid, rigid_b = state[key.b].rigid;
+  const bool far_a = goesFar(state, rigid_a), far_b = goesFar(state, rigid_b);
+  if (!far_a && !far_b) return;
+  const Vec2 origin = state.pose(key.a).position;
+  const Path a(step, key.a, key.shape_a, origin), b(step, key.b, key.shape_b, origin);
+  const double thin = thicknessOf(state, key);
+  const bool stops_a = far_a && bendsFar(a, thin) && !isJoined(state, rigid_a);
+  const bool stops_b = far_b && bendsFar(b, thin) && !isJoined(state, rigid_b);
+  if (!stops_a && !stops_b) return;
+  const double part = Passage(a, b, thin).end();
+  if (part == 1.0) return;
+  if (stops_a) step.stop(rigid_a, part);
+  if (stops_b) step.stop(rigid_b, part);
 }
 
 }  // namespace
 
 void findStoppedTurns(const State& state, const Scratch& scratch,
                       std::vector<StoppedTurn>& stopped) {
+  constexpr int kRounds = 4;  // one that stops may stand in another's way
   stopped.clear();
+  const Step step{state, scratch, stopped};
+  for (int i = 0; i < kRounds && stopLaunched(step); ++i) continue;
   const auto& present = state.present.ids();
   if (std::ranges::none_of(present, [&](RigidId id) { return goesFar(state, id); })) return;
   for (const ContactTable::Slot slot : state.contacts.order) {
-    const ContactKey& key = state.contacts[slot].key;
-    const RigidId rigid_a = state[key.a].rigid, rigid_b = state[key.b].rigid;
-    const bool far_a = goesFar(state, rigid_a), far_b = goesFar(state, rigid_b);
-    if (!far_a && !far_b) continue;
-    const Vec2 origin = state.pose(key.a).position;
-    const Path a(state, scratch, key.a, key.shape_a, origin);
-    const Path b(state, scratch, key.b, key.shape_b, origin);
-    const double thin = thicknessOf(state, key);
-    const bool stops_a = far_a && bendsFar(a, thin) && !isJoined(state, rigid_a);
-    const bool stops_b = far_b && bendsFar(b, thin) && !isJoined(state, rigid_b);
-    if (!stops_a && !stops_b) continue;
-    const double part = Passage(a, b, thin).end();
-    if (part >= 1.0) continue;
-    if (stops_a) stop(rigid_a, part, stopped);
-    if (stops_b) stop(rigid_b, part, stopped);
+    stopTurning(step, state.contacts[slot].key);
   }
 }
 

@@ -6,6 +6,9 @@
 /// behind, comes round through the plate. So the way of such a body is followed against what it
 /// touches, in steps in which nothing passes through anything, and ends before an overlap that was
 /// not there. Its velocity stays: the next step begins with the contact at which it was stopped.
+///
+/// The same holds for a body that a blow has given a long way in the step: contacts were looked for
+/// along the way that it had at the start.
 
 #include <vector>
 

@@ -68,6 +68,32 @@ TEST(TurnStop, ASpinningBoxStaysOnTheGround) {
   });
 }
 
+// The second ball is at rest when the step begins, and flies 5 m in the rest of it: at 100 m/s it
+// passed through the third one.
+TEST(TurnStop, ABallThatIsStruckHitsTheNextInItsWay) {
+  for (const double speed : {20.0, 50.0, 100.0}) {
+    for (const double gap : {0.1, 0.3, 0.5}) {
+      for (const double part : {0.0, 0.13, 0.37, 0.61, 0.83}) {
+        inEachModeAndStep([&](Mode mode, double h) {
+          SCOPED_TRACE(::testing::Message() << speed << " m/s, " << gap << " m, " << part);
+          const auto ball = [](const char* name, double x, double v) {
+            return fmt::format(
+                "[[body]]\nname = \"{}\"\ncircle = 0.1\nat = [{}, 0]\n"
+                "velocity = [{}, 0]\nrestitution = 1\nfriction = 0\n",
+                name, x, v);
+          };
+          World world = worldOf("gravity = [0, 0]\n" + ball("cue", -0.3 - part * speed * h, speed) +
+                                    ball("object", 0.0, 0.0) + ball("last", 0.2 + gap, 0.0),
+                                mode, h);
+          for (int i = 0; i < 20; ++i) world.step();
+          EXPECT_NEAR(see(world, "last").v.x(), speed, 1e-6 * speed);
+          EXPECT_LT(see(world, "object").x.x(), see(world, "last").x.x());
+        });
+      }
+    }
+  }
+}
+
 // Nothing is in its way: it turns as far as it should.
 TEST(TurnStop, ABoxThatTurnsBesideAWallKeepsItsPace) {
   inEachModeAndStep([](Mode mode, double h) {
