@@ -1,6 +1,7 @@
 #include "src2d/dynamics/wide_blocks.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/scratch.h"
@@ -84,8 +85,7 @@ void setLane(WideBlock& w, std::size_t lane, const ContactBlock& k, const Solver
 
 }  // namespace
 
-void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const BlockOrder> order,
-                      const std::vector<SolverVelocity>& u, std::uint32_t idle) {
+void WideBlocks::begin(std::span<const ContactBlock> blocks) {
   wide_.clear();
   alone_.clear();
   colours_.clear();
@@ -93,6 +93,11 @@ void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const Bloc
   resizeTightly(impulses_, blocks.size() + 1);
   for (std::size_t i = 0; i < blocks.size(); ++i) impulses_[i] = blocks[i].lambda;
   impulses_[blocks.size()] = {};
+}
+
+void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const BlockOrder> order,
+                      const std::vector<SolverVelocity>& u, std::uint32_t idle) {
+  begin(blocks);
   const auto size = static_cast<std::uint32_t>(blocks.size());
   for (std::uint32_t first = 0, last = 0; first < size; first = last) {
     while (last < size && order[last].colour() == order[first].colour()) ++last;
@@ -101,17 +106,44 @@ void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const Bloc
       const auto wide = static_cast<std::uint32_t>(wide_.size());
       colours_.push_back({wide, wide, static_cast<std::uint32_t>(alone_.size())});
     } else {
-      packColour(blocks, u, first, last, idle);
+      colour_.resize(last - first);
+      std::iota(colour_.begin(), colour_.end(), first);
+      packColour(blocks, u, idle);
     }
   }
 }
 
+void WideBlocks::packChosen(std::span<const ContactBlock> blocks,
+                            std::span<const std::uint32_t> chosen,
+                            const std::vector<SolverVelocity>& u, std::uint32_t idle) {
+  begin(blocks);
+  if (taken_.size() < u.size()) resizeTightly(taken_, u.size());
+  const auto moves = [&](std::uint32_t body) {
+    return u[body].inv_mass != 0.0 || u[body].inv_inertia != 0.0;
+  };
+  const auto isTaken = [&](std::uint32_t body) {
+    return taken_[body] == colours_so_far_ && moves(body);
+  };
+  colour_.clear();
+  ++colours_so_far_;
+  for (const std::uint32_t i : chosen) {
+    const ContactBlock& k = blocks[i];
+    if (isTaken(k.a) || isTaken(k.b)) {
+      packColour(blocks, u, idle);
+      colour_.clear();
+      ++colours_so_far_;
+    }
+    taken_[k.a] = taken_[k.b] = colours_so_far_;
+    colour_.push_back(i);
+  }
+  packColour(blocks, u, idle);
+}
+
 void WideBlocks::packColour(std::span<const ContactBlock> blocks,
-                            const std::vector<SolverVelocity>& u, std::uint32_t first,
-                            std::uint32_t last, std::uint32_t idle) {
+                            const std::vector<SolverVelocity>& u, std::uint32_t idle) {
   pairs_.clear();
   singles_.clear();
-  for (std::uint32_t i = first; i < last; ++i) {
+  for (const std::uint32_t i : colour_) {
     auto& list = !isPlain(blocks[i]) ? alone_ : blocks[i].count == 2 ? pairs_ : singles_;
     list.push_back(i);
   }
@@ -169,7 +201,7 @@ void WideBlocks::storeImpulses(std::span<ContactBlock> blocks) const {
 }
 
 std::size_t WideBlocks::memoryBytes() const {
-  return bytesOf(wide_, alone_, colours_, impulses_, pairs_, singles_);
+  return bytesOf(wide_, alone_, colours_, impulses_, colour_, pairs_, singles_, taken_);
 }
 
 }  // namespace merge2d

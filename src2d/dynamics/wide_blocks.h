@@ -43,6 +43,11 @@ class WideBlocks {
   void pack(std::span<const ContactBlock> blocks, std::span<const BlockOrder> order,
             const std::vector<SolverVelocity>& u, std::uint32_t idle);
 
+  /// The same for `chosen` ones in any order: neighbours in it that share no moving body are solved
+  /// side by side.
+  void packChosen(std::span<const ContactBlock> blocks, std::span<const std::uint32_t> chosen,
+                  const std::vector<SolverVelocity>& u, std::uint32_t idle);
+
   /// Per block; one more for lanes without a block.
   std::vector<Impulses>& impulses() { return impulses_; }
 
@@ -62,8 +67,9 @@ class WideBlocks {
     std::uint32_t last_alone = 0;                  ///< of alone_
   };
 
+  void begin(std::span<const ContactBlock> blocks);
   void packColour(std::span<const ContactBlock> blocks, const std::vector<SolverVelocity>& u,
-                  std::uint32_t first, std::uint32_t last, std::uint32_t idle);
+                  std::uint32_t idle);
   void packGroups(std::span<const ContactBlock> blocks, const std::vector<SolverVelocity>& u,
                   const std::vector<std::uint32_t>& chosen, std::uint32_t idle);
 
@@ -71,7 +77,9 @@ class WideBlocks {
   std::vector<std::uint32_t> alone_;  ///< blocks that are solved one by one
   std::vector<Colour> colours_;
   std::vector<Impulses> impulses_;
-  std::vector<std::uint32_t> pairs_, singles_;  ///< of the colour that is packed
+  std::vector<std::uint32_t> colour_, pairs_, singles_;  ///< blocks of the colour that is packed
+  std::vector<std::uint64_t> taken_;                     ///< per body: the colour that it is in
+  std::uint64_t colours_so_far_ = 0;                     ///< of all packings
 };
 
 }  // namespace merge2d

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src2d/dynamics/nncg.h"
+#include "src2d/dynamics/wide_blocks.h"
 #include "src2d/merging/joint_system.h"
 #include "src2d/merging/proof_search.h"
 
@@ -51,6 +52,7 @@ class Relaxation {
  private:
   static constexpr int kRound = 10, kLookEvery = 5;  // sweeps
   static constexpr int kLocalRounds = 3;
+  static constexpr std::size_t kLeastWide = 8;  // blocks
   static constexpr std::uint32_t kFrame = ~0u;
 
   std::uint32_t memberOf(std::uint32_t body) const {
@@ -104,10 +106,18 @@ class Relaxation {
   }
 
   void sweep(int most) {
-    Nncg iteration(
-        blocks_.size(), [&](std::size_t i) -> Impulses& { return c_.blocks[blocks_[i]].lambda; },
-        members_.size(),
-        [&](std::size_t i) -> SolverVelocity& { return u_[index(c_.members[members_[i]])]; },
+    if (c_.joints.empty() && blocks_.size() >= kLeastWide &&
+        scratch_.sweep_path != SweepPath::OneByOne) {
+      sweepWide(most);
+    } else {
+      sweepOneByOne(most);
+    }
+    settleJoints(c_, {}, u_, tolerance_);
+  }
+
+  void sweepOneByOne(int most) {
+    run(
+        most, [&](std::size_t i) -> Impulses& { return c_.blocks[blocks_[i]].lambda; },
         [&] {
           for (JointBlock& k : c_.joints) solveJoint(k, {}, u_[k.a], u_[k.b]);
           for (const std::uint32_t i : blocks_) {
@@ -115,15 +125,38 @@ class Relaxation {
             solveBlock(k, k.nx, k.ny, u_[k.a], u_[k.b]);
           }
         },
+        [] {});
+  }
+
+  void sweepWide(int most) {
+    WideBlocks& wide = scratch_.wide;
+    u_.back() = {};
+    wide.packChosen(c_.blocks, blocks_, u_, static_cast<std::uint32_t>(u_.size() - 1));
+    const auto store = [&] { wide.storeImpulses(c_.blocks); };
+    run(
+        most, [&](std::size_t i) -> Impulses& { return wide.impulses()[blocks_[i]]; },
+        [&] { wide.sweep(c_.blocks, u_, scratch_.sweep_path); }, store);
+    store();
+  }
+
+  /// `store` writes the impulses into the blocks.
+  template <class ImpulsesAt, class Sweep, class Store>
+  void run(int most, ImpulsesAt impulses, Sweep sweep, Store store) {
+    Nncg iteration(
+        blocks_.size(), impulses, members_.size(),
+        [&](std::size_t i) -> SolverVelocity& { return u_[index(c_.members[members_[i]])]; }, sweep,
         buffers());
     int done = 0;
-    const auto enough = [&] { return ++done % kLookEvery == 0 && isQuiet(); };
+    const auto enough = [&] {
+      if (++done % kLookEvery != 0) return false;
+      store();
+      return isQuiet();
+    };
     if (isUnderWay()) {
       iteration.resume(most, enough);
     } else {
       iteration.run(most, c_.joints.empty(), enough);
     }
-    settleJoints(c_, {}, u_, tolerance_);
     sweeps_ += iteration.done();
     left_ -= iteration.done() * static_cast<double>(blocks_.size());
   }
