@@ -135,6 +135,8 @@ struct LoadCertificate {
   ProofSearch search;
 };
 
+inline constexpr std::int64_t kNever = -1000;  ///< a step long before the first
+
 /// Bodies simulated as one (Section 4).
 struct Collection {
   CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
@@ -153,7 +155,7 @@ struct Collection {
   std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
   float residual = 0.0F;            ///< largest of its rows, when last solved [m/s]
   bool settled = false;             ///< the forces inside are known
-  std::int64_t last_blow = -1000;   ///< step in which something hit it last
+  std::int64_t last_blow = kNever;  ///< step in which something hit it last
   std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
 };
 

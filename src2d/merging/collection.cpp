@@ -65,6 +65,7 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   std::inplace_merge(target.members.begin(), target.members.begin() + middle, target.members.end());
   state.extents[state[to].extent].bounds.include(placed(relative, state.extent(from).bounds));
   state[to].resized = true;
+  target.last_blow = std::max(target.last_blow, source.last_blow);
   target.stale = true;
   removeRigid(state, from);
   freeCollection(state, from);

@@ -117,8 +117,8 @@ bool turns(const Collection& c, const WeldMotions& motions, double threshold, do
 /// `surely`: some weld must move by more than a few residuals. Returns whether any does.
 bool cutMovers(const State& state, Scratch& scratch, Collection& c, bool surely) {
   const WeldMotions motions(state, c, scratch.trial_u);
-  const double threshold = isHit(state, c) ? kDecided.cut_in_hit : cutSpeed(state);
-  const double residual = isHit(state, c) ? 0.0 : c.residual;
+  const double threshold = cutSpeed(state, c);
+  const double residual = c.last_blow == state.step ? 0.0 : c.residual;
   const bool moves = !surely || turns(c, motions, threshold, kDecided.sure * residual);
   bool any = false;
   for (Weld& weld : c.welds) {
@@ -192,9 +192,9 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
 bool restsIn(const State& state, Scratch& scratch, Collection& c) {
   const double tolerance = toleratedResidual(state);
   const auto sure = [&] { return c.residual / kDecided.tolerance; };
-  if (!isAtRest(scratch, c, std::max(cutSpeed(state), sure()))) return false;
+  if (!isAtRest(scratch, c, std::max(cutSpeed(state, c), sure()))) return false;
   const WeldMotions motions(state, c, scratch.trial_u);
-  const auto turnsBy = [&](double noise) { return turns(c, motions, cutSpeed(state), noise); };
+  const auto turnsBy = [&](double noise) { return turns(c, motions, cutSpeed(state, c), noise); };
   if (c.residual > tolerance || !turnsBy(c.residual)) return true;
   continueSearch(state, scratch, c, kDecided.tolerance * tolerance);
   return !turnsBy(sure());

@@ -51,12 +51,15 @@ void openCertificate(const State& state, Collection& c) {
 Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
   if (isHit(state, c)) return Doubt::Open;
+  c.settled = false;
+  if (!isLookedAt(state, c)) return Doubt::None;
   const bool searches = !proof.search.start.empty();
   if (searches && !proof.search.ahead) return Doubt::Search;
   const CollectionLoad load = loadOn(state, scratch, c);
   if (!proof.in_doubt && covers(state, c, load)) {
     writeImpulses(c);
     if (overloadsJoints(state, c)) return Doubt::Open;
+    c.settled = true;
     return searches ? Doubt::Search : Doubt::None;
   }
   if (searches && !proof.in_doubt && leadsTo(state, c, load)) return Doubt::Search;
@@ -127,7 +130,6 @@ void findDoubts(State& state, Scratch& scratch) {
     openCertificate(state, c);
     Doubt& doubt = scratch.doubts[slot];
     if (doubt == Doubt::None) doubt = findDoubt(state, scratch, c);
-    if (doubt == Doubt::None) c.settled = true;
     any |= doubt != Doubt::None;
   }
   scratch.sweeping = any;

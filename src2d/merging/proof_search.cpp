@@ -12,9 +12,18 @@
 
 namespace merge2d {
 
-double cutSpeed(const State& state) { return kDecided.cut_acceleration * state.h; }
+double cutSpeed(const State& state, const Collection& c) {
+  return isHit(state, c) ? kDecided.cut_in_hit : kDecided.cut_acceleration * state.h;
+}
 
-double toleratedResidual(const State& state) { return kDecided.tolerance * cutSpeed(state); }
+bool isLookedAt(const State& state, const Collection& c) {
+  const std::int64_t since_hit = state.step - c.last_blow;
+  return since_hit >= kDecided.shaken_steps || since_hit % state.settings.merging.steps == 0;
+}
+
+double toleratedResidual(const State& state) {
+  return kDecided.tolerance * kDecided.cut_acceleration * state.h;
+}
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/proof_search.h"
 #include "src2d/merging/rule.h"
 
 namespace merge2d {
@@ -145,6 +146,7 @@ class Split {
         anchored_(anchored),
         whole_(state[id]),
         anchor_(state.collection(id).anchor),
+        last_blow_(state.collection(id).last_blow),
         members_(membersOfParts(state.collection(id), part, anchored.size())),
         kept_(members_.size()) {
     for (std::size_t p = 1; p < members_.size(); ++p) {
@@ -209,7 +211,11 @@ class Split {
   RigidId leave(std::size_t p) {
     removeShapes(state_, id_, members_[p]);
     if (isFreeBody(p)) return freeBody(state_, members_[p].front(), whole_);
-    return newPart(state_, members_[p], std::move(kept_[p]), whole_, anchor_, anchored_[p] != 0);
+    const RigidId id =
+        newPart(state_, members_[p], std::move(kept_[p]), whole_, anchor_, anchored_[p] != 0);
+    // The hit has cut its movers already: the part is shaken, but no longer hit.
+    state_.collection(id).last_blow = std::min(last_blow_, state_.step - kDecided.hit_steps);
+    return id;
   }
 
   /// The largest part goes on as the collection.
@@ -232,8 +238,9 @@ class Split {
   RigidId id_;
   const std::vector<std::uint32_t>& part_;
   const std::vector<std::uint8_t>& anchored_;
-  Rigid whole_;                               ///< as it was
-  BodyId anchor_;                             ///< its own
+  Rigid whole_;    ///< as it was
+  BodyId anchor_;  ///< its own
+  std::int64_t last_blow_;
   std::vector<std::vector<BodyId>> members_;  ///< of each part
   std::size_t largest_ = 0;
   std::vector<std::vector<InternalContact>> kept_;  ///< contacts that go with each part
