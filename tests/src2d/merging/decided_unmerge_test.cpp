@@ -1,5 +1,6 @@
 #include "src2d/merging/decided_unmerge.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/src2d/merging/merging_testing.h"
@@ -48,6 +49,25 @@ script = { keyframes = [[0,0,0,0],[1,0,0,0],[2.5,0,0,)" +
 /// As one rigid body five bricks with a top of 20 kg/m² tip above 10.4 degrees.
 TEST(DecidedUnmerge, AColumnWithAHeavyTopTipsAsInTheReference) {
   const std::string scene = heavyTop(5, 11.448, 20.0);
+  const double reference = timeOfFall(scene, Mode::Reference, "ground", "b4", 14.0);
+  ASSERT_LT(reference, 5.0);
+  EXPECT_NEAR(timeOfFall(scene, Mode::Merge, "ground", "b4", 14.0), reference, 0.3);
+  EXPECT_NEAR(timeOfFall(scene, Mode::MergeSleep, "ground", "b4", 14.0), reference, 0.3);
+}
+
+/// Pebbles that fall on a column, each after `times` [s].
+std::string pebblesOn(double top, const std::vector<double>& times) {
+  std::string scene;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    scene += fmt::format("[[body]]\nname = \"pebble{}\"\ncircle = 0.05\nat = [{}, {}]\n", i,
+                         i % 2 == 0 ? 0.1 : -0.1, top + 0.05 + 0.5 * 9.81 * times[i] * times[i]);
+  }
+  return scene;
+}
+
+/// The load of a collection that is hit is looked at more seldom, but early enough.
+TEST(DecidedUnmerge, AShakenColumnTipsAsInTheReference) {
+  const std::string scene = heavyTop(5, 11.448, 20.0) + pebblesOn(2.5, {0.6, 1.0, 1.4, 1.8, 2.2});
   const double reference = timeOfFall(scene, Mode::Reference, "ground", "b4", 14.0);
   ASSERT_LT(reference, 5.0);
   EXPECT_NEAR(timeOfFall(scene, Mode::Merge, "ground", "b4", 14.0), reference, 0.3);
