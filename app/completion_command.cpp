@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 3> kShells = {"bash", "zsh", "fish"};
 /// Prints the names of the scenes and lessons, for a shell.
 constexpr const char* kNames = R"(merge2d list 2>/dev/null | sed -n 's/^  \([^ ]*\) .*/\1/p')";
 
-std::string namesOf(const std::vector<CommandWords>& commands) {
+std::string commandNames(const std::vector<CommandWords>& commands) {
   std::string names;
   for (const CommandWords& command : commands) {
     names += (names.empty() ? "" : " ") + command.name;
@@ -64,7 +64,7 @@ std::string bashArgument(Argument argument, const std::string& names) {
 }
 
 std::string bashScript(const std::vector<CommandWords>& commands) {
-  const std::string names = namesOf(commands);
+  const std::string names = commandNames(commands);
   std::string cases, values, arguments;
   for (const CommandWords& command : commands) {
     std::string options;
@@ -157,7 +157,7 @@ std::string zshArgument(Argument argument, const std::string& names) {
 }
 
 std::string zshScript(const std::vector<CommandWords>& commands) {
-  const std::string all = namesOf(commands);
+  const std::string all = commandNames(commands);
   std::string names, cases;
   for (const CommandWords& command : commands) {
     names += fmt::format("    '{}:{}'\n", command.name, zshText(command.help));
@@ -215,7 +215,7 @@ std::string fishScript(const std::vector<CommandWords>& commands) {
     if (command.argument == Argument::Shell) {
       out += fmt::format("{} -f -a '{}'\n", here, fmt::join(kShells, " "));
     } else if (command.argument == Argument::Command) {
-      out += fmt::format("{} -f -a '{}'\n", here, namesOf(commands));
+      out += fmt::format("{} -f -a '{}'\n", here, commandNames(commands));
     } else if (command.argument == Argument::Scene) {
       out += fmt::format("{} -a {}\n", here, fishText(fmt::format("({})", kNames)));
     }
