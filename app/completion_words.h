@@ -16,7 +16,7 @@ struct OptionWords {
   bool begins_only = false;            ///< the choices are beginnings: "merging.velocity="
 };
 
-/// What stands in a command line without an option before it.
+/// An argument of a command line without an option before it.
 enum class Argument { None, Scene, File, Shell, Command };
 
 struct CommandWords {

@@ -107,8 +107,8 @@ double detectionOf(const BenchScene& of) {
 /// The detection of contacts between a heap, merged into one, and the platform that it rides on.
 double aHeapRides(int n) { return detectionOf(tower(n)); }
 
-/// The same where six discs, which turn and have no friction, stay on top of the heap: the
-/// detection costs what the surface does, not what is buried.
+/// The same where six discs, which turn and have no friction, stay on top of the heap:
+/// the cost of detection is that of the surface, not of the buried members.
 double aHeapIsTouched(int n) {
   BenchScene of = tower(n);
   const Vec2 corner = of.scene.bodies.back().at + Vec2(0.5, 0.5);
