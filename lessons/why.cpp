@@ -76,7 +76,7 @@ PairReason untested(const Words& words, const Snapshot& after, BodyId a, BodyId 
   const auto contact = std::ranges::find_if(
       after.contacts, [&](const ContactView& c) { return c.a == a && c.b == b; });
   const bool touch = contact != after.contacts.end();
-  // What is pinned or scripted is welded too, but is a member of no collection.
+  // A pinned or scripted body is welded too, but is a member of no collection.
   const bool welded = touch && contact->internal;
   if (one == nullptr || other == nullptr) {
     out.outcome = "absent";

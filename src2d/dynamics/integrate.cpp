@@ -43,7 +43,7 @@ void followHits(State& state, const Scratch& scratch) {
   }
 }
 
-/// Takes back what is left of the ways of bodies that are stopped.
+/// Takes back the rest of the way of each body that is stopped.
 void stopTurns(State& state, const Scratch& scratch, const std::vector<StoppedTurn>& stopped) {
   for (const StoppedTurn& stop : stopped) {
     Rigid& r = state[stop.id];

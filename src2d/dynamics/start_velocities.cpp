@@ -30,7 +30,7 @@ void takeVelocities(const State& state, Scratch& scratch) {
   }
 }
 
-/// Gravity on what moves as its own.
+/// Gravity on bodies and collections that move freely.
 void addGravity(const State& state, Scratch& scratch) {
   for (const RigidId id : state.present) {
     SolverVelocity& u = scratch.u[index(id)];

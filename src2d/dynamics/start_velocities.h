@@ -6,7 +6,7 @@
 namespace merge2d {
 
 /// Fills `scratch.u` with u₋ + h M⁻¹ f for everything in B and the members of open collections;
-/// what is fixed or asleep keeps its velocity, and does not respond.
+/// a fixed or sleeping body keeps its velocity, and does not respond.
 void startVelocities(const State& state, Scratch& scratch);
 
 }  // namespace merge2d

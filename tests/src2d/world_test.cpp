@@ -212,7 +212,7 @@ TEST(World, AHeapHoldsAboutTwoKilobytesPerBodyOnAverage) {
       world.step();
       sum += world.memoryBytes();
     }
-    EXPECT_LT(sum / 50 / scene.bodies.size(), 2300u) << name(mode);
+    EXPECT_LT(sum / 50 / scene.bodies.size(), 2200u) << name(mode);
   }
 }
 
