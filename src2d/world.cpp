@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "src2d/begin_step.h"
@@ -52,6 +53,8 @@ struct World::Impl {
   Observer* observer = nullptr;
   Notes notes;
   std::vector<BodyInfo> bodies;  ///< described when somebody asks
+  /// For errors, which ask it once; made once, as stages are many.
+  const std::function<std::string(BodyId)> naming = [this](BodyId b) { return nameOf(b); };
   Clock::time_point lap_began;
   Rest rest;
 
@@ -114,8 +117,7 @@ struct World::Impl {
   template <class Work>
   void run(Stage stage, Work&& work) {
     work();
-    checkFinite(setup.state, scratch, stage,
-                [this](BodyId b) { return describedBodies()[index(b)].name; });
+    checkFinite(setup.state, scratch, stage, naming);
     if (options.timings) {
       scratch.stats.seconds[static_cast<std::size_t>(stage)] = lap();
     }

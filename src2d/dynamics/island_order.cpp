@@ -23,10 +23,16 @@ void clearMarks(Scratch& scratch) {
   for (const std::uint32_t r : scratch.island_bodies) clear(r);
 }
 
-/// Sorts the blocks by island, then by colour, then by source, in which order they come: each pass
-/// counts, and keeps the order of the one before.
+/// Sorts the blocks by island, then by colour, then by source, in which order they come. Of many
+/// blocks each pass counts, and keeps the order of the one before; for few that costs more than to
+/// compare them.
 void sortBlocks(Scratch& scratch) {
+  constexpr std::size_t kFew = 16;
   auto& order = scratch.block_order;
+  if (order.size() <= kFew) {
+    std::ranges::sort(order);
+    return;
+  }
   thread_local std::vector<BlockOrder> by_colour;  // its memory serves all worlds of the thread
   std::array<std::uint32_t, 65> place{};           // of the next block of each colour
   for (const BlockOrder& block : order) ++place[block.colour() + 1];
