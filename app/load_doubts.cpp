@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "app/joint_watch.h"
 #include "src2d/core/error.h"
 #include "src2d/geometry/box.h"
 #include "src2d/scene/compliance.h"
@@ -151,6 +152,16 @@ class LoadWatch {
   int seen_ = 0;
 };
 
+void warnOfPress(const World& world, const Press& load, Scene& scene) {
+  if (load.depth == 0.0) return;
+  const auto& bodies = world.bodies();
+  scene.warnings.push_back(
+      fmt::format("'{}' and '{}' press on each other with {:.3g} N, which pushes them {:.2g} m "
+                  "into each other: "
+                  "less where the lighter one is heavier, or with a smaller step",
+                  bodies[index(load.a)].name, bodies[index(load.b)].name, load.force, load.depth));
+}
+
 /// How long a scene is watched: until the contact forces of a stack have settled, and most falls
 /// have ended, where that does not take long.
 int stepsToWatch(const Scene& scene) {
@@ -165,23 +176,19 @@ int stepsToWatch(const Scene& scene) {
 
 void warnOfHeavyLoads(Scene& scene) {
   World world(scene, {.mode = Mode::Reference, .timings = false});
-  LoadWatch watch(world);
+  LoadWatch loads(world);
+  JointWatch joints(world);
   try {
     for (int i = stepsToWatch(scene); i > 0; --i) {
       world.step();
-      watch.see();
+      loads.see();
+      joints.see();
     }
   } catch (const SimulationError&) {
     return;  // the run will tell
   }
-  const Press load = watch.deepest();
-  if (load.depth == 0.0) return;
-  const auto& bodies = world.bodies();
-  scene.warnings.push_back(
-      fmt::format("'{}' and '{}' press on each other with {:.3g} N, which pushes them {:.2g} m "
-                  "into each other: "
-                  "less where the lighter one is heavier, or with a smaller step",
-                  bodies[index(load.a)].name, bodies[index(load.b)].name, load.force, load.depth));
+  warnOfPress(world, loads.deepest(), scene);
+  if (const auto doubt = joints.doubt()) scene.warnings.push_back(*doubt);
 }
 
 void warnOfSmallBodies(Scene& scene) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Warnings of scenes that ask for more than contacts can bear (docs/limits.md).
+/// Warnings of scenes that ask for more than contacts and joints can bear (docs/limits.md).
 
 #include "src2d/scene/scene.h"
 
@@ -7,7 +7,7 @@ namespace merge2d {
 
 /// Contacts whose load, or a blow, pushes two bodies into each other by more than 2 % of the
 /// smaller one, or 2 cm, within the first 3 s (100 steps at least, less where bodies are many):
-/// with the figure to expect.
+/// with the figure to expect. Joints that loads pull open in that time (joint_watch.h).
 void warnOfHeavyLoads(Scene& scene);
 
 /// Bodies so small that they fall by more than their size in a step.

@@ -294,6 +294,61 @@ TEST_F(Validate, WarnsOfJointsThatPullAtTheStart) {
   EXPECT_THAT(warnings(pivot + "limits = [0, 30]"), IsEmpty());
 }
 
+/// A bridge of three planks of 1 kg without slack, and something that lies on it.
+std::string taut(double mass) {
+  std::string text, other;
+  for (int i = 0; i < 3; ++i) {
+    text += fmt::format(R"(
+[[body]]
+name = "plank{0}"
+at = [{0}.5, 0]
+box = [0.9, 0.1]
+mass = 1
+[[joint]]
+kind = "revolute"
+bodies = [{1}"plank{0}"]
+at = [{0}, 0]
+)",
+                        i, other);
+    other = fmt::format("\"plank{}\", ", i);
+  }
+  return text + fmt::format(R"(
+[[joint]]
+kind = "revolute"
+bodies = ["plank2"]
+at = [3, 0]
+[[body]]
+name = "load"
+at = [1.5, 0.551]
+box = [1, 1]
+mass = {}
+)",
+                            mass);
+}
+
+TEST_F(Validate, WarnsOfJointsThatALoadPullsOpen) {
+  const auto warnings = [&](double mass, int rate) {
+    write("bridge.toml", taut(mass));
+    const std::string step = fmt::format("step={}", 1.0 / rate);
+    const Json found = run({"validate", "bridge.toml", "--json", "--set", step}).json()["warnings"];
+    return found.get<Words>();
+  };
+  const std::string pulled = "is pulled open by ";
+  const auto told = [&](double mass, int rate) {
+    for (const std::string& text : warnings(mass, rate)) {
+      const auto at = text.find(pulled);
+      if (at != std::string::npos) return std::stod(text.substr(at + pulled.size()));
+    }
+    return 0.0;
+  };
+  EXPECT_EQ(told(1.0, 60), 0.0);
+  EXPECT_EQ(told(10.0, 60), 0.0);
+  const double heavy = told(100.0, 60);
+  EXPECT_GT(heavy, 0.01);
+  EXPECT_LT(heavy, 0.04) << "docs/limits.md";
+  EXPECT_GT(told(1000.0, 60), heavy);
+}
+
 TEST_F(Validate, WritesATextSceneThatMeansTheSame) {
   EXPECT_EQ(run({"validate", "stack.toml", "--to", "copy.toml"}).code, 0);
   EXPECT_THAT(files(), ElementsAre("copy.toml", "stack.toml"));
