@@ -1,6 +1,7 @@
 #include "src2d/merging/disturbance.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src2d/core/memory.h"
 #include "src2d/merging/kicked.h"
@@ -11,9 +12,34 @@ namespace {
 /// A contact that closes slower than this is no meeting [m/s].
 constexpr double kGentle = 1e-3;
 
+/// An upper bound of the speeds at the points of a contact of two bodies on their own [m/s]: most
+/// contacts rest, and need no look at where their points are.
+double speedBound(const Rigid& a, const Rigid& b, const Contact& contact) {
+  const auto size = [](const Vec2& v) { return std::abs(v.x()) + std::abs(v.y()); };
+  double arm = 0.0;
+  for (int i = 0; i < contact.count; ++i) {
+    arm = std::max(arm, size(contact.points[static_cast<std::size_t>(i)].position));
+  }
+  const double from_a = arm + size(a.rest), from_b = arm + size(b.x - a.x) + size(b.rest);
+  return size(b.v - a.v) + std::abs(a.omega) * from_a + std::abs(b.omega) * from_b;
+}
+
+/// Surely below the closing speed that `closingSpeed` asks for.
+bool isSlow(const State& state, const Contact& contact, double impact) {
+  constexpr double kRounding = 1e-9;
+  if (state.isCollection(state[contact.key.a].rigid)) return false;  // its points are seen from a
+  bool fresh = false;
+  for (int i = 0; i < contact.count; ++i) {
+    fresh |= contact.points[static_cast<std::size_t>(i)].fresh;
+  }
+  const double bound = speedBound(state.rigid(contact.key.a), state.rigid(contact.key.b), contact);
+  return bound < (1.0 - kRounding) * (fresh ? std::min(kGentle, impact) : impact);
+}
+
 /// The closing speed of a contact that was open in the last step and closes in this one, or that
 /// slowed its bodies down then and is hit with the rest of their speed now [m/s]; 0 for any other.
-double closingSpeed(const State& state, const Contact& contact) {
+double closingSpeed(const State& state, const Contact& contact, double impact) {
+  if (isSlow(state, contact, impact)) return 0.0;
   const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
   if (sameFrame(a, b)) return 0.0;
   const Pose pose_a = state.pose(contact.key.a);
@@ -24,7 +50,7 @@ double closingSpeed(const State& state, const Contact& contact) {
     const Vec2 p = pose_a * point.position;
     const double w_n = n.dot(b.velocityAt(p) - a.velocityAt(p));
     const double closing = -w_n - std::max(0.0, point.gap) / state.h;
-    if (closing <= (point.fresh ? kGentle : impactSpeed(state))) continue;
+    if (closing <= (point.fresh ? kGentle : impact)) continue;
     fastest = std::max(fastest, -w_n);
   }
   return fastest;
@@ -33,10 +59,11 @@ double closingSpeed(const State& state, const Contact& contact) {
 /// Lists the contacts that close anew.
 void findMeetings(const State& state, Scratch& scratch) {
   scratch.meetings.clear();
+  const double impact = impactSpeed(state);
   for (std::uint32_t p = 0; p < scratch.pairs.size(); ++p) {
     const BodyPair& pair = scratch.pairs[p];
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-      const double speed = closingSpeed(state, state.contacts[state.contacts.order[i]]);
+      const double speed = closingSpeed(state, state.contacts[state.contacts.order[i]], impact);
       if (speed > 0.0) scratch.meetings.push_back({p, i, speed});
     }
   }
