@@ -252,7 +252,7 @@ class StateCheck {
     require(c.points >= 0 && static_cast<std::size_t>(c.points) <= 2 * c.blocks.size(), "blocks");
     require(c.block_contact.empty() || c.block_contact.size() == c.blocks.size(), "blocks");
     for (const std::uint32_t i : c.block_contact) require(i < c.contacts.size(), "blocks");
-    require(c.push.size() == c.members.size(), "inner forces");
+    require(c.push.empty() || c.push.size() == c.members.size(), "inner forces");
     const std::size_t nodes = c.members.size() + 1;  // the last is the frame
     for (const Weld& weld : c.welds) {
       const bool run =

@@ -69,11 +69,34 @@ void fitBox(State& state, RigidId id) {
   state.extents[state[id].extent].box = tightBox(points);
 }
 
-/// Its place among the members; that of the frame is last.
-std::uint32_t nodeOf(const State& state, const Collection& c, BodyId b) {
-  const auto frame = static_cast<std::uint32_t>(c.members.size());
-  return state[b].rigid == c.rigid ? state[rigidOf(b)].member : frame;
-}
+/// The place of each body among the members; that of the frame is last.
+class Nodes {
+ public:
+  Nodes(const State& state, const Collection& c) : members_(c.members), node_(memory()) {
+    if (node_.size() < state.bodies.size()) node_.resize(state.bodies.size(), kFrame);
+    for (std::uint32_t i = 0; i < members_.size(); ++i) node_[index(members_[i])] = i;
+  }
+  ~Nodes() {
+    for (const BodyId b : members_) node_[index(b)] = kFrame;
+  }
+  Nodes(const Nodes&) = delete;
+  Nodes& operator=(const Nodes&) = delete;
+
+  std::uint32_t of(BodyId b) const {
+    return std::min(node_[index(b)], static_cast<std::uint32_t>(members_.size()));
+  }
+
+ private:
+  static constexpr std::uint32_t kFrame = ~0u;
+  /// Per body, and kFrame of all between two layouts: small enough to stay in the cache.
+  static std::vector<std::uint32_t>& memory() {
+    thread_local std::vector<std::uint32_t> node;
+    return node;
+  }
+
+  const std::vector<BodyId>& members_;
+  std::vector<std::uint32_t>& node_;
+};
 
 /// Contacts of one pair of bodies in a row form a weld, and so do its joints.
 void layOutWelds(const State& state, Collection& c) {
@@ -88,12 +111,13 @@ void layOutWelds(const State& state, Collection& c) {
     c.welds.back().count = i + 1 - c.welds.back().first;
   }
   addJointWelds(state, c);
+  const Nodes nodes(state, c);
   for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
     Weld& weld = c.welds[w];
     weld.expected &= weld.joints == 0;
     for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) c.contacts[i].weld = w;
-    weld.node_a = nodeOf(state, c, weld.a);
-    weld.node_b = nodeOf(state, c, weld.b);
+    weld.node_a = nodes.of(weld.a);
+    weld.node_b = nodes.of(weld.b);
   }
   tighten(c.welds);
   std::size_t o = 0;
@@ -228,12 +252,14 @@ void layOutPush(const State& state, Collection& c) {
 
 namespace {
 
-/// Most are in order: the contacts that came in last follow after them.
+/// Those that have a block are in order since the last layout; others came in after them.
 void sortContacts(std::vector<InternalContact>& contacts) {
   const auto byKey = [](const InternalContact& x, const InternalContact& y) {
     return x.key < y.key;
   };
-  const auto late = std::is_sorted_until(contacts.begin(), contacts.end(), byKey);
+  auto late = contacts.end();
+  while (late != contacts.begin() && (late - 1)->block == InternalContact::kNoBlock) --late;
+  if (late == contacts.begin()) late = std::is_sorted_until(late, contacts.end(), byKey);
   std::sort(late, contacts.end(), byKey);
   std::inplace_merge(contacts.begin(), late, contacts.end(), byKey);
 }
@@ -249,7 +275,7 @@ void layOut(State& state, Collection& c) {
   layOutWelds(state, c);
   layOutBlocks(state, c);
   c.certificate.clear();  // proofs are for the members and contacts of a layout
-  layOutPush(state, c);
+  c.push.clear();         // made for whoever sweeps it next
   c.stale = false;
   c.settled = false;
 }

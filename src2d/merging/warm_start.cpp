@@ -5,6 +5,7 @@
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/hits.h"
 #include "src2d/dynamics/solver.h"
+#include "src2d/merging/collection.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/rule.h"
 #include "src2d/merging/sweep.h"
@@ -15,7 +16,8 @@ namespace {
 bool isMember(const State& state, BodyId b) { return state.isCollection(state[b].rigid); }
 
 /// The velocity of each member in its collection, with last step's push.
-void startMembers(const State& state, const Collection& c, Scratch& scratch) {
+void startMembers(const State& state, Collection& c, Scratch& scratch) {
+  if (c.push.empty()) layOutPush(state, c);
   const Rigid& r = state[c.rigid];
   for (std::size_t i = 0; i < c.members.size(); ++i) {
     const Body& body = state[c.members[i]];
@@ -169,7 +171,7 @@ void warmStartSweep(State& state, Scratch& scratch) {
   scratch.sweep_u.resize(state.bodies.size() + 1);  // the world's stands last
   scratch.sweep_u.back() = {};
   startOthers(state, scratch);
-  for (const Collection& c : state.collections) {
+  for (Collection& c : state.collections) {
     if (swept(c)) startMembers(state, c, scratch);
   }
   addLoads(state, scratch);
