@@ -134,9 +134,10 @@ void listIslandBodies(const State& state, Scratch& scratch) {
     scratch.island_bodies[island.last_body++] = r;
   });
   if (scratch.open_members.empty()) return;
-  for (const auto& island : scratch.islands) {
-    const auto bodies = scratch.island_bodies.begin();
-    std::sort(bodies + island.first_body, bodies + island.last_body);
+  for (const auto& island : scratch.islands) {  // rigid things, then members: each ascending
+    const auto begin_of = scratch.island_bodies.begin() + island.first_body;
+    const auto end_of = scratch.island_bodies.begin() + island.last_body;
+    std::inplace_merge(begin_of, std::is_sorted_until(begin_of, end_of), end_of);
   }
 }
 

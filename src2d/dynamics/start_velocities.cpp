@@ -13,8 +13,16 @@ const Rigid& anchorOf(const State& state, std::size_t i) {
   return state[rigidOf(state.collections[i - state.bodies.size()].anchor)];
 }
 
-/// Velocities and masses before forces act.
-void takeVelocities(const State& state, Scratch& scratch) {
+/// Gravity on a body or collection that moves freely.
+void addGravity(const State& state, const Rigid& r, SolverVelocity& u) {
+  if (u.inv_mass == 0.0) return;
+  const double share = u.inv_mass == r.inv_mass ? 1.0 : r.mass * u.inv_mass;
+  u.vx += share * state.h * state.gravity.x();
+  u.vy += share * state.h * state.gravity.y();
+}
+
+/// Velocities and masses before forces act; with `falling` those after gravity has.
+void takeVelocities(const State& state, Scratch& scratch, bool falling) {
   reserveTightly(scratch.u, state.rigids.size() + 1);
   scratch.u.resize(state.rigids.size() + 1);
   scratch.u.back() = {};
@@ -27,18 +35,7 @@ void takeVelocities(const State& state, Scratch& scratch) {
     const bool free = simulated(r);
     u = {r.v.x(), r.v.y(), r.omega, free ? r.inv_mass : 0.0, free ? r.inv_inertia : 0.0};
     if (!state.isCollection(id)) u.surface = state.bodies[i].surface_velocity;
-  }
-}
-
-/// Gravity on bodies and collections that move freely.
-void addGravity(const State& state, Scratch& scratch) {
-  for (const RigidId id : state.present) {
-    SolverVelocity& u = scratch.u[index(id)];
-    if (u.inv_mass == 0.0) continue;
-    const Rigid& r = state[id];
-    const double share = u.inv_mass == r.inv_mass ? 1.0 : r.mass * u.inv_mass;
-    u.vx += share * state.h * state.gravity.x();
-    u.vy += share * state.h * state.gravity.y();
+    if (falling) addGravity(state, state.rigids[i], u);
   }
 }
 
@@ -76,9 +73,12 @@ void addActions(const State& state, Scratch& scratch) {
 }  // namespace
 
 void startVelocities(const State& state, Scratch& scratch) {
-  takeVelocities(state, scratch);
-  if (!state.joints.empty()) slowTautLinks(state, scratch);
-  addGravity(state, scratch);
+  const bool linked = !state.joints.empty();
+  takeVelocities(state, scratch, !linked);
+  if (linked) {
+    slowTautLinks(state, scratch);
+    for (const RigidId id : state.present) addGravity(state, state[id], scratch.u[index(id)]);
+  }
   takeOpenMembers(state, scratch);
   addActions(state, scratch);
 }
