@@ -26,14 +26,17 @@ double reach(const State& state, double ahead) {
   return std::max(state.settings.solver.margin, ahead);
 }
 
-/// Most of those that do not touch stay apart however fast they are, and many need no look at all:
-/// they were farther apart than what has moved since.
-bool staysApart(const State& state, const ContactKey& key, float& apart, double farthest) {
+/// Most of those that do not touch stay apart however fast anything is, others as the two are no
+/// faster; and many need no look at all: they were farther apart than what has moved since.
+bool staysApart(const State& state, const Approaches& approaches, const ContactKey& key,
+                float& apart) {
   apart -= static_cast<float>(2.0 * state.moved);
-  if (apart > reach(state, farthest)) return true;
+  if (apart > reach(state, approaches.farthest())) return true;
+  const double near = reach(state, approaches.between(key.a, key.b));
+  if (apart > near) return true;
   const Pose b_in_a = state.pose(key.a).toLocal(state.pose(key.b));
   apart = static_cast<float>(boxDistance(state, key, b_in_a));
-  return apart > reach(state, farthest);
+  return apart > near;
 }
 
 void loseTouch(Contact& contact) {
@@ -107,7 +110,7 @@ double followContact(const State& state, const Approaches& approaches, Contact& 
   if (fixed) holdBreath(contact);
   if (fixed || (contact.count == 0 && sameFrame(a, b))) {
     contact.apart = 0.0F;  // earlier motion does not count from here on
-  } else if (contact.count == 0 && staysApart(state, key, contact.apart, approaches.farthest())) {
+  } else if (contact.count == 0 && staysApart(state, approaches, key, contact.apart)) {
     loseTouch(contact);
   } else {
     return findManifold(state, approaches, contact);
@@ -143,7 +146,7 @@ Contact lookAt(const State& state, const Approaches& approaches, IdlePair& pair)
   const Rigid &a = state.rigid(pair.key.a), &b = state.rigid(pair.key.b);
   if ((resting(a) && resting(b)) || sameFrame(a, b)) {
     pair.apart = 0.0F;  // as above
-  } else if (!staysApart(state, pair.key, pair.apart, approaches.farthest())) {
+  } else if (!staysApart(state, approaches, pair.key, pair.apart)) {
     findManifold(state, approaches, contact);
     pair.apart = contact.apart;
   }
