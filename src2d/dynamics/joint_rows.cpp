@@ -83,18 +83,27 @@ JointBlock makeBlock(const State& state, const Scratch& scratch, const Joint& jo
   return k;
 }
 
-/// How far the joint is from where it holds, and how much of that came in this step.
+/// How far a joint is beyond its limits [m, rad].
+double beyondLimits(const Joint& joint, const JointPlace& place) {
+  if (!joint.limits) return 0.0;
+  const double at = errorsOf(joint, place)[kLimitRow];
+  return at - std::clamp(at, joint.limits->lower, joint.limits->upper);
+}
+
+/// How far the joint is from where it holds, or beyond its limits, and how much of that came in
+/// this step: a motor may have turned it past a limit, and it must come back before it merges.
 void measureError(Joint& joint, const JointPlace& place) {
   const Vec2 way = place.rotation_a.inverse() * (place.p_b - place.p_a);
   std::array<float, 3> error{static_cast<float>(way.x()), static_cast<float>(way.y()),
                              static_cast<float>(place.turn)};
-  if (joint.kind == JointKind::Revolute) error[2] = 0.0F;
+  const auto beyond = static_cast<float>(beyondLimits(joint, place));
+  if (joint.kind == JointKind::Revolute) error[2] = beyond;
   if (joint.kind == JointKind::Distance) {
     error = {static_cast<float>(way.norm() - joint.length), 0.0F, 0.0F};
   }
   if (joint.kind == JointKind::Prismatic) {
     error[0] = static_cast<float>(perpendicular(joint.axis).dot(way));
-    error[1] = 0.0F;
+    error[1] = beyond;
   }
   joint.breath = 0.0F;
   for (std::size_t i = 0; i < 3; ++i) {

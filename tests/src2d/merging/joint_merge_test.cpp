@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "tests/src2d/merging/merging_testing.h"
 
 namespace merge2d {
@@ -114,6 +116,41 @@ limits = [0, 80]
   run.until(6.0);
   EXPECT_TRUE(run.merged("shelf"));
   EXPECT_NEAR(run.body("shelf").angle, 0.0, 0.01);
+}
+
+/// A motor turns two bars against each other until a limit stops them, past which they have gone by
+/// then.
+TEST(JointMerge, BarsMergeWhereTheLimitStands) {
+  constexpr double kLimit = (-60.0 + 25.0) * std::numbers::pi / 180.0;
+  for (const double speed : {90.0, 200.0, 400.0}) {
+    for (const double h : {1.0 / 60.0, 1.0 / 100.0, 1.0 / 240.0}) {
+      Simulation run(fmt::format(R"(
+format = 1
+step = {}
+gravity = [0, 0]
+[[body]]
+name = "a"
+box = [1, 0.06]
+angle = 30
+[[body]]
+name = "b"
+box = [1, 0.06]
+angle = -30
+[[joint]]
+kind = "revolute"
+bodies = ["a", "b"]
+at = [0, 0]
+limits = [-60, 25]
+motor = {{ speed = {}, torque = 1000 }}
+)",
+                                 h, speed),
+                     Mode::Merge);
+      run.until(2.0);
+      EXPECT_TRUE(run.merged("b")) << speed << " at " << h;
+      const double turned = run.body("b").angle - run.body("a").angle;
+      EXPECT_NEAR(turned, kLimit, 3e-4) << speed << " at " << h;
+    }
+  }
 }
 
 TEST(JointMerge, ABrakeHoldsUpToItsTorque) {
