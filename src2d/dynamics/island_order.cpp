@@ -107,12 +107,18 @@ void forEachMover(const State& state, const Scratch& scratch, Visit&& visit) {
 
 void orderBlocks(const State& state, Scratch& scratch) {
   clearMarks(scratch);
+  if (scratch.row_sources.empty() && state.joints.empty()) {  // all of it flies
+    scratch.block_order.clear();
+    scratch.joint_order.clear();
+    return;
+  }
   uniteIslands(state, scratch);
   colourBlocks(state, scratch);
   sortBlocks(scratch);
 }
 
 void listIslandBodies(const State& state, Scratch& scratch) {
+  if (scratch.islands.empty()) return scratch.island_bodies.clear();
   auto& island_of = scratch.island_of;
   for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
     island_of[scratch.islands[i].root] = static_cast<std::int32_t>(i);

@@ -149,8 +149,9 @@ bool isLaunched(const State& state, const Scratch& scratch, RigidId id) {
   if (!isFree(state, id)) return false;
   const Rigid& r = state[id];
   const auto& gained = scratch.u[index(id)].gained;
-  const double more = state.h * std::hypot(gained[0], gained[1]);
-  return more > kFarWay * state.extent(r).bounds.extent().minCoeff();
+  const Vec2 more = state.h * Vec2(gained[0], gained[1]);
+  const double most = kFarWay * state.extent(r).bounds.extent().minCoeff();
+  return more.squaredNorm() > most * most;
 }
 
 /// Calls `visit(body, shape)` for the shapes of a rigid thing.
