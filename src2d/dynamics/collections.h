@@ -113,9 +113,11 @@ struct ProofSearch {
   Witness load;              ///< with the impulses found so far
   std::vector<Twist> start;  ///< per member: the velocity that the load gives; empty: no search
   NncgBuffers nncg;          ///< of the sweeps so far
-  double way = 0.0;          ///< from where it began, if ahead
-  std::int16_t steps = 0;    ///< that it has taken so far
-  bool ahead = false;        ///< beyond the loads that there were: nothing depends on it
+  /// Per weld, where the search has found motion: whether its bodies move there. Empty: not known.
+  std::vector<std::uint8_t> moving;
+  double way = 0.0;        ///< from where it began, if ahead
+  std::int16_t steps = 0;  ///< that it has taken so far
+  bool ahead = false;      ///< beyond the loads that there were: nothing depends on it
 };
 
 /// Proofs that a collection holds (merging/load_certificate.h).

@@ -6,13 +6,15 @@
 #include <limits>
 #include <utility>
 
+#include "src2d/dynamics/body_matrix.h"
+
 namespace merge2d {
 namespace {
 
-constexpr double kRigid = 1e-4;                   ///< C of a rigid row, of its K
-constexpr double kConverged = 1e-9;               ///< gradient, of the momenta that balance
-constexpr double kSettled = 1e-5;                 ///< velocity of rigid rows, of the fastest change
-constexpr double kHarder = 0.3, kHardest = 1e-2;  ///< friction, from round to round; of the normal
+constexpr double kRigid = 1e-4;      ///< C of a rigid row, of its K
+constexpr double kConverged = 1e-9;  ///< gradient, of the momenta that balance
+constexpr double kSettled = 1e-5;    ///< velocity of rigid rows, of the fastest change
+constexpr double kStalls = 0.7;      ///< part of it that is left after a futile round
 constexpr int kMostRounds = 20, kMostSteps = 60, kMostTrials = 40;
 constexpr std::uint32_t kFixed = ~0u;
 
@@ -23,7 +25,8 @@ struct Row {
   double bias = 0.0;
   double own = 0.0, softness = 0.0;  ///< its own one, and C, which may be larger
   double lower = 0.0, upper = 0.0;   ///< of γ, where no cone bounds it
-  double mu = -1.0;                  ///< of the cone that this row and the next one share; or none
+  std::uint32_t block_a = 0, block_b = 0, block_ab = 0;  ///< of the matrix
+  double mu = -1.0;  ///< of the cone that this row and the next one share; or none
 };
 
 /// The slope −dγ/dw of one or two rows.
@@ -100,17 +103,21 @@ class Newton {
     });
   }
 
-  void run() {
+  /// Where things slide, no round may end it.
+  void run(double tolerance) {
     start();
     holdImpulses();
+    double left = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kMostRounds; ++round) {
-      if (round > 0) hardenFriction();
       findImpulses(0.0);
       for (int step = 0; step < kMostSteps && !hasConverged(); ++step) {
         findDirection();
         if (!moveAlong()) break;
       }
-      if (holdImpulses() <= kSettled * fastest()) break;
+      const double before = std::exchange(left, holdImpulses());
+      if (left <= std::max(tolerance, kSettled * fastest()) ||
+          (tolerance > 0.0 && left > kStalls * before))
+        break;
     }
   }
 
@@ -172,16 +179,6 @@ class Newton {
     dw_.resize(rows_.size());
     slopes_.resize(rows_.size());
     for (std::size_t i = 0; i < rows_.size(); ++i) w_[i] = along(rows_[i], u_now_) + rows_[i].bias;
-  }
-
-  /// Near the solution friction may be harder than the normals.
-  void hardenFriction() {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (rows_[i].mu < 0.0) continue;
-      Row& t = rows_[++i];
-      t.softness = std::max(kHarder * t.softness, kHardest * rows_[i - 1].softness);
-      held_[i] = t.softness * gamma_[i];
-    }
   }
 
   /// C acts on the change of the impulses, where a row is not as soft as that. Returns the largest
@@ -249,32 +246,36 @@ class Newton {
     return rest <= kConverged * kConverged * std::max(contacts, inertia);
   }
 
-  /// One body's part of Jᵀ G J, or what two bodies share.
-  void fill(std::uint32_t p, std::uint32_t q, const Twist& j, const Twist& k, double g) {
-    if (p == kFixed || q == kFixed || p < q) return;
-    const double x[3] = {j.vx, j.vy, j.omega}, y[3] = {k.vx, k.vy, k.omega};
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < (p == q ? r + 1 : 3); ++c) {
-        entries_.emplace_back(static_cast<int>(3 * p) + r, static_cast<int>(3 * q) + c,
-                              g * x[r] * y[c]);
-      }
+  void layOut() {
+    for (const Row& row : rows_) {
+      if (row.a != kFixed && row.b != kFixed) hessian_.share(row.a, row.b);
+    }
+    hessian_.layOut(static_cast<std::uint32_t>(mass_.size()));
+    for (Row& row : rows_) {
+      if (row.a != kFixed) row.block_a = hessian_.blockOf(row.a, row.a);
+      if (row.b != kFixed) row.block_b = hessian_.blockOf(row.b, row.b);
+      if (row.a != kFixed && row.b != kFixed) row.block_ab = hessian_.blockOf(row.a, row.b);
     }
   }
+
+  /// What two rows of the same bodies share of Jᵀ G J.
   void fill(const Row& x, const Row& y, double g) {
-    fill(x.a, y.a, x.j_a, y.j_a, g);
-    fill(x.b, y.b, x.j_b, y.j_b, g);
-    fill(x.a, y.b, x.j_a, y.j_b, g);
-    fill(x.b, y.a, x.j_b, y.j_a, g);
+    const auto vec = [](const Twist& j) { return BodyMatrix::Vec{j.vx, j.vy, j.omega}; };
+    if (x.a != kFixed) hessian_.add(x.block_a, vec(x.j_a), vec(y.j_a), g);
+    if (x.b != kFixed) hessian_.add(x.block_b, vec(x.j_b), vec(y.j_b), g);
+    if (x.a == kFixed || x.b == kFixed) return;
+    if (x.a > x.b) {
+      hessian_.add(x.block_ab, vec(x.j_a), vec(y.j_b), g);
+    } else {
+      hessian_.add(x.block_ab, vec(x.j_b), vec(y.j_a), g);
+    }
   }
 
-  /// d = −H⁻¹ g with H = M + Jᵀ G J, of which always the same entries are there.
-  void findDirection() {
-    entries_.clear();
+  /// H = M + Jᵀ G J.
+  void fillHessian() {
+    hessian_.clear();
     for (std::uint32_t i = 0; i < mass_.size(); ++i) {
-      const double m[3] = {mass_[i].vx, mass_[i].vy, mass_[i].omega};
-      for (int r = 0; r < 3; ++r) {
-        entries_.emplace_back(static_cast<int>(3 * i) + r, static_cast<int>(3 * i) + r, m[r]);
-      }
+      hessian_.add(i, {mass_[i].vx, mass_[i].vy, mass_[i].omega});
     }
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       fill(rows_[i], rows_[i], slopes_[i].nn);
@@ -284,12 +285,15 @@ class Newton {
       fill(t, n, slopes_[i - 1].nt);
       fill(t, t, slopes_[i - 1].tt);
     }
-    const auto size = static_cast<Eigen::Index>(3 * mass_.size());
-    hessian_.resize(size, size);
-    hessian_.setFromTriplets(entries_.begin(), entries_.end());
-    if (std::exchange(is_new_, false)) cholesky_.analyzePattern(hessian_);
-    cholesky_.factorize(hessian_);
-    Eigen::VectorXd g(size);
+  }
+
+  /// d = −H⁻¹ g.
+  void findDirection() {
+    if (is_new_) layOut();
+    fillHessian();
+    if (std::exchange(is_new_, false)) cholesky_.analyzePattern(hessian_.matrix());
+    cholesky_.factorize(hessian_.matrix());
+    Eigen::VectorXd g(static_cast<Eigen::Index>(3 * mass_.size()));
     for (std::size_t i = 0; i < gradient_.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(3 * i);
       g[at] = -gradient_[i].vx, g[at + 1] = -gradient_[i].vy, g[at + 2] = -gradient_[i].omega;
@@ -345,8 +349,7 @@ class Newton {
   std::vector<double> gamma_, held_, w_, dw_;  ///< per row
   std::vector<Slope> slopes_;                  ///< at the first row of each cone, and at the others
   std::vector<Twist> u_now_, gradient_, direction_;
-  std::vector<Eigen::Triplet<double>> entries_;
-  Eigen::SparseMatrix<double> hessian_;
+  BodyMatrix hessian_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky_;
   bool is_new_ = true;
   std::size_t next_ = 0;
@@ -355,11 +358,12 @@ class Newton {
 }  // namespace
 
 void solveByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
-                   std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u) {
+                   std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
+                   double tolerance) {
   Newton newton(bodies, u);
   for (const ContactBlock& k : blocks) newton.addBlock(k);
   for (const JointBlock& k : joints) newton.addJoint(k);
-  newton.run();
+  newton.run(tolerance);
   for (ContactBlock& k : blocks) newton.takeImpulses(k);
   for (JointBlock& k : joints) newton.takeImpulses(k);
   for (const ContactBlock& k : blocks) applyImpulses(k, u[k.a], u[k.b]);

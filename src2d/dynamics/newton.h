@@ -10,7 +10,7 @@
 ///
 /// C is the softness of a row. Rigid rows are taken to be softer, and friction as soft as its
 /// normal, or the function has kinks at which Newton's steps become short; they are held to the
-/// impulses found before, in a few rounds in which friction hardens (the method of multipliers).
+/// impulses found before, in a few rounds (the method of multipliers).
 
 #include <span>
 #include <vector>
@@ -22,8 +22,10 @@
 namespace merge2d {
 
 /// Solves the rows of an island from the impulses that they have. `u` holds the velocities of its
-/// `bodies` before any of these impulses [m/s], and then those after all of them.
+/// `bodies` before any of these impulses [m/s], and then those after all of them. Rigid rows may
+/// move at `tolerance` afterwards [m/s].
 void solveByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
-                   std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u);
+                   std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
+                   double tolerance = 0.0);
 
 }  // namespace merge2d

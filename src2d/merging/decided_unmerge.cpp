@@ -113,18 +113,20 @@ bool turns(const Collection& c, const WeldMotions& motions, double threshold, do
   });
 }
 
-/// Cuts the welds whose bodies move. Slower motion than the residual may be an error of the solve.
-/// `surely`: some weld must move by more than a few residuals. Returns whether any does.
-bool cutMovers(const State& state, Scratch& scratch, Collection& c, bool surely) {
+/// Cuts the welds whose bodies move. Slower motion than the residual may be an error of the solve,
+/// and where a search has found motion, that of other welds. While one goes on, some weld must move
+/// by more than a few residuals. Returns whether any does.
+bool cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofSearch& search) {
   const WeldMotions motions(state, c, scratch.trial_u);
   const double threshold = cutSpeed(state, c);
   const double residual = c.last_blow == state.step ? 0.0 : c.residual;
-  const bool moves = !surely || turns(c, motions, threshold, kDecided.sure * residual);
+  const bool moves = search.start.empty() || turns(c, motions, threshold, kDecided.sure * residual);
   bool any = false;
-  for (Weld& weld : c.welds) {
+  for (std::size_t i = 0; i < c.welds.size(); ++i) {
+    Weld& weld = c.welds[i];
     weld.cut = false;
     weld.motion = 0.0F;
-    if (weld.expected) continue;
+    if (weld.expected || (!search.moving.empty() && search.moving[i] == 0)) continue;
     const WeldMotion motion = motions.of(weld, scratch.notes ? 0.0 : threshold);
     const double speed = moves && motion.least > residual ? motion.most : 0.0;
     const Decision decision = decide(weld, speed, threshold);
@@ -176,15 +178,17 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   if (breakJointsInside(state, scratch, c)) return;
   if (!c.joints.empty()) loosenJoints(state, c, scratch.sweep_u);
   Noted noted(scratch.notes);
-  const bool cut = cutMovers(state, scratch, c, !before.start.empty());
+  const bool cut = cutMovers(state, scratch, c, before);
   noted.close();
   if (isHit(state, c)) swapImpulses(c, before.load);  // those of a hit are not those of a load
-  if (!cut) return keepTogether(state, scratch, c, std::move(before));
-  c.settled = false;
-  proof.in_doubt = true;
-  const Parts parts = componentsOf(c);
-  const RigidId id = c.rigid;
-  if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, id, parts);
+  const Parts parts = cut ? componentsOf(c) : Parts();
+  if (cut && fallsApart(state, c, parts)) {
+    c.settled = false;
+    proof.in_doubt = true;
+    splitAtCuts(state, scratch, c.rigid, parts);
+  } else {
+    keepTogether(state, scratch, c, std::move(before));
+  }
   restate(state, noted, "cut");
 }
 
@@ -198,6 +202,19 @@ bool restsIn(const State& state, Scratch& scratch, Collection& c) {
   if (c.residual > tolerance || !turnsBy(c.residual)) return true;
   continueSearch(state, scratch, c, kDecided.tolerance * tolerance);
   return !turnsBy(sure());
+}
+
+/// Per weld: whether its bodies move in a search.
+std::vector<std::uint8_t> moversOf(const State& state, const Scratch& scratch,
+                                   const Collection& c) {
+  const WeldMotions motions(state, c, scratch.trial_u);
+  const double threshold = cutSpeed(state, c);
+  std::vector<std::uint8_t> moving;
+  moving.reserve(c.welds.size());
+  for (const Weld& weld : c.welds) {
+    moving.push_back(motions.of(weld, threshold).most > threshold ? 1 : 0);
+  }
+  return moving;
 }
 
 }  // namespace
@@ -220,6 +237,7 @@ bool endSearch(State& state, Scratch& scratch, Collection& c) {
     if (rests) remember(c, std::move(search.load));
     return true;
   }
+  if (!rests) proof.search.moving = moversOf(state, scratch, c);
   readImpulses(c, search.load);
   c.settled = rests && !overloadsJoints(state, c);
   if (rests) prove(state, c, std::move(search.load));

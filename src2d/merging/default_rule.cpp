@@ -15,19 +15,12 @@ namespace {
 
 CycleCriterion asSet(const MergingSettings& settings) { return settings.cycles; }
 
-/// A search has gone on for another while.
-bool isToBeLookedAt(const Collection& c) {
-  const ProofSearch& search = c.certificate.front().search;
-  return !search.start.empty() && !search.ahead && search.steps % kDecided.look_every == 0;
-}
-
 /// Where a search has found motion, the full solve of the same step finds the moving welds.
 void solveDoubted(State& state, Scratch& scratch) {
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) != Doubt::Search) continue;
     continueSearch(state, scratch, c, toleratedResidual(state));
-    const bool opens = !endSearch(state, scratch, c) || isToBeLookedAt(c);
-    if (opens) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
+    if (!endSearch(state, scratch, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
   }
   if (std::ranges::find(scratch.doubts, Doubt::Open) != scratch.doubts.end()) {
     solveOpened(state, scratch);

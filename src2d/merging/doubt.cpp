@@ -54,8 +54,12 @@ Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
   c.settled = false;
   if (!isLookedAt(state, c)) return Doubt::None;
   const bool searches = !proof.search.start.empty();
-  if (searches && !proof.search.ahead) return Doubt::Search;
+  if (searches && !proof.search.ahead && !isDirect(proof.search)) return Doubt::Search;
   const CollectionLoad load = loadOn(state, scratch, c);
+  if (searches && !proof.search.ahead) {
+    renewLoad(state, c, load);
+    return Doubt::Search;
+  }
   if (!proof.in_doubt && covers(state, c, load)) {
     writeImpulses(c);
     if (overloadsJoints(state, c)) return Doubt::Open;

@@ -117,18 +117,12 @@ void startMembers(const State& state, Scratch& scratch, Collection& c, bool push
   }
 }
 
-/// Sweeps that do not end are brought nearer by the direct solver.
-bool isDirect(const ProofSearch& search) {
-  return search.steps >= kDecided.direct_from &&
-         std::has_single_bit(static_cast<std::uint16_t>(search.steps));
-}
-
 void solveDirectly(const State& state, Scratch& scratch, Collection& c) {
   startMembers(state, scratch, c, false);
   std::vector<std::uint32_t> bodies;
   bodies.reserve(c.members.size());
   for (const BodyId b : c.members) bodies.push_back(static_cast<std::uint32_t>(index(b)));
-  solveByNewton(c.blocks, c.joints, bodies, scratch.trial_u);
+  solveByNewton(c.blocks, c.joints, bodies, scratch.trial_u, toleratedResidual(state));
   c.certificate.front().search.nncg.previous = 0.0;
 }
 
@@ -138,6 +132,19 @@ void beginSearch(const State& state, Collection& c, const CollectionLoad& load) 
   ProofSearch& search = newSearch(c, asWitness(state, c, load));
   loadMembers(state, c, load, search.start);
   swapImpulses(c, search.load);  // the progress outlives a new layout
+}
+
+bool isDirect(const ProofSearch& search) {
+  return !search.ahead && search.steps >= kDecided.direct_from &&
+         std::has_single_bit(static_cast<std::uint16_t>(search.steps));
+}
+
+void renewLoad(const State& state, Collection& c, const CollectionLoad& load) {
+  ProofSearch& search = c.certificate.front().search;
+  Witness witness = asWitness(state, c, load);
+  witness.lambda = std::move(search.load.lambda);
+  search.load = std::move(witness);
+  loadMembers(state, c, load, search.start);
 }
 
 void beginSearchAhead(const State& state, Collection& c, Witness&& load, double way) {
@@ -152,7 +159,7 @@ void beginSearchAhead(const State& state, Collection& c, Witness&& load, double 
 void continueSearch(const State& state, Scratch& scratch, Collection& c, double tolerance) {
   ProofSearch& search = c.certificate.front().search;
   if (search.ahead) swapImpulses(c, search.load);
-  if (!search.ahead && isDirect(search)) solveDirectly(state, scratch, c);
+  if (isDirect(search) && c.residual > toleratedResidual(state)) solveDirectly(state, scratch, c);
   startMembers(state, scratch, c, true);
   c.residual = static_cast<float>(relax(state, scratch, c, tolerance));
   if (search.ahead) swapImpulses(c, search.load);
