@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/measure.h"
+#include "src2d/recorder.h"
 #include "src2d/scene/load.h"
-#include "src2d/trace/recorder.h"
 
 namespace merge2d::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "lessons/recording.h"
-#include "src2d/trace/recorder.h"
+#include "src2d/recorder.h"
 
 namespace merge2d {
 namespace {

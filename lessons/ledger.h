@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lessons/recording.h"
+#include "src2d/recorder.h"
 #include "src2d/trace/json_text.h"
-#include "src2d/trace/recorder.h"
 
 namespace merge2d {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "render/palette.h"
-#include "src2d/trace/recorder.h"
+#include "src2d/recorder.h"
 
 namespace merge2d {
 

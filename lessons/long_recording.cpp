@@ -6,7 +6,7 @@
 #include "lessons/impulses.h"
 #include "lessons/ledger.h"
 #include "lessons/snapshot_feed.h"
-#include "src2d/trace/recorder.h"
+#include "src2d/recorder.h"
 
 namespace merge2d {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "lessons/impulses.h"
 #include "render/palette.h"
+#include "src2d/core/notes.h"
 #include "src2d/scene/scene.h"
-#include "src2d/trace/notes.h"
 #include "src2d/trace/snapshot.h"
 
 namespace merge2d {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "lessons/explain.h"
+#include "src2d/recorder.h"
 #include "src2d/trace/json_text.h"
-#include "src2d/trace/recorder.h"
 
 namespace merge2d {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "src2d/dynamics/islands.h"
+#include "src2d/core/disjoint_sets.h"
 
 namespace merge2d {
 namespace {

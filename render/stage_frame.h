@@ -9,7 +9,7 @@
 #include "render/palette.h"
 #include "render/silhouette.h"
 #include "render/style.h"
-#include "src2d/trace/recorder.h"
+#include "src2d/recorder.h"
 
 namespace merge2d {
 

@@ -2,7 +2,7 @@
 /// What each stage draws over the bodies. Internal to the renderer.
 
 #include "render/frame_parts.h"
-#include "src2d/trace/recorder.h"
+#include "src2d/recorder.h"
 
 namespace merge2d {
 

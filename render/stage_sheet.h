@@ -5,7 +5,7 @@
 
 #include "render/stage_legend.h"
 #include "render/stage_pens.h"
-#include "src2d/trace/recorder.h"
+#include "src2d/recorder.h"
 
 namespace merge2d {
 

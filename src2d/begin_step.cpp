@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "src2d/contact/parking.h"
-#include "src2d/dynamics/setup.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/unmerge.h"
+#include "src2d/setup.h"
 
 namespace merge2d {
 namespace {

@@ -3,7 +3,7 @@
 /// collections where these could not stay as they are, and wakes them and what touches them; the
 /// next step does the rest. All of them are part of a saved state.
 
-#include "src2d/dynamics/setup.h"
+#include "src2d/setup.h"
 
 namespace merge2d {
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "src2d/dynamics/setup.h"
+#include "src2d/setup.h"
 
 namespace merge2d {
 

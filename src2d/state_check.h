@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src2d/dynamics/setup.h"
+#include "src2d/setup.h"
 
 namespace merge2d {
 

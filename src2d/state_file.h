@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "src2d/dynamics/setup.h"
+#include "src2d/setup.h"
 #include "src2d/world.h"
 
 namespace merge2d {

@@ -6,7 +6,7 @@
 /// frame's velocity, and the number of steps for which a body has been slow. Rows inside
 /// collections are made anew, and proofs that these hold are dropped: they are of loads per step.
 
-#include "src2d/dynamics/setup.h"
+#include "src2d/setup.h"
 
 namespace merge2d {
 

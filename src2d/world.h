@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "src2d/core/notes.h"
 #include "src2d/core/sweep_path.h"
 #include "src2d/scene/scene.h"
-#include "src2d/trace/notes.h"
 #include "src2d/trace/snapshot.h"
 
 namespace merge2d {

@@ -2,26 +2,9 @@
 /// How far two things can come towards each other in this step: contacts are looked for that far
 /// ahead, so that nothing passes through anything.
 
-#include "src2d/dynamics/state.h"
+#include "src2d/dynamics/free_motion.h"
 
 namespace merge2d {
-
-/// Velocity at the start of a step, with the impulses that the step is about to give.
-struct StartMotion {
-  Vec2 v = Vec2::Zero();  ///< of the centre of mass [m/s]
-  double omega = 0.0;     ///< [rad/s]
-};
-/// The kicks must have been ordered.
-StartMotion startMotion(const State& state, const Scratch& scratch, RigidId id);
-
-/// The same with gravity and forces: the motion through this step if nothing touches the body. The
-/// loads must have been ordered too.
-StartMotion freeMotion(const State& state, const Scratch& scratch, RigidId id);
-
-/// List the kicks and loads of the step by the rigid things that they act on now, so that the
-/// motion of one does not cost a look at all of them.
-void orderKicks(const State& state, Scratch& scratch);
-void orderLoads(const State& state, Scratch& scratch);
 
 /// How far things can come towards each other in a step by the motion with which it begins, without
 /// contacts and forces. The kicks must have been ordered.
@@ -55,9 +38,5 @@ class Approaches {
   double farthest_ = 0.0;
   std::vector<Motion>& motions_;  ///< per rigid thing that is there
 };
-
-/// How far the velocities of now carry any point in a step, at most: what advancePositions moves
-/// anything, unless it corrects positions too [m].
-double farthestMove(const State& state, const Scratch& scratch);
 
 }  // namespace merge2d

@@ -6,8 +6,8 @@
 #include <optional>
 #include <random>
 
+#include "src2d/core/disjoint_sets.h"
 #include "src2d/cycles/tolerance.h"
-#include "src2d/dynamics/islands.h"
 
 namespace merge2d {
 namespace {

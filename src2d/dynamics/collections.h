@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "src2d/core/events.h"
 #include "src2d/dynamics/contact_block.h"
 #include "src2d/dynamics/contact_table.h"
 #include "src2d/dynamics/joint.h"
 #include "src2d/dynamics/rigid.h"
-#include "src2d/trace/snapshot.h"
 
 namespace merge2d {
 

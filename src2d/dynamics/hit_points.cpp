@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "src2d/contact/cast.h"
+#include "src2d/dynamics/casts.h"
 #include "src2d/dynamics/hit_rows.h"
 
 namespace merge2d {

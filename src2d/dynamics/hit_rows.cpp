@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "src2d/contact/approach.h"
-#include "src2d/contact/cast.h"
+#include "src2d/dynamics/casts.h"
+#include "src2d/dynamics/free_motion.h"
 
 namespace merge2d {
 

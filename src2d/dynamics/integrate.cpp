@@ -1,8 +1,8 @@
 #include "src2d/dynamics/integrate.h"
 
 #include <algorithm>
+#include <limits>
 
-#include "src2d/contact/approach.h"
 #include "src2d/dynamics/stabilise.h"
 #include "src2d/dynamics/task_pool.h"
 #include "src2d/dynamics/turn_stop.h"
@@ -71,6 +71,36 @@ void followAnchors(State& state) {
     r.v = anchor.v;
     r.omega = anchor.omega;
   }
+}
+
+}  // namespace
+
+namespace {
+
+/// The speed of the fastest point of all that is awake, at most [m/s].
+double fastestPoint(const State& state) {
+  double fastest = 0.0;
+  for (const RigidId id : state.present) {
+    const Rigid& r = state[id];
+    if (r.asleep) continue;
+    const double turning = std::abs(r.omega) * farthestFrom(state.extent(r).bounds, r.center);
+    fastest = std::max(fastest, r.v.norm() + turning);
+  }
+  return fastest;
+}
+
+/// How far the velocities of now carry any point in a step, at most [m]; unknown where positions
+/// are corrected too.
+double farthestMove(const State& state, const Scratch& scratch) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  if (state.settings.solver.stabilisation == Stabilisation::Post) return kUnknown;
+  double farthest = state.h * fastestPoint(state);
+  for (const HitWay& hit : scratch.hit_ways) {
+    const Rigid& r = state[hit.id];
+    const double turning = std::abs(hit.turn) * farthestFrom(state.extent(r).bounds, r.center);
+    farthest = std::max(farthest, hit.way.norm() + turning);
+  }
+  return farthest;
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "src2d/contact/approach.h"
-#include "src2d/contact/cast.h"
 #include "src2d/core/memory.h"
+#include "src2d/dynamics/casts.h"
+#include "src2d/dynamics/free_motion.h"
 #include "src2d/dynamics/hit_rows.h"
 #include "src2d/dynamics/island_order.h"
 #include "src2d/dynamics/joint_rows.h"

@@ -7,12 +7,15 @@
 #include <vector>
 
 #include "src2d/core/assert.h"
+#include "src2d/core/disjoint_sets.h"
+#include "src2d/core/events.h"
+#include "src2d/core/notes.h"
+#include "src2d/core/springs.h"
+#include "src2d/core/stats.h"
 #include "src2d/core/sweep_path.h"
 #include "src2d/dynamics/collections.h"
-#include "src2d/dynamics/islands.h"
 #include "src2d/dynamics/joint_solver.h"
 #include "src2d/dynamics/wide_blocks.h"
-#include "src2d/trace/notes.h"
 
 namespace merge2d {
 

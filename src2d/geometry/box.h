@@ -49,6 +49,11 @@ inline Aabb placed(const Pose& pose, const Aabb& box) {
   return {center - extent, center + extent};
 }
 
+/// Distance of the farthest corner of a box from a point, at most [m].
+inline double farthestFrom(const Aabb& box, const Vec2& p) {
+  return (box.lower - p).cwiseAbs().cwiseMax((box.upper - p).cwiseAbs()).norm();
+}
+
 /// The tight axis-aligned box of a shape placed at `pose`.
 Aabb bounds(const ConvexShape& shape, const Pose& pose = {});
 

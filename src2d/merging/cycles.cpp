@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "src2d/core/disjoint_sets.h"
 #include "src2d/cycles/growth.h"
 #include "src2d/cycles/rigid.h"
 #include "src2d/cycles/tolerance.h"
 #include "src2d/cycles/triangle.h"
-#include "src2d/dynamics/islands.h"
 
 namespace merge2d {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/merge.h"
+#include "src2d/merging/pair_metric.h"
 
 namespace merge2d {
 namespace {

@@ -4,8 +4,7 @@
 #include <algorithm>
 
 #include "src2d/dynamics/solver.h"
-#include "src2d/merging/merge.h"
-#include "src2d/merging/metric.h"
+#include "src2d/merging/pair_metric.h"
 #include "src2d/merging/rule.h"
 
 namespace merge2d {

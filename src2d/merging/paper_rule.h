@@ -1,7 +1,7 @@
 #pragma once
 /// `rule = "paper"`: Sections 5 to 7 of the paper to the letter. Besides paper_rule.cpp,
-/// paper_unmerge.cpp and paper_sleep.cpp it uses only the parts that every rule shares;
-/// docs/decisions/cures.md says where it goes wrong in the plane.
+/// paper_unmerge.cpp, paper_parts.cpp and paper_sleep.cpp it uses only the parts that every rule
+/// shares; docs/decisions/cures.md says where it goes wrong in the plane.
 
 #include "src2d/merging/rule.h"
 
@@ -17,6 +17,9 @@ void sweepBreadthFirst(State& state, Scratch& scratch);
 /// Sections 6.3 and 6.4: cuts the welds with a contact that is broken or slides, and those that
 /// turn; splits each collection into the components of the welds that are left.
 void unmergeByContacts(State& state, Scratch& scratch);
+
+/// The connected components of the remaining welds that have an active contact or a joint.
+Parts connectedParts(const State& state, const Collection& c);
 
 /// Section 7: each body and each collection sleeps, and wakes, by itself.
 void sleepEachByItself(State& state, Scratch& scratch);

@@ -4,57 +4,16 @@
 /// Velocities are those against the collection's frame, in its directions.
 
 #include "src2d/dynamics/state.h"
+#include "src2d/merging/decided_settings.h"
 #include "src2d/merging/load_certificate.h"
 
 namespace merge2d {
-
-/// The numbers of the default rule, each with the experiment that chose it.
-struct DecidedSettings {
-  /// Bodies of a weld that gain velocity against each other faster than this part [m/s²]: a
-  /// two-thousandth of gravity. A see-saw that is 0.7 mm out of balance gains 0.008.
-  double cut_acceleration = 0.005;
-  /// The same in a step in which something hits: a slip that is slower ends within 2 µm [m/s].
-  double cut_in_hit = 5e-3;
-  /// A search has converged where the largest row residual is below this part of the cut speed [1].
-  double tolerance = 0.1;
-  /// A weld must also move by more than the residual at the box where it moves least: a long body
-  /// beside a short one makes much of the rotation that a residual leaves (ship-crane). While a
-  /// search goes on that has found no motion yet, some weld must move by this many residuals: with
-  /// 1 a wall on a swinging platform loses bricks [1].
-  double sure = 3.0;
-  /// Sweeps per step, and how many row sweeps: a search goes on in the next step. It begins with
-  /// few and doubles them from step to step, as many loads do not last: the collapsing
-  /// tower-platform then takes half as many.
-  double row_sweeps = 1e4, first_row_sweeps = 500.0;
-  int most_sweeps = 200, full_sweeps = 10;  ///< and at last as many, of however many rows
-  double when_open = 4.0;                   ///< times as many where a search has found motion
-  /// After so many steps of a search, a power of two, and after each twice as many, the direct
-  /// solver takes part, with the load of that step. With 64 a wall of 1,000 bricks on a swinging
-  /// platform costs more than its reference; with 8 `bench/tilts` falls a little later.
-  int direct_from = 16;
-  /// A carried load is followed by one this part further from the mean of the witnesses [1]: a wall
-  /// on a swinging platform then needs one search, not one per new extreme.
-  double overshoot = 0.5;
-  double least_overshoot = 0.01;  ///< and at least this part of the load beyond it [1]
-  /// Steps from a hit or an impulse on in which the collection is open.
-  int hit_steps = 3;
-  /// Steps after a hit in which it is looked at once in as many steps as a pair must be quiet for
-  /// before it merges: a heap into which bodies fall changes before a search could end. The filling
-  /// funnel and the collapsing tower-platform take three quarters of the time.
-  int shaken_steps = 100;
-};
-inline constexpr DecidedSettings kDecided;
 
 /// The speed at which bodies of a weld part [m/s].
 double cutSpeed(const State& state, const Collection& collection);
 
 /// Below this residual a search has converged [m/s].
 double toleratedResidual(const State& state);
-
-/// Something hits it in these steps.
-inline bool isHit(const State& state, const Collection& c) {
-  return state.step - c.last_blow < kDecided.hit_steps;
-}
 
 /// Whether its load is looked at in this step, as always but for a while after a hit.
 bool isLookedAt(const State& state, const Collection& collection);

@@ -5,8 +5,8 @@
 
 #include "src2d/dynamics/nncg.h"
 #include "src2d/dynamics/wide_blocks.h"
+#include "src2d/merging/decided_settings.h"
 #include "src2d/merging/joint_system.h"
-#include "src2d/merging/proof_search.h"
 
 namespace merge2d {
 namespace {

@@ -52,7 +52,7 @@ struct UnmergingMethod {
   void (*enter)(InternalContact& contact);
 };
 
-/// The tables that the settings name: the one place where a rule is chosen.
+/// The tables that the settings name: the one place where a rule is chosen (rule_selection.cpp).
 const MergingMethod& mergingMethod(const State& state);
 const UnmergingMethod& unmergingMethod(const State& state);
 

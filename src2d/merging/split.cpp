@@ -6,7 +6,7 @@
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/proof_search.h"
+#include "src2d/merging/decided_settings.h"
 #include "src2d/merging/rule.h"
 
 namespace merge2d {

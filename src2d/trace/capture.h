@@ -3,6 +3,7 @@
 
 #include "src2d/dynamics/forces.h"
 #include "src2d/dynamics/state.h"
+#include "src2d/trace/snapshot.h"
 
 namespace merge2d {
 

@@ -2,14 +2,6 @@
 
 namespace merge2d {
 
-const char* name(Stage stage) {
-  static constexpr const char* kNames[kStages] = {
-      "ContactDetection",         "ContactOrdering",  "SleepAndWake", "WarmStart",
-      "SingleIterationPGS",       "Unmerge",          "SolveLCP",     "AdvanceVelocities",
-      "AccumulateRelativeMotion", "AdvancePositions", "Merge"};
-  return kNames[static_cast<std::size_t>(stage)];
-}
-
 const char* name(EventType type) {
   static constexpr const char* kNames[] = {"merge",  "unmerge", "sleep", "wake",
                                            "impact", "emit",    "break"};

@@ -3,13 +3,15 @@
 /// the trace, the pictures, the summaries and the lessons. A snapshot owns its numbers, so that it
 /// can be drawn while the world goes on.
 
-#include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "src2d/core/decisions.h"
+#include "src2d/core/events.h"
 #include "src2d/core/ids.h"
+#include "src2d/core/springs.h"
+#include "src2d/core/stats.h"
 #include "src2d/geometry/box.h"
 #include "src2d/geometry/shape.h"
 #include "src2d/scene/scene.h"
@@ -73,15 +75,6 @@ struct CollectionView {
   bool asleep = false;
 };
 
-struct SpringView {
-  std::uint32_t number = 0;  ///< as the world counts them
-  BodyId body{}, other{};
-  bool to_world = true;      ///< there is no `other`
-  Vec2 from = Vec2::Zero();  ///< world point on the body
-  Vec2 to = Vec2::Zero();    ///< world point of the other end
-  double force = 0.0;        ///< pulling positive [N]
-};
-
 struct JointView {
   JointKind kind = JointKind::Revolute;
   BodyId a{}, b{};
@@ -100,84 +93,6 @@ struct WeldView {
   int contacts = 0;
 };
 
-enum class EventType { Merge, Unmerge, Sleep, Wake, Impact, Emit, Break };
-enum class EventReason : std::uint8_t { None, Broken, Sliding, RelativeMotion, User };
-inline constexpr std::array kEventReasons = {EventReason::None, EventReason::Broken,
-                                             EventReason::Sliding, EventReason::RelativeMotion,
-                                             EventReason::User};
-
-/// What happened. A `Merge` is a join: of two things one was made, so that n bodies need n − 1 of
-/// them, however many contacts hold them together afterwards. An `Unmerge` is the end of one weld,
-/// with its reason: a body that leaves two neighbours gives two of them. An `Impact` is a pair that
-/// meets faster than gravity could have made it in two steps. A `Break` is the end of a joint that
-/// bore too much.
-struct Event {
-  EventType type = EventType::Merge;
-  BodyId a{}, b{};  ///< the pair; equal where one body is meant
-  CollectionId collection = kNoCollection;
-  EventReason reason = EventReason::None;
-};
-
-/// The source of a criterion that is not the paper's: a page, and its section.
-inline constexpr std::string_view kOwnMerging = "docs/decisions/cures.md#when-to-merge",
-                                  kOwnSleeping = "docs/decisions/cures.md#when-to-sleep",
-                                  kOwnDecided = "docs/decisions/decided.md#decision";
-
-/// One test of one criterion about a pair: the number, the threshold, and what followed. The words
-/// for it are in docs/records.md.
-struct Decision {
-  BodyId a{}, b{};           ///< the pair; in SleepAndWake both are the first body of what sleeps
-  std::string_view stage{};  ///< as in Algorithm 1: "Merge", "Unmerge", …
-  std::string_view criterion{};  ///< "relative-motion", "sliding", "breathing", …
-  std::string_view equation{};   ///< "(17)", "Section 5.1", or kOwnMerging and its like
-  double value = 0.0;
-  double threshold = 0.0;
-  int count = 0;  ///< consecutive steps, this one included; 0: starts anew
-  int needed = 0;
-  std::string_view verdict{};  ///< "merge", "wait", "apart", "keep", "unmerge", …
-  int before = 0;              ///< the count up to the last step
-  Vec2 at = Vec2::Zero();      ///< of tests of one contact: where it is, in the world [m]
-  /// Of "cycle": the first body of the group that holds the pair; −1: none.
-  std::int32_t group = -1;
-  std::int32_t members = -1;  ///< all its bodies: an index of Snapshot::groups
-};
-
-/// The bodies of a rigid group: first those whose contacts make it one, ascending, then those that
-/// are welded to them already, ascending.
-using Group = std::vector<BodyId>;
-
-/// The eleven stages of Algorithm 1, in order.
-enum class Stage {
-  ContactDetection,
-  ContactOrdering,
-  SleepAndWake,
-  WarmStart,
-  SingleIterationPGS,
-  Unmerge,
-  SolveLCP,
-  AdvanceVelocities,
-  AccumulateRelativeMotion,
-  AdvancePositions,
-  Merge,
-};
-inline constexpr std::size_t kStages = 11;
-
-struct Stats {
-  int bodies = 0;         ///< alive, dynamic
-  int active_bodies = 0;  ///< |B|: free bodies and collections that are simulated, awake
-  int collections = 0;
-  int asleep = 0;                         ///< bodies asleep
-  int contacts = 0;                       ///< contact points in the full solve
-  int internal_contacts = 0;              ///< contact points swept once inside collections
-  double residual = 0.0;                  ///< of the full solve after its last sweep: |Δλ| / |λ|
-  double max_penetration = 0.0;           ///< [m]
-  double kinetic_energy = 0.0;            ///< [J]
-  double potential_energy = 0.0;          ///< of gravity about y = 0 and of springs [J]
-  Vec2 momentum = Vec2::Zero();           ///< [N s]
-  double angular_momentum = 0.0;          ///< about the world's origin [N m s]
-  std::array<double, kStages> seconds{};  ///< wall time per stage
-};
-
 struct Snapshot {
   std::int64_t step = 0;          ///< 0: before the first step
   double time = 0.0;              ///< [s]
@@ -193,7 +108,6 @@ struct Snapshot {
   Stats stats;
 };
 
-const char* name(Stage stage);
 const char* name(EventType type);
 const char* name(EventReason reason);
 const char* name(ContactState state);

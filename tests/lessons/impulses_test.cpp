@@ -9,7 +9,7 @@
 
 #include "lessons/encode.h"
 #include "lessons/recording.h"
-#include "src2d/trace/recorder.h"
+#include "src2d/recorder.h"
 #include "tests/support/scenes.h"
 
 namespace merge2d {

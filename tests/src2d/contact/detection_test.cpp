@@ -8,8 +8,8 @@
 #include <random>
 #include <set>
 
-#include "src2d/dynamics/setup.h"
 #include "src2d/merging/collection.h"
+#include "src2d/setup.h"
 #include "tests/support/scenes.h"
 
 namespace merge2d {

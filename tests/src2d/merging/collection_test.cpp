@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src2d/dynamics/setup.h"
+#include "src2d/setup.h"
 #include "tests/src2d/merging/merging_testing.h"
 
 namespace merge2d {

@@ -7,14 +7,15 @@
 #include "src2d/begin_step.h"
 #include "src2d/contact/detection.h"
 #include "src2d/dynamics/integrate.h"
-#include "src2d/dynamics/setup.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/merge.h"
+#include "src2d/merging/relative_motion.h"
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/unmerge.h"
 #include "src2d/merging/warm_start.h"
+#include "src2d/setup.h"
 #include "tests/src2d/merging/merging_testing.h"
 
 namespace merge2d {

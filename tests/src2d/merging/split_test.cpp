@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "src2d/dynamics/setup.h"
 #include "src2d/merging/collection.h"
+#include "src2d/setup.h"
 #include "tests/src2d/merging/merging_testing.h"
 #include "tests/support/random.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src2d/trace/recorder.h"
+#include "src2d/recorder.h"
 #include "tests/src2d/merging/merging_testing.h"
 
 namespace merge2d {

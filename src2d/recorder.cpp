@@ -1,4 +1,4 @@
-#include "src2d/trace/recorder.h"
+#include "src2d/recorder.h"
 
 #include "src2d/dynamics/state.h"
 #include "src2d/trace/capture.h"

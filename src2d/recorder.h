@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src2d/trace/notes.h"
+#include "src2d/core/notes.h"
 #include "src2d/world.h"
 
 namespace merge2d {

@@ -1,4 +1,4 @@
-#include "src2d/dynamics/setup.h"
+#include "src2d/setup.h"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,8 @@
-#include "src2d/merging/rule.h"
+/// The tables that the settings name. Apart from rule.h, which the rules include.
 
 #include "src2d/merging/default_rule.h"
 #include "src2d/merging/paper_rule.h"
+#include "src2d/merging/rule.h"
 
 namespace merge2d {
 

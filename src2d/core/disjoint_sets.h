@@ -1,5 +1,5 @@
 #pragma once
-/// Islands: rigid things that touch, directly or through others, but not through what is fixed.
+/// Disjoint sets of numbers: islands of things that touch, groups of bodies that hold together.
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,7 @@
 
 namespace merge2d {
 
-/// Disjoint sets of the numbers 0 … n−1; a set is named by its smallest member.
+/// Sets of the numbers 0 … n−1; a set is named by its smallest member.
 class DisjointSets {
  public:
   /// Takes time linear in the number of unions since the last one; that in n is negligible.

@@ -5,7 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "src2d/trace/snapshot.h"
+#include "src2d/core/decisions.h"
+#include "src2d/core/ids.h"
+#include "src2d/core/vec.h"
 
 namespace merge2d {
 

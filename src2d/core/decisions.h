@@ -1,0 +1,41 @@
+#pragma once
+/// The tests of a step, as plain data: each number with its threshold and its verdict.
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "src2d/core/ids.h"
+#include "src2d/core/vec.h"
+
+namespace merge2d {
+
+/// The source of a criterion that is not the paper's: a page, and its section.
+inline constexpr std::string_view kOwnMerging = "docs/decisions/cures.md#when-to-merge",
+                                  kOwnSleeping = "docs/decisions/cures.md#when-to-sleep",
+                                  kOwnDecided = "docs/decisions/decided.md#decision";
+
+/// One test of one criterion about a pair: the number, the threshold, and what followed. The words
+/// for it are in docs/records.md.
+struct Decision {
+  BodyId a{}, b{};           ///< the pair; in SleepAndWake both are the first body of what sleeps
+  std::string_view stage{};  ///< as in Algorithm 1: "Merge", "Unmerge", …
+  std::string_view criterion{};  ///< "relative-motion", "sliding", "breathing", …
+  std::string_view equation{};   ///< "(17)", "Section 5.1", or kOwnMerging and its like
+  double value = 0.0;
+  double threshold = 0.0;
+  int count = 0;  ///< consecutive steps, this one included; 0: starts anew
+  int needed = 0;
+  std::string_view verdict{};  ///< "merge", "wait", "apart", "keep", "unmerge", …
+  int before = 0;              ///< the count up to the last step
+  Vec2 at = Vec2::Zero();      ///< of tests of one contact: where it is, in the world [m]
+  /// Of "cycle": the first body of the group that holds the pair; −1: none.
+  std::int32_t group = -1;
+  std::int32_t members = -1;  ///< all its bodies: an index of Snapshot::groups
+};
+
+/// The bodies of a rigid group: first those whose contacts make it one, ascending, then those that
+/// are welded to them already, ascending.
+using Group = std::vector<BodyId>;
+
+}  // namespace merge2d
