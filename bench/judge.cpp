@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "src2d/merging/cycles.h"
+#include "src2d/cycles/held_groups.h"
 #include "src2d/merging/metric.h"
 #include "src2d/world.h"
 

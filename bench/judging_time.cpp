@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "src2d/merging/cycles.h"
+#include "src2d/cycles/held_groups.h"
 #include "src2d/merging/ready_pairs.h"
 
 namespace merge2d {

@@ -234,7 +234,7 @@ class StateCheck {
     for (const ContactBlock& block : c.blocks) {
       require(block.a < n_ && block.b < n_ && block.count >= 0 && block.count <= 2, "blocks");
     }
-    require(c.active_blocks <= c.blocks.size(), "blocks");
+    require(c.active_blocks <= c.contacts.size(), "blocks");
     for (const JointBlock& joint : c.joints) {
       require(joint.a <= n_ && joint.b <= n_ && joint.joint < state_.joints.size(), "inner joints");
       require(joint.coupled >= 0 && joint.coupled <= 3, "inner joints");
@@ -243,14 +243,17 @@ class StateCheck {
 
   /// Lists that a layout has put in order.
   void checkLayout(const Collection& c) const {
+    const bool isAway = areBlocksAway(c);
     require(std::is_sorted(c.members.begin(), c.members.end()), "members");
     for (std::size_t i = 0; i < c.contacts.size(); ++i) {
       require(i == 0 || c.contacts[i - 1].key < c.contacts[i].key, "inner contacts");
       require(c.contacts[i].weld < c.welds.size(), "inner contacts");
-      require(c.contacts[i].block < c.blocks.size(), "inner contacts");
+      require(isAway || c.contacts[i].block < c.blocks.size(), "inner contacts");
     }
-    require(c.points >= 0 && static_cast<std::size_t>(c.points) <= 2 * c.blocks.size(), "blocks");
-    require(c.block_contact.empty() || c.block_contact.size() == c.blocks.size(), "blocks");
+    require(c.points >= 0 && static_cast<std::size_t>(c.points) <= 2 * c.contacts.size(), "blocks");
+    require(isAway || c.block_contact.empty() || c.block_contact.size() == c.blocks.size(),
+            "blocks");
+    require(!isAway || c.block_contact.size() == c.contacts.size(), "blocks");
     for (const std::uint32_t i : c.block_contact) require(i < c.contacts.size(), "blocks");
     require(c.push.empty() || c.push.size() == c.members.size(), "inner forces");
     const std::size_t nodes = c.members.size() + 1;  // the last is the frame
@@ -282,7 +285,8 @@ class StateCheck {
       require(proof.heaviest == ~0u || proof.heaviest < c.members.size(), "proofs");
       for (const Witness& witness : proof.witnesses) {
         require(witness.outer.size() == proof.columns.size(), "proofs");
-        require(witness.lambda.size() == c.blocks.size() + c.joints.size(), "proofs");
+        const std::size_t blocks = areBlocksAway(c) ? c.block_contact.size() : c.blocks.size();
+        require(witness.lambda.size() == blocks + c.joints.size(), "proofs");
       }
       const std::size_t products =
           witnesses == 0 ? 0 : LoadCertificate::kMost * (witnesses - 1) + witnesses;

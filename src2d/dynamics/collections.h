@@ -57,6 +57,14 @@ struct InternalContact {
   InternalPoint& point(int i) { return points[static_cast<std::size_t>(i)]; }
   const InternalPoint& point(int i) const { return points[static_cast<std::size_t>(i)]; }
 
+  /// While it has no block; a rolling moment stands in the place of the second point's tangent.
+  void setImpulses(const Impulses& lambda) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      points[i].lambda_n = lambda[i];
+      points[i].lambda_t = lambda[i + 2];
+    }
+  }
+
   /// As a contact of the table.
   Contact released() const {
     Contact contact;
@@ -120,6 +128,8 @@ struct ProofSearch {
   bool ahead = false;      ///< beyond the loads that there were: nothing depends on it
 };
 
+inline constexpr std::int64_t kNever = -1000;  ///< a step long before the first
+
 /// Proofs that a collection holds (merging/load_certificate.h).
 struct LoadCertificate {
   static constexpr std::size_t kMost = 8;  ///< witnesses
@@ -131,13 +141,12 @@ struct LoadCertificate {
   Weights weights{};         ///< of the load that was carried last
   /// Of a floating collection: the member whose rows follow from those of the others.
   std::uint32_t heaviest = ~0u;
-  bool lambda_stale = false;  ///< blocks and joints hold other impulses than the weights say
-  bool in_doubt = true;       ///< a proof must be sought for any load
-  std::int64_t since = 0;     ///< step in which the collection was laid out
+  bool lambda_stale = false;         ///< blocks and joints hold other impulses than the weights say
+  bool in_doubt = true;              ///< a proof must be sought for any load
+  std::int64_t since = 0;            ///< step in which the collection was laid out
+  std::int64_t last_doubt = kNever;  ///< step in which its blocks were needed last
   ProofSearch search;
 };
-
-inline constexpr std::int64_t kNever = -1000;  ///< a step long before the first
 
 /// Bodies simulated as one (Section 4).
 struct Collection {
@@ -146,7 +155,9 @@ struct Collection {
   BodyId anchor{};              ///< when its rigid is not floating: a body of that frame
   std::vector<BodyId> members;  ///< ascending; pinned and scripted bodies are never members
   std::vector<InternalContact> contacts;  ///< ascending by key
-  std::vector<ContactBlock> blocks;       ///< one per contact, in the order of a sweep
+  /// One per contact, in the order of a sweep; none while nothing is sought inside
+  /// (merging/collection.h).
+  std::vector<ContactBlock> blocks;
   /// Which contact a block is; empty when contacts have left since.
   std::vector<std::uint32_t> block_contact;
   std::uint32_t active_blocks = 0;  ///< the first ones; the others carried nothing at the merge
@@ -160,6 +171,11 @@ struct Collection {
   std::int64_t last_blow = kNever;  ///< step in which something hit it last
   std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
 };
+
+/// Its blocks were put away (merging/collection.h).
+inline bool areBlocksAway(const Collection& c) {
+  return c.blocks.empty() && !c.block_contact.empty();
+}
 
 /// A pair of bodies that is ready to merge, as an edge between two nodes: rigid things, or frames.
 struct ReadyPair {

@@ -259,7 +259,6 @@ struct Scratch {
   std::vector<SweepContact> sweep_contacts;
   std::vector<JointBlock> sweep_joints;       ///< outside collections
   std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
-  std::vector<std::uint8_t> push_stale;       ///< per collection slot: swept since it was found
 
   // Unmerge
   std::vector<SolverVelocity> trial_u;           ///< per body

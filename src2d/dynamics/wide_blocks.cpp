@@ -167,7 +167,8 @@ void WideBlocks::packGroups(std::span<const ContactBlock> blocks,
                     chosen.end());
       return;
     }
-    WideBlock& w = wide_.emplace_back();
+    appendTightly(wide_);
+    WideBlock& w = wide_.back();
     for (std::size_t lane = 0; lane < 4; ++lane) {
       const bool used = first + lane < last;
       const ContactBlock& k = used ? blocks[chosen[first + lane]] : none;

@@ -49,6 +49,12 @@ std::vector<RigidId> splitCollection(State& state, RigidId id,
 /// Takes a contact's impulses out of its block, which no longer fits.
 void dropBlock(const Collection& collection, InternalContact& contact);
 
+/// Gives back the memory of blocks inside which nothing is sought for now; the impulses stay with
+/// the contacts. Guarded by Layout.BlocksThatWerePutAwayComeBackAsTheyWere.
+void putBlocksAway(Collection& collection);
+/// Makes them anew, in their order.
+void bringBlocksBack(const State& state, Collection& collection);
+
 /// A new, empty collection that has neither place nor members yet.
 RigidId newCollection(State& state);
 /// Gives the slot back; its rigid thing must have left the broadphase.

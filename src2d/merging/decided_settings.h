@@ -33,12 +33,26 @@ struct DecidedSettings {
   /// on a swinging platform then needs one search, not one per new extreme.
   double overshoot = 0.5;
   double least_overshoot = 0.01;  ///< and at least this part of the load beyond it [1]
+  /// A collection that was laid out fewer steps ago looks no further: most of a heap that still
+  /// forms are laid out anew before that.
+  int lasting_steps = 10;
+  /// A load is covered where the witnesses leave this part of the frame's motion over, and this
+  /// part of the forces from outside [1]; a cut needs five hundred times as much. Forces from
+  /// outside weigh less, as they act on one member each [1].
+  double left_of_frame = 0.9e-3, left_of_outer = 3e-2, outer_weight = 0.05;
+  double left_of_rest = 2e-6;  ///< and where so little is left over of any load [m/s]
   /// Steps from a hit or an impulse on in which the collection is open.
   int hit_steps = 3;
   /// Steps after a hit in which it is looked at once in as many steps as a pair must be quiet for
   /// before it merges: a heap into which bodies fall changes before a search could end. The filling
   /// funnel and the collapsing tower-platform take three quarters of the time.
   int shaken_steps = 100;
+  /// A pair whose weld broke sooner after it had formed waits for the rest of these steps before it
+  /// may merge again, or it would merge and part in turn while it barely moves. One that moved
+  /// slowly waits as long as it would still seem at rest, at most so many steps.
+  int flicker_steps = 20, longest_wait = 200;
+  /// Steps for which the memory of rows is kept that nothing asks for: loads come again.
+  int kept_steps = 100;
 };
 inline constexpr DecidedSettings kDecided;
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "src2d/dynamics/contact_limits.h"
 #include "src2d/merging/cuts.h"
 #include "src2d/merging/joint_welds.h"
-#include "src2d/merging/limits.h"
 #include "src2d/merging/load_certificate.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/open_solve.h"
@@ -143,10 +143,10 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofS
 /// Keeps a proof, and looks whether a load beyond it is carried too: one that swings then finds its
 /// proof before it gets there.
 void prove(const State& state, Collection& c, Witness&& witness) {
-  constexpr int kLasting = 10;  // steps
   LoadCertificate& proof = c.certificate.front();
   proof.in_doubt = false;
-  const bool goes_on = !proof.witnesses.empty() && state.step - proof.since >= kLasting;
+  const bool goes_on =
+      !proof.witnesses.empty() && state.step - proof.since >= kDecided.lasting_steps;
   Witness load = goes_on ? witness : Witness();
   remember(c, std::move(witness));
   if (!goes_on) return;

@@ -53,12 +53,12 @@ Parts uncutParts(const State&, Scratch&, const Collection& c) { return component
 /// as long as it would still seem at rest. Guarded by
 /// Seesaw.BarelyOutOfBalanceTipsAsInTheReference.
 int waitUntilSeen(const State& state, const InternalContact& contact, const Weld* cut) {
-  constexpr std::int64_t kFlicker = 20;  // steps
-  constexpr double kMost = 200.0;        // steps
-  const auto rest = std::max(std::int64_t{0}, kFlicker - (state.step - contact.since));
+  const auto age = state.step - contact.since;
+  const auto rest = std::max(std::int64_t{0}, kDecided.flicker_steps - age);
   if (!cut || cut->motion <= 0.0F) return static_cast<int>(rest);
   const double seen = state.settings.merging.velocity / static_cast<double>(cut->motion);
-  return std::max(static_cast<int>(rest), static_cast<int>(std::min(kMost, seen)));
+  return std::max(static_cast<int>(rest),
+                  static_cast<int>(std::min<double>(kDecided.longest_wait, seen)));
 }
 
 }  // namespace

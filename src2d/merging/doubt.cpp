@@ -67,9 +67,16 @@ Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
     return searches ? Doubt::Search : Doubt::None;
   }
   if (searches && !proof.in_doubt && leadsTo(state, c, load)) return Doubt::Search;
+  bringBlocksBack(state, c);
   writeImpulses(c);
   beginSearch(state, c, load);
   return Doubt::Search;
+}
+
+/// Nothing has been sought inside for so long that its blocks are put away in this step.
+bool isLongQuiet(const State& state, const Collection& c) {
+  const LoadCertificate& proof = c.certificate.front();
+  return state.step - std::max(proof.last_doubt, proof.since) == kDecided.kept_steps;
 }
 
 /// A hit passes through all collections that touch each other.
@@ -135,14 +142,17 @@ void findDoubts(State& state, Scratch& scratch) {
     Doubt& doubt = scratch.doubts[slot];
     if (doubt == Doubt::None) doubt = findDoubt(state, scratch, c);
     any |= doubt != Doubt::None;
+    if (doubt == Doubt::None && isLongQuiet(state, c)) putBlocksAway(c);
   }
   scratch.sweeping = any;
   if (!any) return;
   spreadDoubts(state, scratch);
   for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
-    if (scratch.doubts[slot] != Doubt::None && isSwept(state, state.collections[slot])) {
-      writeImpulses(state.collections[slot]);
-    }
+    Collection& c = state.collections[slot];
+    if (scratch.doubts[slot] == Doubt::None || !isSwept(state, c)) continue;
+    bringBlocksBack(state, c);
+    writeImpulses(c);
+    c.certificate.front().last_doubt = state.step;
   }
 }
 

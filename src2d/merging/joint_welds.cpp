@@ -115,16 +115,6 @@ void record(const Scratch& scratch, const Joint& joint, std::string_view criteri
 
 }  // namespace
 
-Vec2 jointPoint(const State& state, const Collection& c, const Weld& weld) {
-  const Joint* at = nullptr;  // a point that is shared, if there is any
-  for (const JointBlock& k : c.joints) {
-    const Joint& joint = state.joints[k.joint];
-    if (joint.to_world || pairOf(joint) != pairOf(weld) || freedomsInside(state, k) == 0) continue;
-    if (!at || (joint.kind == JointKind::Revolute && at->kind != JointKind::Revolute)) at = &joint;
-  }
-  return state[c.rigid].frame().inverse() * (at ? endOf(state, *at) : Vec2(Vec2::Zero()));
-}
-
 void addJointWelds(const State& state, Collection& c) {
   for (const JointBlock& k : c.joints) {
     const Joint& joint = state.joints[k.joint];

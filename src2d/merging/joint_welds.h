@@ -6,17 +6,14 @@
 
 #include <span>
 
+#include "src2d/cycles/held_groups.h"
 #include "src2d/dynamics/state.h"
-#include "src2d/merging/cycles.h"
 
 namespace merge2d {
 
 /// Adds a weld for each pair of bodies that has joints inside the collection, with the contacts
 /// that these count as just now. Welds stay ascending.
 void addJointWelds(const State& state, Collection& collection);
-
-/// Where the joints of a weld hold, in the collection's frame.
-Vec2 jointPoint(const State& state, const Collection& collection, const Weld& weld);
 
 /// After a sweep with the velocities `u`: counts the joints of each weld anew. A limit lets go, and
 /// a brake yields, once the velocities that the sweep finds there sum up to `unmerging.sliding`.

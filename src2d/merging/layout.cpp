@@ -223,6 +223,20 @@ void layOutBlocks(const State& state, Collection& c) {
 
 }  // namespace
 
+void putBlocksAway(Collection& c) {
+  for (InternalContact& inner : c.contacts) dropBlock(c, inner);
+  std::vector<ContactBlock>().swap(c.blocks);
+}
+
+void bringBlocksBack(const State& state, Collection& c) {
+  if (!areBlocksAway(c)) return;
+  c.blocks.reserve(c.block_contact.size());
+  for (const std::uint32_t contact : c.block_contact) {
+    c.contacts[contact].block = static_cast<std::uint32_t>(c.blocks.size());
+    c.blocks.push_back(makeBlock(state, c, c.contacts[contact]));
+  }
+}
+
 // The push is the start of the next sweep, so that no pass over the rows is needed for a warm
 // start.
 void layOutPush(const State& state, Collection& c) {

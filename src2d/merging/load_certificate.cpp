@@ -4,13 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "src2d/core/small_cholesky.h"
-#include "src2d/merging/nonnegative_fit.h"
+#include "src2d/core/nonnegative_fit.h"
+#include "src2d/merging/decided_settings.h"
 
 namespace merge2d {
 namespace {
 
-constexpr double kOuterWeight = 0.05;  ///< of a velocity from outside, beside those of the frame
+/// Of a velocity from outside, beside those of the frame.
+constexpr double kOuterWeight = kDecided.outer_weight;
 
 double dot(const Twist& x, const Twist& y) { return x.vx * y.vx + x.vy * y.vy + x.omega * y.omega; }
 double dot(const FrameLoad& x, const FrameLoad& y) {
@@ -72,8 +73,6 @@ Projection project(std::span<const double> gram, const LoadCertificate::Weights&
 }  // namespace
 
 bool covers(const State& state, Collection& c, const CollectionLoad& load) {
-  constexpr double kFrame = 0.9e-3, kOuter = 3e-2;  // of the load that may be left over
-  constexpr double kLeast = 2e-6;                   // [m/s]
   LoadCertificate& proof = c.certificate.front();
   const std::size_t n = proof.witnesses.size();
   if (n == 0) return false;
@@ -81,7 +80,8 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
   for (std::size_t i = 0; i < n; ++i) b[i] = product(state, c, load, proof.witnesses[i]);
   const double outer = kOuterWeight * load.outer_norm;
   const Projection p = project(proof.gram, b, n, square(load));
-  const double most = std::max(kLeast, kFrame * load.norm + kOuter * outer);
+  const double most = std::max(kDecided.left_of_rest,
+                               kDecided.left_of_frame * load.norm + kDecided.left_of_outer * outer);
   if (!(p.left <= most * most)) return false;  // nor where they are no numbers
   proof.lambda_stale |= p.weights != proof.weights;
   proof.weights = p.weights;
@@ -251,7 +251,7 @@ Witness asWitness(const State& state, Collection& c, const CollectionLoad& load)
 
 namespace {
 
-/// x + s (x − y) of the loads of two witnesses.
+/// x + s (x − y) of the loads of two witnesses, with the impulses of x.
 Witness extrapolated(const Witness& x, const Witness& y, double s) {
   const auto of = [&](double a, double b) { return a + s * (a - b); };
   Witness next = x;
@@ -263,8 +263,10 @@ Witness extrapolated(const Witness& x, const Witness& y, double s) {
   return next;
 }
 
+/// Without impulses.
 Witness meanOf(const LoadCertificate& proof) {
-  Witness mean = proof.witnesses.front();
+  const Witness& first = proof.witnesses.front();
+  Witness mean{first.frame, first.outer, {}};
   for (std::size_t n = 1; n < proof.witnesses.size(); ++n) {
     mean = extrapolated(mean, proof.witnesses[n], -1.0 / static_cast<double>(n + 1));
   }
@@ -299,18 +301,22 @@ void writeImpulses(Collection& c) {
   LoadCertificate& proof = c.certificate.front();
   if (!proof.lambda_stale || proof.witnesses.empty()) return;
   proof.lambda_stale = false;
-  const auto combine = [&](std::size_t at, Impulses& lambda) {
-    lambda = {};
+  const auto combined = [&](std::size_t at) {
+    Impulses lambda{};
     for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
       const double w = proof.weights[i];
       if (w == 0.0) continue;
       const Impulses& of = proof.witnesses[i].lambda[at];
       for (std::size_t r = 0; r < lambda.size(); ++r) lambda[r] += w * of[r];
     }
+    return lambda;
   };
   std::size_t at = 0;
-  for (ContactBlock& k : c.blocks) combine(at++, k.lambda);
-  for (JointBlock& k : c.joints) combine(at++, k.lambda);
+  if (areBlocksAway(c)) {
+    for (const std::uint32_t i : c.block_contact) c.contacts[i].setImpulses(combined(at++));
+  }
+  for (ContactBlock& k : c.blocks) k.lambda = combined(at++);
+  for (JointBlock& k : c.joints) k.lambda = combined(at++);
 }
 
 }  // namespace merge2d

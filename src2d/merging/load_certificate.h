@@ -41,7 +41,7 @@ void predictImpulses(const Collection& c, Witness& load);
 /// Keeps a witness; today's load is taken to be its.
 void remember(Collection& c, Witness&& witness);
 
-/// Writes the impulses that belong to the weights into blocks and joints.
+/// Writes the impulses that belong to the weights into blocks, or contacts without one, and joints.
 void writeImpulses(Collection& c);
 
 }  // namespace merge2d

@@ -7,12 +7,12 @@
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
+#include "src2d/cycles/held_groups.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/cycles.h"
+#include "src2d/merging/decided_settings.h"
 #include "src2d/merging/group_notes.h"
 #include "src2d/merging/ready_pairs.h"
 #include "src2d/merging/rule.h"
-#include "src2d/merging/sweep.h"
 
 namespace merge2d {
 namespace {
@@ -88,10 +88,10 @@ bool weld(State& state, Floors& floors, const BodyPair& pair) {
   return true;
 }
 
-/// Brings pushes and layouts up to date, from which the next sweep starts.
+/// Brings layouts up to date, from which the next step starts.
 void finishCollections(State& state, Scratch& scratch) {
-  renewPushes(state, scratch);
   layOutCollections(state);
+  releaseOpenRows(state, scratch, kDecided.kept_steps);
 }
 
 }  // namespace
@@ -133,6 +133,17 @@ void releaseRows(State& state, Scratch& scratch) {
        scratch.candidates, scratch.near_candidates, scratch.nncg.before, scratch.nncg.direction,
        scratch.nncg.u_before, scratch.nncg.u_direction, scratch.pairs, scratch.ready, scratch.u,
        scratch.island_bodies, scratch.moved, state.broadphase.near);
+}
+
+void releaseOpenRows(State& state, Scratch& scratch, int kept) {
+  if (scratch.sweep_u.empty() || state.step - scratch.last_sweep <= kept) return;
+  releaseRows(state, scratch);
+  const auto release = [](auto& v) { std::remove_reference_t<decltype(v)>().swap(v); };
+  release(scratch.sweep_u);
+  release(scratch.open_start);
+  release(scratch.open_members);
+  release(scratch.outer_loads);
+  if (!scratch.sweeping) release(scratch.trial_u);
 }
 
 }  // namespace merge2d

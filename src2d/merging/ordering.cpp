@@ -6,7 +6,6 @@ namespace merge2d {
 
 std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const GraphEdge> edges,
                                         std::span<const std::uint32_t> seeds,
-                                        std::span<const std::uint8_t> passable,
                                         std::vector<std::uint32_t>* depth) {
   // Edges at each node, in the order given.
   std::vector<std::uint32_t> first(nodes + 1, 0);
@@ -25,7 +24,7 @@ std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const Gra
   std::vector<std::uint32_t> queue, order;
   order.reserve(edges.size());
   const auto reach = [&](std::uint32_t node, std::uint32_t distance) {
-    if (reached[node] || !passable[node]) return;
+    if (reached[node]) return;
     reached[node] = distance + 1;
     queue.push_back(node);
   };
@@ -49,15 +48,14 @@ std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const Gra
   return order;
 }
 
-std::vector<SweepItem> orderedFromSeeds(const std::vector<SweepItem>& items, const Scratch& scratch,
-                                        std::span<const std::uint8_t> passable) {
+std::vector<SweepItem> orderedFromSeeds(const std::vector<SweepItem>& items,
+                                        const Scratch& scratch) {
   std::vector<GraphEdge> edges;
   edges.reserve(items.size());
   for (const SweepItem& item : items) edges.push_back({item.a(), item.b()});
   std::vector<std::uint32_t> depth;
-  const auto order = breadthFirst(static_cast<std::uint32_t>(passable.size()), edges, scratch.seeds,
-                                  passable, scratch.notes ? &depth : nullptr);
-  const auto world = static_cast<std::uint32_t>(scratch.sweep_u.size() - 1);
+  const auto nodes = static_cast<std::uint32_t>(scratch.sweep_u.size()), world = nodes - 1;
+  const auto order = breadthFirst(nodes, edges, scratch.seeds, scratch.notes ? &depth : nullptr);
   std::vector<SweepItem> ordered;
   ordered.reserve(order.size());
   for (const std::uint32_t i : order) {

@@ -10,22 +10,21 @@
 
 namespace merge2d {
 
-/// An edge of the contact graph; a body that does not respond to forces is never walked through.
+/// An edge of the contact graph.
 struct GraphEdge {
   std::uint32_t a = 0, b = 0;
 };
 
 /// The edges in breadth-first order from the seed nodes: first those at a seed, in the order given,
-/// then those at the nodes reached by these, and so on; the rest in the order given. `passable[n]`:
-/// the walk goes on at node n. Each index of `edges` appears once. `depth`, when given, gets per
-/// edge how many edges it is away from the nearest seed: 1 at a seed, 0 where the walk does not go.
+/// then those at the nodes reached by these, and so on; the rest in the order given. Each index of
+/// `edges` appears once. `depth`, when given, gets per edge how many edges it is away from the
+/// nearest seed: 1 at a seed, 0 where the walk does not go.
 std::vector<std::uint32_t> breadthFirst(std::uint32_t nodes, std::span<const GraphEdge> edges,
                                         std::span<const std::uint32_t> seeds,
-                                        std::span<const std::uint8_t> passable,
                                         std::vector<std::uint32_t>* depth = nullptr);
 
 /// The items in breadth-first order from `scratch.seeds`; the order is noted when somebody asks.
-std::vector<SweepItem> orderedFromSeeds(const std::vector<SweepItem>& items, const Scratch& scratch,
-                                        std::span<const std::uint8_t> passable);
+std::vector<SweepItem> orderedFromSeeds(const std::vector<SweepItem>& items,
+                                        const Scratch& scratch);
 
 }  // namespace merge2d

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src2d/dynamics/solver.h"
+#include "src2d/merging/collection.h"
 #include "src2d/merging/ordering.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/sweep.h"
@@ -97,15 +98,12 @@ constinit const UnmergingMethod kPaperUnmerging{
 void sweepBreadthFirst(State& state, Scratch& scratch) {
   const auto& settings = state.settings;
   std::vector<SweepItem> items = sweepItems(state, scratch);
-  if (!scratch.seeds.empty()) {
-    const std::vector<std::uint8_t> through_all(scratch.sweep_u.size(), 1);
-    items = orderedFromSeeds(items, scratch, through_all);
-  }
+  if (!scratch.seeds.empty()) items = orderedFromSeeds(items, scratch);
   for (int s = 0; s < settings.unmerging.sweeps; ++s) {
     for (const SweepItem& item : items) sweepItem(item, scratch.sweep_u, settings.solver.method);
   }
-  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
-    scratch.push_stale[slot] = isSwept(state, state.collections[slot]) ? 1 : 0;
+  for (Collection& c : state.collections) {
+    if (isSwept(state, c)) layOutPush(state, c);
   }
 }
 

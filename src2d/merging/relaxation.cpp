@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src2d/dynamics/joint_system.h"
 #include "src2d/dynamics/nncg.h"
 #include "src2d/dynamics/wide_blocks.h"
 #include "src2d/merging/decided_settings.h"
-#include "src2d/merging/joint_system.h"
 
 namespace merge2d {
 namespace {

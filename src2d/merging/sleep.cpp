@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src2d/core/memory.h"
+#include "src2d/merging/collection.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/rule.h"
 
@@ -65,8 +66,9 @@ void fallAsleep(State& state, Scratch& scratch, RigidId id) {
   r.asleep = true;
   r.v.setZero();
   r.omega = 0.0;
-  const Collection* c = state.isCollection(id) ? &state.collection(id) : nullptr;
+  Collection* c = state.isCollection(id) ? &state.collection(id) : nullptr;
   const BodyId first = state.firstBody(id);
+  if (c && !c->certificate.empty()) putBlocksAway(*c);
   scratch.events.push_back(
       {EventType::Sleep, first, first, c ? c->id : kNoCollection, EventReason::None});
 }
@@ -190,11 +192,6 @@ void wakeUp(State& state, Scratch& scratch, RigidId id) {
       {EventType::Wake, first, first, c ? c->id : kNoCollection, EventReason::None});
 }
 
-bool awaitsInnerForces(const State& state, Scratch& scratch, RigidId id) {
-  if (!sleeps(state.mode)) return false;
-  return reasonOfIsland(scratch, id) == kInnerForces;
-}
-
 void sleepByIslands(State& state, Scratch& scratch) {
   markRestless(state, scratch);
   uniteIslands(state, scratch);
@@ -216,7 +213,9 @@ void sleepAndWake(State& state, Scratch& scratch) {
   const bool any =
       std::any_of(scratch.events.begin() + static_cast<std::ptrdiff_t>(before),
                   scratch.events.end(), [](const Event& e) { return e.type == EventType::Sleep; });
-  if (any) releaseRows(state, scratch);
+  if (!any) return;
+  releaseRows(state, scratch);
+  releaseOpenRows(state, scratch, 1);
 }
 
 }  // namespace merge2d

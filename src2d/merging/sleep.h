@@ -29,7 +29,4 @@ void noteSleep(const State& state, const Scratch& scratch, RigidId id, bool stay
 /// Wakes one rigid thing; its island follows in the stage.
 void wakeUp(State& state, Scratch& scratch, RigidId id);
 
-/// True when nothing but the inner forces of collections keeps its island awake in this step.
-bool awaitsInnerForces(const State& state, Scratch& scratch, RigidId id);
-
 }  // namespace merge2d

@@ -1,8 +1,5 @@
 #include "src2d/merging/sweep.h"
 
-#include <algorithm>
-
-#include "src2d/merging/collection.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/rule.h"
 
@@ -40,19 +37,9 @@ void sweepCollections(State& state, Scratch& scratch) {
 }
 
 void sweepAround(State& state, Scratch& scratch, void (*inside)(State& state, Scratch& scratch)) {
-  scratch.push_stale.assign(state.collections.size(), 0);
   inside(state, scratch);
   keepFixedContacts(state, scratch);
   if (!state.joints.empty()) keepJointForces(state, scratch);
-}
-
-void renewPushes(State& state, Scratch& scratch) {
-  const std::size_t slots = std::min(scratch.push_stale.size(), state.collections.size());
-  for (std::size_t slot = 0; slot < slots; ++slot) {
-    Collection& c = state.collections[slot];
-    if (scratch.push_stale[slot] && c.id != kNoCollection && !c.stale) layOutPush(state, c);
-  }
-  scratch.push_stale.clear();
 }
 
 }  // namespace merge2d

@@ -26,10 +26,6 @@ inline void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, Sol
 /// Updates the impulses inside collections.
 void sweepCollections(State& state, Scratch& scratch);
 
-/// Computes the pushes of the members anew where more sweeps have changed the impulses: once in a
-/// step, and not where the collection is laid out anew.
-void renewPushes(State& state, Scratch& scratch);
-
 /// True for a collection whose inner forces may be sought in this step: it is there and awake.
 bool isSwept(const State& state, const Collection& collection);
 

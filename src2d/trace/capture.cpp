@@ -91,15 +91,17 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
   for (const Collection& c : state.collections) {
     if (c.id == kNoCollection) continue;
     const Pose frame = state[c.rigid].frame();
+    const bool has_blocks = !c.blocks.empty();  // else nothing moves inside
     for (std::size_t b = 0; b < c.block_contact.size(); ++b) {
-      const ContactBlock& k = c.blocks[b];
       const Contact contact = c.contacts[c.block_contact[b]].released();
-      for (int i = 0; i < k.count; ++i) {
+      for (int i = 0; i < contact.count; ++i) {
         ContactPoint p = contact.points[static_cast<std::size_t>(i)];
-        p.lambda_n = k.lambda_n(i);
-        p.lambda_t = k.lambda_t(i);
         p.fresh = false;
-        showInternalVelocity(state, scratch, c, b, i, p);
+        if (has_blocks) {
+          p.lambda_n = c.blocks[b].lambda_n(i);
+          p.lambda_t = c.blocks[b].lambda_t(i);
+          showInternalVelocity(state, scratch, c, b, i, p);
+        }
         out.contacts.push_back(view(state, contact, p, frame));
         out.contacts.back().internal = true;
       }

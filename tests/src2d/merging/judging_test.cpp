@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "src2d/merging/cycles.h"
+#include "src2d/cycles/held_groups.h"
 #include "src2d/merging/parts.h"
 #include "src2d/merging/ready_pairs.h"
 #include "tests/src2d/merging/merging_testing.h"

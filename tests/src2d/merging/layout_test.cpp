@@ -106,5 +106,31 @@ TEST(Layout, IsKeptInEachStepWhereNothingHasWoken) {
   EXPECT_LT(woken, 30);
 }
 
+TEST(Layout, BlocksThatWerePutAwayComeBackAsTheyWere) {
+  World world(parseScene(kRain, "rain.toml"), {.mode = Mode::Merge, .timings = false});
+  int compared = 0;
+  for (int step = 0; step < 1000; ++step) {
+    world.step();
+    if (step % 50 != 0) continue;
+    merge2d::Setup setup;
+    setUp(world.scene(), Mode::Merge, setup);
+    restoreState(world.save(), "world", world.scene(), setup);
+    for (Collection& c : setup.state.collections) {
+      if (c.id == kNoCollection || c.blocks.empty()) continue;
+      const std::vector<ContactBlock> before = c.blocks;
+      putBlocksAway(c);
+      EXPECT_TRUE(areBlocksAway(c));
+      bringBlocksBack(setup.state, c);
+      ASSERT_EQ(c.blocks.size(), before.size()) << step;
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        EXPECT_TRUE(same(c.blocks[i], before[i])) << "block " << i << ", step " << step;
+        EXPECT_EQ(c.contacts[c.block_contact[i]].block, i) << step;
+      }
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 20);
+}
+
 }  // namespace
 }  // namespace merge2d

@@ -1,4 +1,4 @@
-#include "src2d/merging/cycles.h"
+#include "src2d/cycles/held_groups.h"
 
 #include <algorithm>
 
@@ -41,12 +41,12 @@ struct Core {
 };
 
 Core coreOf(std::uint32_t nodes, std::span<const Pin> pins, DisjointSets& sets) {
-  constexpr std::uint32_t kNone = ~0u;
+  constexpr std::uint32_t kUnnumbered = ~0u;
   Core core;
   core.pins.reserve(pins.size());
-  std::vector<std::uint32_t> number(nodes, kNone);
+  std::vector<std::uint32_t> number(nodes, kUnnumbered);
   const auto numbered = [&](std::uint32_t node) {
-    if (number[node] == kNone) {
+    if (number[node] == kUnnumbered) {
       number[node] = static_cast<std::uint32_t>(core.nodes.size());
       core.nodes.push_back(node);
     }

@@ -1,4 +1,4 @@
-#include "src2d/merging/cycles.h"
+#include "src2d/cycles/held_groups.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "src2d/merging/nonnegative_fit.h"
+#include "src2d/core/nonnegative_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -9,18 +9,19 @@
 namespace merge2d {
 namespace {
 
-using Weights = LoadCertificate::Weights;
+constexpr std::size_t kMost = 8;
+using Weights = std::array<double, kMost>;
 using Vector = std::array<double, 3>;
 
 double dot(const Vector& x, const Vector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
 Weights fit(const std::vector<Vector>& of, const Vector& x) {
-  std::array<double, LoadCertificate::kMost * LoadCertificate::kMost> gram{};
+  std::array<double, kMost * kMost> gram{};
   Weights b{};
   for (std::size_t i = 0; i < of.size(); ++i) {
     b[i] = dot(of[i], x);
     for (std::size_t j = 0; j < of.size(); ++j) {
-      gram[i * LoadCertificate::kMost + j] = dot(of[i], of[j]);
+      gram[i * kMost + j] = dot(of[i], of[j]);
     }
   }
   return nonNegativeFit(gram, b, of.size());
@@ -51,7 +52,7 @@ TEST(NonNegativeFit, IsOptimalForRandomVectors) {
   std::mt19937 random(7);
   const auto number = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
   for (int round = 0; round < 2000; ++round) {
-    std::vector<Vector> of(1 + round % LoadCertificate::kMost);
+    std::vector<Vector> of(1 + round % kMost);
     for (Vector& v : of) v = {number(), number(), number()};
     const Vector x{number(), number(), number()};
     const Weights w = fit(of, x);

@@ -1,4 +1,4 @@
-#include "src2d/merging/joint_system.h"
+#include "src2d/dynamics/joint_system.h"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
