@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::size_t kMost = 8;
 using Weights = std::array<double, kMost>;
-using Vector = std::array<double, 3>;
+using Vector3 = std::array<double, 3>;
 
-double dot(const Vector& x, const Vector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
+double dot(const Vector3& x, const Vector3& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
-Weights fit(const std::vector<Vector>& of, const Vector& x) {
+Weights fit(const std::vector<Vector3>& of, const Vector3& x) {
   std::array<double, kMost * kMost> gram{};
   Weights b{};
   for (std::size_t i = 0; i < of.size(); ++i) {
@@ -52,11 +52,11 @@ TEST(NonNegativeFit, IsOptimalForRandomVectors) {
   std::mt19937 random(7);
   const auto number = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
   for (int round = 0; round < 2000; ++round) {
-    std::vector<Vector> of(1 + round % kMost);
-    for (Vector& v : of) v = {number(), number(), number()};
-    const Vector x{number(), number(), number()};
+    std::vector<Vector3> of(1 + round % kMost);
+    for (Vector3& v : of) v = {number(), number(), number()};
+    const Vector3 x{number(), number(), number()};
     const Weights w = fit(of, x);
-    Vector rest = x;
+    Vector3 rest = x;
     for (std::size_t i = 0; i < of.size(); ++i) {
       ASSERT_GE(w[i], 0.0);
       for (std::size_t k = 0; k < 3; ++k) rest[k] -= w[i] * of[i][k];
