@@ -224,7 +224,7 @@ TEST(Wagon, HitsTheBookcaseAndAllMergesWithTheMovingTruck) {
   EXPECT_EQ(run.now().stats.active_bodies, 4);
   run.until(3.3);
   EXPECT_NEAR(static_cast<double>(run.first(EventType::Unmerge, "bookcase")), 300, 20);
-  EXPECT_GT(run.count(EventType::Unmerge), 12) << "the blow frees what it moves";
+  EXPECT_GT(run.count(EventType::Unmerge), 17) << "the blow frees what it moves";
   int books = 0, toys = 0;
   for (const auto& event : run.log()) {
     if (event.type != EventType::Unmerge) continue;
@@ -285,9 +285,9 @@ TEST(ShipCrane, EachGrabFreesItsColumnAlone) {
       EXPECT_TRUE(e.b.starts_with(column)) << e.b << " at " << time;
     }
     EXPECT_TRUE(parted.contains(cell("cargo", 8 - n, 7)));
-    EXPECT_LE(parted.size(), n == 0 ? 8u : 2u) << "it and the lowest of its column";
+    EXPECT_LE(parted.size(), n == 0 ? 7u : 2u) << "it and the lowest of its column";
   }
-  EXPECT_LE(run.count(EventType::Unmerge), 20) << "and four times the magnet lets go";
+  EXPECT_LE(run.count(EventType::Unmerge), 17) << "and four times the magnet lets go";
 }
 
 class ShipCraneIn : public testing::TestWithParam<Mode> {};
@@ -307,7 +307,7 @@ TEST_P(ShipCraneIn, EachContainerStaysUprightAndIsPutDownInItsPlace) {
   EXPECT_LT(tilt, 0.01);
   for (int n = 0; n < 4; ++n) {
     const Vec2 place = run.body(cell("cargo", 8 - n, 7)).x;
-    EXPECT_NEAR(place.x(), 4.3 + 2.7 * n, 0.05) << n;
+    EXPECT_NEAR(place.x(), 4.3 + 2.7 * n, 0.045) << n;
     EXPECT_NEAR(place.y(), 8.8, 0.01) << n;
   }
 }

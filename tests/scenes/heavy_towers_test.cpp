@@ -17,7 +17,7 @@ void expectFreesWhatMoves(const std::vector<Reaction>& seen, int moving, int sta
   EXPECT_EQ(moved_freed, moved);
   const auto [others, others_freed] = movedAndFreed(seen, -1.0, 0.01);
   EXPECT_GE(others, standing);
-  EXPECT_LE(others_freed, 0.3 * others);
+  EXPECT_LE(others_freed, 0.25 * others);
 }
 
 TEST(TowerImpulseHeavy, FreesWhatMovesAndNotWhatStands) {
