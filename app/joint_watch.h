@@ -1,5 +1,6 @@
 #pragma once
-/// Watches whether the joints of a world hold together (docs/limits.md).
+/// Watches whether joints hold their two points together (docs/limits.md): not the length of rods,
+/// nor angles.
 
 #include <cstddef>
 #include <optional>

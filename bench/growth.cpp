@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kLimit = 1.15;  ///< largest exponent
 constexpr int kRepeats = 3;      ///< of which the fastest counts
-/// Less is the cost of a step with however few bodies: a leaf that leaves its box takes 12 µs, and
-/// how often that happens depends on the motion [s].
+/// Costs below this do not count: a leaf that leaves its box takes 12 µs with any number of bodies,
+/// and how often that happens depends on the motion [s].
 constexpr double kLeast = 2e-5;
 
 double secondsOf(const std::function<void()>& work) {

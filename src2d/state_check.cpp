@@ -254,7 +254,10 @@ class StateCheck {
     require(isAway || c.block_contact.empty() || c.block_contact.size() == c.blocks.size(),
             "blocks");
     require(!isAway || c.block_contact.size() == c.contacts.size(), "blocks");
-    for (const std::uint32_t i : c.block_contact) require(i < c.contacts.size(), "blocks");
+    std::vector<std::uint8_t> seen(c.contacts.size(), 0);
+    for (const std::uint32_t i : c.block_contact) {
+      require(i < c.contacts.size() && seen[i]++ == 0, "blocks");
+    }
     require(c.push.empty() || c.push.size() == c.members.size(), "inner forces");
     const std::size_t nodes = c.members.size() + 1;  // the last is the frame
     for (const Weld& weld : c.welds) {
@@ -283,6 +286,8 @@ class StateCheck {
       const std::size_t witnesses = proof.witnesses.size();
       require(witnesses <= LoadCertificate::kMost, "proofs");
       require(proof.heaviest == ~0u || proof.heaviest < c.members.size(), "proofs");
+      const std::size_t movers = proof.search.movers.size();
+      require(movers == 0 || movers == c.welds.size(), "proofs");
       for (const Witness& witness : proof.witnesses) {
         require(witness.outer.size() == proof.columns.size(), "proofs");
         const std::size_t blocks = areBlocksAway(c) ? c.block_contact.size() : c.blocks.size();

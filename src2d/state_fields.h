@@ -164,8 +164,8 @@ void fields(Ar& ar, Some<NncgBuffers> auto& m) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<ProofSearch> auto& s) {
-  auto& [load, start, nncg, moving, way, steps, ahead] = s;
-  ar(load, start, nncg, moving, way, steps, ahead);
+  auto& [load, start, nncg, movers, way, steps, ahead] = s;
+  ar(load, start, nncg, movers, way, steps, ahead);
 }
 template <class Ar>
 void fields(Ar& ar, Some<LoadCertificate> auto& c) {

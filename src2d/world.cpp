@@ -54,7 +54,7 @@ struct World::Impl {
   Observer* observer = nullptr;
   Notes notes;
   std::vector<BodyInfo> bodies;  ///< described when somebody asks
-  /// For errors, which ask it once; made once, as stages are many.
+  /// Names the bodies in errors. Kept, as each stage of a step passes it on.
   const std::function<std::string(BodyId)> naming = [this](BodyId b) { return nameOf(b); };
   Clock::time_point lap_began;
   Rest rest;

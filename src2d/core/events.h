@@ -1,5 +1,5 @@
 #pragma once
-/// What happens to bodies in a step, as plain data.
+/// The events of a step, as plain data.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ inline constexpr std::array kEventReasons = {EventReason::None, EventReason::Bro
                                              EventReason::Sliding, EventReason::RelativeMotion,
                                              EventReason::User};
 
-/// What happened. A `Merge` is a join: of two things one was made, so that n bodies need n − 1 of
+/// One event. A `Merge` is a join: of two things one was made, so that n bodies need n − 1 of
 /// them, however many contacts hold them together afterwards. An `Unmerge` is the end of one weld,
 /// with its reason: a body that leaves two neighbours gives two of them. An `Impact` is a pair that
 /// meets faster than gravity could have made it in two steps. A `Break` is the end of a joint that

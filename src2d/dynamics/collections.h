@@ -57,7 +57,8 @@ struct InternalContact {
   InternalPoint& point(int i) { return points[static_cast<std::size_t>(i)]; }
   const InternalPoint& point(int i) const { return points[static_cast<std::size_t>(i)]; }
 
-  /// While it has no block; a rolling moment stands in the place of the second point's tangent.
+  /// For a contact that has no block. A rolling moment stands in the place of the second point's
+  /// tangent.
   void setImpulses(const Impulses& lambda) {
     for (std::size_t i = 0; i < 2; ++i) {
       points[i].lambda_n = lambda[i];
@@ -122,7 +123,7 @@ struct ProofSearch {
   std::vector<Twist> start;  ///< per member: the velocity that the load gives; empty: no search
   NncgBuffers nncg;          ///< of the sweeps so far
   /// Per weld, where the search has found motion: whether its bodies move there. Empty: not known.
-  std::vector<std::uint8_t> moving;
+  std::vector<std::uint8_t> movers;
   double way = 0.0;        ///< from where it began, if ahead
   std::int16_t steps = 0;  ///< that it has taken so far
   bool ahead = false;      ///< beyond the loads that there were: nothing depends on it

@@ -103,7 +103,8 @@ class Newton {
     });
   }
 
-  /// Where things slide, no round may end it.
+  /// Rounds end where the rigid rows are slower than the tolerance. Where bodies slide they may
+  /// never be: then a search ends when a round has hardly helped.
   void run(double tolerance) {
     start();
     holdImpulses();
@@ -258,7 +259,7 @@ class Newton {
     }
   }
 
-  /// What two rows of the same bodies share of Jᵀ G J.
+  /// Adds the part of Jᵀ G J of two rows between the same bodies.
   void fill(const Row& x, const Row& y, double g) {
     const auto vec = [](const Twist& j) { return BodyMatrix::Vec{j.vx, j.vy, j.omega}; };
     if (x.a != kFixed) hessian_.add(x.block_a, vec(x.j_a), vec(y.j_a), g);

@@ -34,8 +34,8 @@ void layOutCollections(State& state);
 /// change once more before the next sweep.
 void layOutFloating(State& state);
 
-/// Computes the push of each member anew from the impulses inside. A layout leaves it empty, for
-/// whoever asks for it first.
+/// Computes the push of each member anew from the impulses inside. A layout leaves it empty,
+/// and the first reader calls this.
 void layOutPush(const State& state, Collection& collection);
 
 /// Takes the collection apart: `part[i]` is the part of its i-th member, `anchored[p]` says whether

@@ -1,11 +1,11 @@
 #pragma once
-/// The numbers of the default rule.
+/// The table of the default rule.
 
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
 
-/// The numbers of the default rule, each with the experiment that chose it.
+/// The numbers of the default rule, with the experiments that chose them.
 struct DecidedSettings {
   /// Bodies of a weld that gain velocity against each other faster than this part [m/s²]: a
   /// two-thousandth of gravity. A see-saw that is 0.7 mm out of balance gains 0.008.
@@ -37,8 +37,8 @@ struct DecidedSettings {
   /// forms are laid out anew before that.
   int lasting_steps = 10;
   /// A load is covered where the witnesses leave this part of the frame's motion over, and this
-  /// part of the forces from outside [1]; a cut needs five hundred times as much. Forces from
-  /// outside weigh less, as they act on one member each [1].
+  /// part of the forces from outside [1]. Forces from outside weigh less, as they act on one member
+  /// each [1].
   double left_of_frame = 0.9e-3, left_of_outer = 3e-2, outer_weight = 0.05;
   double left_of_rest = 2e-6;  ///< and where so little is left over of any load [m/s]
   /// Steps from a hit or an impulse on in which the collection is open.

@@ -113,31 +113,41 @@ bool turns(const Collection& c, const WeldMotions& motions, double threshold, do
   });
 }
 
-/// Cuts the welds whose bodies move. Slower motion than the residual may be an error of the solve,
-/// and where a search has found motion, that of other welds. While one goes on, some weld must move
-/// by more than a few residuals. Returns whether any does.
-bool cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofSearch& search) {
+/// Welds whose bodies move: none, such alone as did not move in the search, or some that are cut.
+enum class Movers : std::uint8_t { None, Uncut, Cut };
+
+/// Cuts the welds whose bodies move. Motion slower than the residual may be an error of the solve.
+/// Where a search has found motion, so may the motion of welds that did not move in it. While one
+/// goes on, some weld must move by more than a few residuals.
+Movers cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofSearch& search) {
   const WeldMotions motions(state, c, scratch.trial_u);
   const double threshold = cutSpeed(state, c);
   const double residual = c.last_blow == state.step ? 0.0 : c.residual;
   const bool moves = search.start.empty() || turns(c, motions, threshold, kDecided.sure * residual);
-  bool any = false;
+  Movers found = Movers::None;
   for (std::size_t i = 0; i < c.welds.size(); ++i) {
     Weld& weld = c.welds[i];
     weld.cut = false;
     weld.motion = 0.0F;
-    if (weld.expected || (!search.moving.empty() && search.moving[i] == 0)) continue;
+    if (weld.expected) continue;
     const WeldMotion motion = motions.of(weld, scratch.notes ? 0.0 : threshold);
     const double speed = moves && motion.least > residual ? motion.most : 0.0;
     const Decision decision = decide(weld, speed, threshold);
     if (scratch.notes) scratch.notes->decisions.push_back(decision);
     if (speed <= threshold) continue;
+    if (found == Movers::None) found = Movers::Uncut;
+    if (!search.movers.empty() && search.movers[i] == 0) continue;
     weld.cut = true;
     weld.motion = static_cast<float>(speed);
     weld.reason = reasonOf(c, weld);
-    any = true;
+    found = Movers::Cut;
   }
-  return any;
+  return found;
+}
+
+/// Where no part comes off.
+void forgetCuts(Collection& c) {
+  for (Weld& weld : c.welds) weld.cut = false;
 }
 
 /// Keeps a proof, and looks whether a load beyond it is carried too: one that swings then finds its
@@ -155,7 +165,7 @@ void prove(const State& state, Collection& c, Witness&& witness) {
   beginSearchAhead(state, c, std::move(next), way);
 }
 
-/// Nothing moves in the full solve: a proof, where that has converged. Else a search that was under
+/// No part moves in the full solve: a proof, where that has converged. Else a search that was under
 /// way goes on.
 void keepTogether(const State& state, Scratch& scratch, Collection& c, ProofSearch&& search) {
   LoadCertificate& proof = c.certificate.front();
@@ -178,15 +188,19 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   if (breakJointsInside(state, scratch, c)) return;
   if (!c.joints.empty()) loosenJoints(state, c, scratch.sweep_u);
   Noted noted(scratch.notes);
-  const bool cut = cutMovers(state, scratch, c, before);
+  const Movers movers = cutMovers(state, scratch, c, before);
   noted.close();
   if (isHit(state, c)) swapImpulses(c, before.load);  // those of a hit are not those of a load
-  const Parts parts = cut ? componentsOf(c) : Parts();
-  if (cut && fallsApart(state, c, parts)) {
+  const Parts parts = movers == Movers::Cut ? componentsOf(c) : Parts();
+  const bool parting = movers == Movers::Cut && fallsApart(state, c, parts);
+  if (parting || movers == Movers::Uncut) {
     c.settled = false;
-    proof.in_doubt = true;
+    proof.in_doubt = true;  // the search had the load of an earlier step
+  }
+  if (parting) {
     splitAtCuts(state, scratch, c.rigid, parts);
-  } else {
+  } else if (movers != Movers::Uncut) {
+    forgetCuts(c);
     keepTogether(state, scratch, c, std::move(before));
   }
   restate(state, noted, "cut");
@@ -209,12 +223,12 @@ std::vector<std::uint8_t> moversOf(const State& state, const Scratch& scratch,
                                    const Collection& c) {
   const WeldMotions motions(state, c, scratch.trial_u);
   const double threshold = cutSpeed(state, c);
-  std::vector<std::uint8_t> moving;
-  moving.reserve(c.welds.size());
+  std::vector<std::uint8_t> movers;
+  movers.reserve(c.welds.size());
   for (const Weld& weld : c.welds) {
-    moving.push_back(motions.of(weld, threshold).most > threshold ? 1 : 0);
+    movers.push_back(motions.of(weld, threshold).most > threshold ? 1 : 0);
   }
-  return moving;
+  return movers;
 }
 
 }  // namespace
@@ -237,7 +251,7 @@ bool endSearch(State& state, Scratch& scratch, Collection& c) {
     if (rests) remember(c, std::move(search.load));
     return true;
   }
-  if (!rests) proof.search.moving = moversOf(state, scratch, c);
+  if (!rests) proof.search.movers = moversOf(state, scratch, c);
   readImpulses(c, search.load);
   c.settled = rests && !overloadsJoints(state, c);
   if (rests) prove(state, c, std::move(search.load));

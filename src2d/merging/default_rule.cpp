@@ -15,11 +15,17 @@ namespace {
 
 CycleCriterion asSet(const MergingSettings& settings) { return settings.cycles; }
 
+void countStep(ProofSearch& search) {
+  constexpr std::int16_t kMost = 1 << 14;  // the last power of two that fits
+  if (search.steps < kMost) ++search.steps;
+}
+
 /// Where a search has found motion, the full solve of the same step finds the moving welds.
 void solveDoubted(State& state, Scratch& scratch) {
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) != Doubt::Search) continue;
     continueSearch(state, scratch, c, toleratedResidual(state));
+    countStep(c.certificate.front().search);
     if (!endSearch(state, scratch, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
   }
   if (std::ranges::find(scratch.doubts, Doubt::Open) != scratch.doubts.end()) {

@@ -142,6 +142,7 @@ void releaseOpenRows(State& state, Scratch& scratch, int kept) {
   release(scratch.sweep_u);
   release(scratch.open_start);
   release(scratch.open_members);
+  release(scratch.open);
   release(scratch.outer_loads);
   if (!scratch.sweeping) release(scratch.trial_u);
 }

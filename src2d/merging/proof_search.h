@@ -27,10 +27,10 @@ void relaxOpen(const State& state, Scratch& scratch, Collection& collection);
 /// Begins a search for impulses that carry a load.
 void beginSearch(const State& state, Collection& collection, const CollectionLoad& load);
 
-/// Sweeps that do not end are brought nearer by the direct solver in this step.
+/// Whether Newton's method takes part in this step, as sweeps have not ended the search.
 bool isDirect(const ProofSearch& search);
 
-/// Replaces the load of a search by today's; the impulses found so far stay.
+/// Replaces the load of a search by that of this step; the impulses found so far stay.
 void renewLoad(const State& state, Collection& collection, const CollectionLoad& load);
 
 /// The same for a load beyond those that there were. The heaviest member of a floating collection

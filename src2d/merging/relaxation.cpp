@@ -24,9 +24,7 @@ class Relaxation {
         left_(std::max(kDecided.row_sweeps,
                        kDecided.full_sweeps * static_cast<double>(c.blocks.size()))) {
     if (isSearch()) {
-      std::int16_t& steps = search().steps;
-      left_ = std::min(left_, std::ldexp(kDecided.first_row_sweeps, steps));
-      steps = std::min<std::int16_t>(1000, static_cast<std::int16_t>(steps + 1));
+      left_ = std::min(left_, std::ldexp(kDecided.first_row_sweeps, search().steps));
     }
     if (!isSearch() && !isHit(state, c)) left_ *= kDecided.when_open;
     for (const ContactBlock& k : c.blocks) ends_.push_back({memberOf(k.a), memberOf(k.b)});

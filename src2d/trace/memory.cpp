@@ -21,7 +21,8 @@ std::size_t bytesOfProofs(const Collection& c) {
   for (const LoadCertificate& proof : c.certificate) {
     const ProofSearch& search = proof.search;
     total += bytesOf(search.start, search.load.outer, search.load.lambda, search.nncg.before,
-                     search.nncg.direction, search.nncg.u_before, search.nncg.u_direction);
+                     search.nncg.direction, search.nncg.u_before, search.nncg.u_direction,
+                     search.movers);
     total += bytesOf(proof.columns, proof.witnesses, proof.gram);
     for (const Witness& witness : proof.witnesses) total += bytesOf(witness.outer, witness.lambda);
   }
@@ -62,7 +63,8 @@ std::size_t bytesOfScratch(const Scratch& s) {
                  s.load_order, s.near_candidates, s.near_refined, s.paired_with, s.meetings,
                  s.seeds, s.stirred, s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.outer_loads,
-                 s.load_place, s.doubts, s.trial_u, s.overloaded_joints, s.ready) +
+                 s.load_place, s.doubts, s.trial_u, s.open_members, s.open_start, s.open,
+                 s.overloaded_joints, s.ready) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order, s.hit_ways) +
          bytesOfSweeps(s) + s.sets.memoryBytes() +
