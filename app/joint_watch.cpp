@@ -11,7 +11,7 @@
 namespace merge2d {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// The longer side of the bounding box of a body's shapes [m].
 double lengthOf(const std::vector<ConvexShape>& shapes) {
@@ -43,7 +43,7 @@ JointWatch::JointWatch(const World& world) : world_(world) {
     shorten(joints[i].a);
     if (!joints[i].to_world) shorten(joints[i].b);
     const bool yields = world.scene().joints[i].compliance > 0.0;
-    much_.push_back(yields ? kNever : kPart * length + openingOf(joints[i]));
+    much_.push_back(yields ? kUnlimited : kPart * length + openingOf(joints[i]));
   }
 }
 

@@ -35,7 +35,7 @@ class BodyMatrix {
         }
       }
     }
-    const auto size = static_cast<Eigen::Index>(3 * bodies);
+    const auto size = 3 * static_cast<Eigen::Index>(bodies);
     matrix_.resize(size, size);
     matrix_.setFromTriplets(entries.begin(), entries.end());
     for (const auto& [q, p] : pairs_)
