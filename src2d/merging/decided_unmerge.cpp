@@ -193,13 +193,11 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   if (isHit(state, c)) swapImpulses(c, before.load);  // those of a hit are not those of a load
   const Parts parts = movers == Movers::Cut ? componentsOf(c) : Parts();
   const bool parting = movers == Movers::Cut && fallsApart(state, c, parts);
-  if (parting || movers == Movers::Uncut) {
-    c.settled = false;
-    proof.in_doubt = true;  // the search had the load of an earlier step
-  }
   if (parting) {
+    c.settled = false;
+    proof.in_doubt = true;
     splitAtCuts(state, scratch, c.rigid, parts);
-  } else if (movers != Movers::Uncut) {
+  } else {
     forgetCuts(c);
     keepTogether(state, scratch, c, std::move(before));
   }
