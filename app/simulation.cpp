@@ -74,11 +74,11 @@ void Simulation::step() {
   using Clock = std::chrono::steady_clock;
   stopIfInterrupted();
   // A look at the processor's time takes as long as a step of a few bodies: never within one.
-  const double cpu_start = timed_ ? processorSeconds() : 0.0;
+  const double cpu_start = measures_processor_ ? processorSeconds() : 0.0;
   const Clock::time_point start = Clock::now();
   world_.step();
   milliseconds_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-  if (timed_) cpu_seconds_ += processorSeconds() - cpu_start;
+  if (measures_processor_) cpu_seconds_ += processorSeconds() - cpu_start;
 }
 
 }  // namespace merge2d

@@ -28,10 +28,7 @@ std::int64_t stepCount(const Scene& scene);
 class Simulation {
  public:
   Simulation(std::shared_ptr<const Scene> scene, const WorldOptions& options)
-      : scene_(std::move(scene)),
-        world_(scene_, options),
-        steps_(stepCount(*scene_)),
-        timed_(options.timings) {}
+      : scene_(std::move(scene)), world_(scene_, options), steps_(stepCount(*scene_)) {}
 
   const World& world() const { return world_; }
   const std::shared_ptr<const Scene>& shared() const { return scene_; }
@@ -49,14 +46,16 @@ class Simulation {
 
   /// Of each step so far [ms].
   const std::vector<double>& milliseconds() const { return milliseconds_; }
-  /// Processor time of the steps so far, in all threads; 0 without timings [s].
+  /// Measures the processor time of the steps to come.
+  void measureProcessor() { measures_processor_ = true; }
+  /// Processor time of the steps so far, in all threads; 0 where it is not measured [s].
   double cpuSeconds() const { return cpu_seconds_; }
 
  private:
   std::shared_ptr<const Scene> scene_;
   World world_;
   std::int64_t steps_;
-  bool timed_;
+  bool measures_processor_ = false;
   std::vector<double> milliseconds_;
   double cpu_seconds_ = 0.0;
 };

@@ -127,6 +127,16 @@ TEST_F(Run, WithoutTimingsTheSummaryIsTheSameEachTime) {
   EXPECT_TRUE(Json::parse(first)["real_time_factor"].is_null());
 }
 
+TEST_F(Run, MeasuresStagesWhereTheirTimesAreWritten) {
+  run({"run", "stack.toml", "--steps", "2", "--trace", "stack.jsonl"});
+  double sum = 0.0;
+  const Json last = parsed(read("stack.jsonl")).back();
+  for (const Json& seconds : last["stats"]["seconds"]) sum += seconds.get<double>();
+  EXPECT_GT(sum, 0.0);
+  run({"run", "stack.toml", "--steps", "2", "--csv", "stack.csv"});
+  EXPECT_THAT(read("stack.csv"), Not(HasSubstr(",0,stack,")));
+}
+
 TEST_F(Run, TakesAsManyStepsAsAskedFor) {
   EXPECT_EQ(run({"run", "stack.toml", "--json", "--steps", "7"}).json()["steps"], 7);
   EXPECT_EQ(run({"run", "stack.toml", "--json", "--seconds", "0.3"}).json()["steps"], 30);
