@@ -95,9 +95,10 @@ void releaseBody(State& state, Scratch& scratch, BodyId body) {
     if (c.id == kNoCollection) continue;
     bool any = false;
     for (Weld& weld : c.welds) {
-      if (weld.a != body && weld.b != body) continue;
-      weld.cut = any = true;
+      weld.cut = weld.a == body || weld.b == body;  // marks of an earlier step parted nothing
+      if (!weld.cut) continue;
       weld.reason = EventReason::User;
+      any = true;
     }
     if (!any) continue;
     splitAtCuts(state, scratch, c.rigid, unmergingMethod(state).parts(state, scratch, c));

@@ -4,6 +4,8 @@
 
 #include <numeric>
 
+#include "src2d/merging/group_notes.h"
+#include "src2d/state_file.h"
 #include "tests/src2d/merging/merging_testing.h"
 
 namespace merge2d {
@@ -249,6 +251,57 @@ TEST(Unmerge, AWallOnTheGroundDoesNotFlicker) { EXPECT_EQ(wallEvents(wall(18, 18
 
 TEST(Unmerge, AWallOnASwingingPlatformDoesNotFlicker) {
   EXPECT_EQ(wallEvents(wallOnSwingingPlatform(18, 18, 0.4, 10.0)), 0);
+}
+
+// ---- release ----
+
+/// A plank on two blocks, all merged with the ground.
+const std::string kPlankOnTwo = kGround + R"(
+[[body]]
+name = "left"
+at = [-1, 0.5]
+box = [1, 1]
+[[body]]
+name = "right"
+at = [1, 0.5]
+box = [1, 1]
+[[body]]
+name = "plank"
+at = [0, 1.1]
+box = [3, 0.2]
+)";
+
+/// The other block goes; the plank stays on the one whose weld was marked, but not parted, in an
+/// earlier step.
+void releaseTheRightBlock(const Overrides& rule) {
+  const Scene scene = parseScene(kPlankOnTwo, "test.toml", rule);
+  World world(scene, {.mode = Mode::Merge, .timings = false});
+  while (world.time() < 2.0) world.step();
+  merge2d::Setup setup;
+  setUp(scene, Mode::Merge, setup);
+  restoreState(world.save(), "world", scene, setup);
+  State& state = setup.state;
+  Scratch scratch;
+  const BodyId left = idOf(world, "left"), right = idOf(world, "right"),
+               plank = idOf(world, "plank");
+  const auto between = [&](const Weld& weld) { return weld.a == left && weld.b == plank; };
+  ASSERT_TRUE(stillTogether(state, left, plank));
+  Collection& c = state.collection(state[plank].rigid);
+  const auto weld = std::ranges::find_if(c.welds, between);
+  ASSERT_NE(weld, c.welds.end());
+  weld->cut = true;
+  weld->reason = EventReason::Sliding;
+  releaseBody(state, scratch, right);
+  EXPECT_FALSE(stillTogether(state, plank, right));
+  EXPECT_TRUE(stillTogether(state, left, plank));
+  EXPECT_EQ(state[left].rigid, state[plank].rigid);
+  for (const Event& e : scratch.events) EXPECT_EQ(e.reason, EventReason::User);
+  EXPECT_EQ(scratch.events.size(), 2U) << "from the ground and from the plank";
+}
+
+TEST(Unmerge, ReleasingABodyBreaksNoWeldForAMarkOfAnEarlierStep) {
+  releaseTheRightBlock({});
+  releaseTheRightBlock(kPaper);
 }
 
 }  // namespace

@@ -1,0 +1,169 @@
+#include "src2d/merging/load_certificate.h"
+
+#include <bit>
+
+#include "src2d/merging/collection.h"
+#include "src2d/merging/decided_settings.h"
+#include "src2d/state_file.h"
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+/// A cart on two springs, which swings for ever with up to 0.2 m/s². On it stand boxes, and discs
+/// in the gaps between them, with rolling resistance.
+const std::string kSwingingCart = R"(
+format = 1
+[material]
+friction = 0.8
+rolling = 0.05
+[[body]]
+name = "rail"
+motion = "pinned"
+at = [0, -1]
+box = [60, 1]
+friction = 0
+[[body]]
+name = "cart"
+at = [0, 0]
+box = [8, 1]
+mass = 200
+friction = 0.8
+velocity = [0.2, 0]
+[[spring]]
+body = "cart"
+to = [-20, 0]
+stiffness = 120
+[[spring]]
+body = "cart"
+to = [20, 0]
+stiffness = 120
+[[body]]
+name = "box"
+at = [-1.65, 0.75]
+box = [0.8, 0.5]
+repeat = { count = [4, 1], spacing = [1.1, 1] }
+[[body]]
+name = "disc"
+at = [-1.1, 1.26]
+circle = 0.3
+repeat = { count = [3, 1], spacing = [1.1, 1] }
+)";
+
+/// A world that has been at it for so long that nothing is sought inside the cart's collection, and
+/// its blocks are away.
+World quietCart() {
+  World world(parseScene(kSwingingCart, "cart.toml"), {.mode = Mode::Merge, .timings = false});
+  while (world.time() < 40.0) world.step();
+  return world;
+}
+
+/// The state of a world, to look into.
+struct Inside {
+  explicit Inside(const World& world) {
+    setUp(world.scene(), Mode::Merge, setup);
+    restoreState(world.save(), "world", world.scene(), setup);
+  }
+  Collection& cart() {
+    for (Collection& c : setup.state.collections) {
+      if (c.id != kNoCollection && c.members.size() > 5) return c;
+    }
+    throw std::logic_error("the cart and its load have not merged");
+  }
+  merge2d::Setup setup;
+};
+
+/// Of each contact, in their order, wherever its impulses are.
+std::vector<Impulses> impulsesOf(const Collection& c) {
+  std::vector<Impulses> all;
+  for (const InternalContact& inner : c.contacts) {
+    if (inner.block == InternalContact::kNoBlock) {
+      all.push_back({inner.points[0].lambda_n, inner.points[1].lambda_n, inner.points[0].lambda_t,
+                     inner.points[1].lambda_t});
+    } else {
+      all.push_back(c.blocks[inner.block].lambda);
+    }
+  }
+  return all;
+}
+
+/// Contacts whose rolling resistance carries a moment.
+int momentsHeld(const Collection& c) {
+  return static_cast<int>(std::ranges::count_if(c.contacts, [](const InternalContact& inner) {
+    return inner.count == 1 && inner.points[1].lambda_t != 0.0;
+  }));
+}
+
+/// The impulse of all contacts on one body [N s].
+Vec2 impulseOn(const Snapshot& seen, BodyId body) {
+  Vec2 sum = Vec2::Zero();
+  for (const ContactView& c : seen.contacts) {
+    const Vec2 impulse = c.lambda_n * c.normal + c.lambda_t * perpendicular(c.normal);
+    if (c.b == body) sum += impulse;
+    if (c.a == body) sum -= impulse;
+  }
+  return sum;
+}
+
+TEST(LoadCertificate, ForcesFollowTheLoadWhileTheBlocksAreAway) {
+  World world = quietCart();
+  const BodyId disc = idOf(world, "disc[1,0]");
+  const double mass = world.bodies()[index(disc)].mass, h = world.scene().step;
+  double largest = 0.0, off = 0.0;
+  for (int step = 0; step < 600; ++step) {
+    const Vec2 before = see(world, disc).v;
+    world.step();
+    Inside inside(world);
+    ASSERT_TRUE(areBlocksAway(inside.cart())) << step;
+    EXPECT_GT(momentsHeld(inside.cart()), 0) << step;
+    const Vec2 wanted = mass * (see(world, disc).v - before + Vec2(0.0, h * kGravity));
+    largest = std::max(largest, std::abs(wanted.x()));
+    off = std::max(off, (impulseOn(world.capture(), disc) - wanted).norm());
+  }
+  EXPECT_GT(largest, 0.1 * mass * h) << "the cart swings";
+  EXPECT_LT(off, 0.05 * largest);
+}
+
+TEST(LoadCertificate, WritesTheSameImpulsesIntoContactsAsIntoBlocks) {
+  const World world = quietCart();
+  Inside away(world), there(world);
+  bringBlocksBack(there.setup.state, there.cart());
+  ASSERT_FALSE(areBlocksAway(there.cart()));
+  const std::vector<Impulses> before = impulsesOf(away.cart());
+  for (Inside* inside : {&away, &there}) {
+    LoadCertificate& proof = inside->cart().certificate.front();
+    ASSERT_FALSE(proof.witnesses.empty());
+    proof.weights = {};
+    proof.weights[0] = 0.7;
+    proof.lambda_stale = true;
+    writeImpulses(inside->cart());
+  }
+  ASSERT_TRUE(areBlocksAway(away.cart()));
+  EXPECT_NE(impulsesOf(away.cart()), before);
+  EXPECT_EQ(impulsesOf(away.cart()), impulsesOf(there.cart()));
+  bringBlocksBack(away.setup.state, away.cart());
+  EXPECT_EQ(impulsesOf(away.cart()), impulsesOf(there.cart())) << "and the blocks have them";
+  EXPECT_TRUE(std::ranges::any_of(away.cart().blocks,
+                                  [](const ContactBlock& k) { return k.lambda_r() != 0.0; }));
+}
+
+/// Brought back by a blow that comes later, the blocks are those that the straight run has.
+TEST(LoadCertificate, AWorldSavedWhileTheBlocksAreAwayGoesOnWithTheSameBytes) {
+  World straight = quietCart();
+  ASSERT_TRUE(areBlocksAway(Inside(straight).cart()));
+  World restored(straight.scene(), {.mode = Mode::Merge, .timings = false});
+  restored.restore(straight.save(), "test");
+  for (int step = 0; step < 200; ++step) {
+    for (World* world : {&straight, &restored}) {
+      if (step == 50) world->applyImpulse(idOf(*world, "cart"), {0.0, 0.0}, {30.0, 0.0});
+      world->step();
+    }
+    if (step == 50) {
+      ASSERT_FALSE(areBlocksAway(Inside(straight).cart()));
+    }
+    ASSERT_EQ(straight.save(), restored.save()) << "step " << step;
+  }
+}
+
+}  // namespace
+}  // namespace merge2d
