@@ -5,7 +5,6 @@
 #include <merge2d/merge2d.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -22,7 +21,6 @@ using merge2d::testing_api::refusal;
 using merge2d::testing_api::towerOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 TEST(PublicWorld, ATowerBecomesOneCollection) {
   World world(towerOf(4));
@@ -177,54 +175,6 @@ TEST(PublicWorld, ADragHoldsTheVeryPointThatItGrips) {
   EXPECT_NEAR(world.poses()[1], y, 1e-9);
 }
 
-TEST(PublicWorld, QueriesSeeBodiesWhereTheyAreNow) {
-  World world(towerOf(3));
-  EXPECT_THAT(world.at({0.2, 0.5}), ElementsAre(1));
-  EXPECT_THAT(world.at({5.0, 5.0}), IsEmpty());
-  EXPECT_THAT(world.inBox({-0.1, 0.9}, {0.1, 1.1}), ElementsAre(1, 2));
-  EXPECT_THAT(world.touching(Shape::circle(0.3), {0.7, 2.5}), ElementsAre(3));
-  EXPECT_THAT(world.touching(Shape::circle(0.1), {0.7, 2.5}), IsEmpty());
-  world.setPose(2, {7.0, 1.5}, 0.0);
-  EXPECT_THAT(world.at({7.0, 1.5}), ElementsAre(2));
-  EXPECT_THAT(world.at({0.0, 1.5}), IsEmpty());
-}
-
-TEST(PublicWorld, ABoxQueryDoesNotTakeTheBoxAroundABodyForTheBody) {
-  Scene scene;
-  scene.add({.shapes = {Shape::circle(1.0)}});
-  World world(scene);
-  EXPECT_THAT(world.inBox({0.8, 0.8}, {1.0, 1.0}), IsEmpty());
-  EXPECT_THAT(world.inBox({0.6, 0.6}, {1.0, 1.0}), ElementsAre(0));
-}
-
-TEST(PublicWorld, ARayMeetsTheFirstBodyOnItsWay) {
-  World world(towerOf(3));
-  const auto hit = world.castRay({-10.0, 1.5}, {10.0, 1.5});
-  ASSERT_TRUE(hit);
-  EXPECT_EQ(hit->body, 2U);
-  EXPECT_NEAR(hit->point.x, -0.5, 1e-9);
-  EXPECT_NEAR(hit->fraction, 9.5 / 20.0, 1e-9);
-  EXPECT_NEAR(hit->normal.x, -1.0, 1e-9);
-  EXPECT_EQ(hit->collection, world.collectionOf(2));
-  EXPECT_FALSE(world.castRay({-10.0, 50.0}, {10.0, 50.0}));
-  EXPECT_FALSE(world.castRay({-10.0, 1.5}, {-0.6, 1.5})) << "it ends before";
-  const auto inside = world.castRay({0.0, 1.5}, {10.0, 1.5});
-  ASSERT_TRUE(inside);
-  EXPECT_EQ(inside->body, 2U);
-  EXPECT_EQ(inside->fraction, 0.0);
-}
-
-TEST(PublicWorld, ARayMeetsACircleOnItsOutline) {
-  Scene scene;
-  scene.add({.position = {3.0, 4.0}, .shapes = {Shape::circle(2.0)}});
-  World world(scene);
-  const auto hit = world.castRay({0.0, 0.0}, {6.0, 8.0});
-  ASSERT_TRUE(hit);
-  EXPECT_NEAR(hit->fraction, 0.3, 1e-9);
-  EXPECT_NEAR(hit->normal.x, -0.6, 1e-9);
-  EXPECT_NEAR(hit->normal.y, -0.8, 1e-9);
-}
-
 TEST(PublicWorld, TheTimeStepCanBeChangedBetweenTwoSteps) {
   World world(towerOf(2));
   world.step(100);
@@ -267,39 +217,6 @@ TEST(PublicWorld, ASpringPullsByHooke) {
   EXPECT_NEAR(spring.force, 2.0 * (5.0 - 1.0), 1e-12);
 }
 
-TEST(PublicWorld, RefusesWhatMakesNoSense) {
-  World world(towerOf(1));
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusal([&] { world.at({nan, 0.0}); }), HasSubstr("finite"));
-  EXPECT_THAT(refusal([&] { world.setPose(7, {0.0, 0.0}, 0.0); }), HasSubstr("no body 7"));
-  EXPECT_THAT(refusal([&] { world.find("bxo 0"); }), HasSubstr("did you mean 'box 0'"));
-  EXPECT_THAT(refusal([&] { world.set("merging.velocty", 0.1); }),
-              HasSubstr("did you mean 'merging.velocity'"));
-  EXPECT_THAT(refusal([&] { world.set("merging.velocity", -1.0); }), HasSubstr("0 or more"));
-  EXPECT_THAT(refusal([&] { world.set("gravity", "[0, 0]"); }),
-              HasSubstr("'gravity' is of the scene, not a setting of a world: set its gravity"));
-  EXPECT_THAT(refusal([&] {
-                world.inBox({1.0, 1.0}, {0.0, 2.0});
-              }),
-              HasSubstr("the lower corner of a box is left of and below the upper one"));
-  EXPECT_THAT(refusal([&] { world.why(1, 1); }), HasSubstr("no pair"));
-  EXPECT_THAT(refusal([&] { world.restore("rubbish"); }), HasSubstr("saved state"));
-}
-
-TEST(PublicWorld, ANameStandsForOneBodyOfARun) {
-  World world(towerOf(2));
-  const auto add = [&](const char* name) {
-    world.add({.name = name, .position = {9.0, 9.0}, .shapes = {Shape::circle(0.5)}});
-  };
-  EXPECT_THAT(refusal([&] { add("box 1"); }), HasSubstr("two bodies are called 'box 1'"));
-  world.removeBody(world.find("box 1"));
-  EXPECT_THAT(refusal([&] { add("box 1"); }), HasSubstr("two bodies are called 'box 1'"));
-  add("");
-  add("");
-  add("box 2");
-  EXPECT_EQ(world.find("box 2"), 5U);
-}
-
 TEST(PublicWorld, SettingsAreReadAsTheyWereSet) {
   World world(towerOf(1));
   world.set("merging.velocity", 0.0123);
@@ -317,52 +234,6 @@ TEST(PublicWorld, TwoThreadsStepTwoWorldsToTheSameBits) {
   one.step(200);
   thread.join();
   EXPECT_EQ(one.save(), other.save());
-}
-
-TEST(PublicWorld, KeepsTheMessageOfEachThread) {
-  Scene scene;
-  EXPECT_EQ(m2_scene_set(scene.get(), "stpe", "1"), M2_INPUT_ERROR);
-  std::thread([] { EXPECT_STREQ(m2_error(), ""); }).join();
-  EXPECT_THAT(m2_error(), HasSubstr("stpe"));
-}
-
-TEST(PublicWorld, NullPointersAreErrors) {
-  EXPECT_EQ(m2_world_step(nullptr, 1), M2_INPUT_ERROR);
-  EXPECT_EQ(m2_world_new(nullptr, M2_MERGE, nullptr), M2_INPUT_ERROR);
-  EXPECT_EQ(m2_scene_load(nullptr, nullptr, 0, nullptr), M2_INPUT_ERROR);
-  EXPECT_EQ(m2_world_watch_poses(nullptr), nullptr);
-  EXPECT_TRUE(std::isnan(m2_world_time(nullptr)));
-  EXPECT_TRUE(std::isnan(m2_world_time_step(nullptr)));
-  EXPECT_TRUE(std::isnan(m2_world_gravity(nullptr).y));
-  EXPECT_EQ(m2_world_steps(nullptr), -1);
-  EXPECT_EQ(m2_world_mode(nullptr), M2_REFERENCE);
-  EXPECT_EQ(m2_world_body_count(nullptr), 0U);
-  EXPECT_EQ(m2_scene_body_count(nullptr), 0U);
-  m2_scene_free(nullptr);
-  m2_world_free(nullptr);
-  m2_free(nullptr);
-}
-
-TEST(PublicWorld, AMovedFromOneRefusesEverything) {
-  const auto take = [](auto& from) { return std::move(from); };
-  Scene scene = towerOf(1);
-  World world(scene);
-  const World kept = take(world);
-  EXPECT_EQ(kept.steps(), 0);
-  EXPECT_NE(refusal([&] { world.step(); }), "accepted");
-  EXPECT_NE(refusal([&] { world.time(); }), "accepted");
-  EXPECT_NE(refusal([&] { world.mode(); }), "accepted");
-  EXPECT_NE(refusal([&] { world.gravity(); }), "accepted");
-  EXPECT_NE(refusal([&] { world.bodyCount(); }), "accepted");
-  EXPECT_NE(refusal([&] { world.poses(); }), "accepted");
-  EXPECT_NE(refusal([&] { world.contacts(); }), "accepted");
-  EXPECT_NE(refusal([&] { world.draw(); }), "accepted");
-  const Scene moved = take(scene);
-  EXPECT_NE(refusal([&] { scene.bodyCount(); }), "accepted");
-  EXPECT_NE(refusal([&] { World refused(scene); }), "accepted");
-  world = World(moved);
-  world.step();
-  EXPECT_EQ(world.steps(), 1);
 }
 
 TEST(PublicWorld, TellsWhatJointsBear) {
@@ -384,24 +255,6 @@ TEST(PublicWorld, TellsWhatJointsBear) {
   world.removeJoint(0);
   world.step(10);
   EXPECT_LT(world.poses()[1], 1.99) << "it falls";
-}
-
-TEST(PublicPictures, DrawTheWorld) {
-  World world(towerOf(3));
-  auto def = merge2d::pictureDef();
-  def.width = 160;
-  def.height = 120;
-  def.overlays = "none";
-  const auto first = world.draw(def);
-  ASSERT_EQ(first.size(), 4U * 160 * 120);
-  world.setPose(3, {2.0, 2.5}, 0.3);
-  EXPECT_NE(world.draw(def), first);
-  def.theme = "drak";
-  EXPECT_THAT(refusal([&] { world.draw(def); }), HasSubstr("did you mean 'dark'"));
-  for (const int width : {-1, 0, 100'000}) {
-    def.width = width;
-    EXPECT_THAT(refusal([&] { world.draw(def); }), HasSubstr("16 to 16384 pixels"));
-  }
 }
 
 }  // namespace

@@ -139,5 +139,86 @@ TEST(JointBreak, AResumedRunBreaksItAsTheOneThatItContinues) {
   }
 }
 
+TEST(JointBreak, BreaksUnderALoadThatComesLater) {
+  Simulation run(R"(
+format = 1
+[[body]]
+name = "wall"
+motion = "pinned"
+at = [-0.5, 0]
+box = [1, 1]
+[[body]]
+name = "beam"
+at = [0.5, 0]
+box = [1, 0.2]
+mass = 2
+[[joint]]
+kind = "weld"
+bodies = ["wall", "beam"]
+at = [0, 0]
+break_force = 30
+[[force]]
+body = "beam"
+force = [0, -20]
+from = 2
+)",
+                 Mode::Merge);
+  run.until(1.9);
+  EXPECT_TRUE(run.merged("beam"));
+  run.until(2.1);
+  EXPECT_FALSE(run.merged("beam"));
+  EXPECT_TRUE(run.now().joints[0].broken);
+  EXPECT_EQ(run.count(EventType::Unmerge), 1);
+  EXPECT_EQ(run.count(EventType::Break), 1);
+  run.until(2.5);
+  EXPECT_LT(run.body("beam").x.y(), -1.0);
+}
+
+TEST(JointBreak, TheBodiesPartThoughTheyMayTouch) {
+  // The load hangs under a slab that rests on two pillars, and may touch it.
+  Simulation run(R"(
+format = 1
+[[body]]
+name = "left"
+motion = "pinned"
+at = [-1, 0]
+box = [0.2, 1]
+[[body]]
+name = "right"
+motion = "pinned"
+at = [1, 0]
+box = [0.2, 1]
+[[body]]
+name = "slab"
+at = [0, 0.6]
+box = [3, 0.2]
+mass = 3
+[[body]]
+name = "load"
+at = [0, 0.4]
+box = [0.2, 0.2]
+mass = 1
+[[joint]]
+kind = "weld"
+bodies = ["slab", "load"]
+at = [0, 0.5]
+break_force = 15
+collide = true
+[[force]]
+body = "load"
+force = [0, -20]
+from = 1.0
+until = 1.2
+)",
+                 Mode::Merge);
+  run.until(0.9);
+  EXPECT_TRUE(run.merged("load"));
+  run.until(1.1);
+  EXPECT_EQ(run.count(EventType::Break), 1);
+  EXPECT_FALSE(run.merged("load"));
+  run.until(2.0);
+  EXPECT_LT(run.body("load").x.y(), -1.0);
+}
+
 }  // namespace
 }  // namespace merge2d
