@@ -93,7 +93,7 @@ std::string json(const ContactGraph& graph, const CycleVerdicts& verdicts) {
 class Report {
  public:
   Report(const ContactGraph& graph, const CycleVerdicts& verdicts)
-      : graph_(graph), verdicts_(verdicts), cycle_of_(graph.pairs.size(), kNone) {
+      : graph_(graph), verdicts_(verdicts), cycle_of_(graph.pairs.size(), kNoCycle) {
     for (std::size_t c = 0; c < verdicts.cycles.size(); ++c) {
       for (const std::uint32_t pair : verdicts.cycles[c]) cycle_of_[pair] = c;
     }
@@ -122,7 +122,7 @@ class Report {
   }
 
  private:
-  static constexpr std::size_t kNone = ~std::size_t{0};
+  static constexpr std::size_t kNoCycle = ~std::size_t{0};
 
   static const char* word(std::uint8_t yes) { return yes != 0 ? "yes" : "no"; }
 
@@ -144,7 +144,7 @@ class Report {
     const std::string degenerate =
         generic && !rigid ? "; degenerate: its points are in a special position" : "";
     if (pair.contacts > 1) return fmt::format("{} contacts{}", pair.contacts, degenerate);
-    if (cycle_of_[i] != kNone) return cycleName(cycle_of_[i]) + degenerate;
+    if (cycle_of_[i] != kNoCycle) return cycleName(cycle_of_[i]) + degenerate;
     if (triangle) return "inside a group" + degenerate;
     return rigid ? "inside a rigid group" : "a pivot" + degenerate;
   }

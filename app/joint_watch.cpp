@@ -43,22 +43,22 @@ JointWatch::JointWatch(const World& world) : world_(world) {
     shorten(joints[i].a);
     if (!joints[i].to_world) shorten(joints[i].b);
     const bool yields = world.scene().joints[i].compliance > 0.0;
-    much_.push_back(yields ? kUnlimited : kPart * length + openingOf(joints[i]));
+    thresholds_.push_back(yields ? kUnlimited : kPart * length + openingOf(joints[i]));
   }
 }
 
-void JointWatch::see() {
-  if (much_.empty()) return;
+void JointWatch::update() {
+  if (thresholds_.empty()) return;
   const auto joints = world_.capture().joints;
-  for (std::size_t i = 0; i < much_.size(); ++i) {
+  for (std::size_t i = 0; i < thresholds_.size(); ++i) {
     const double opening = openingOf(joints[i]);
-    if (opening <= std::max(opening_, much_[i])) continue;
+    if (opening <= std::max(opening_, thresholds_[i])) continue;
     opening_ = opening;
     worst_ = i;
   }
 }
 
-std::optional<std::string> JointWatch::doubt() const {
+std::optional<std::string> JointWatch::warning() const {
   if (opening_ == 0.0) return std::nullopt;
   const auto& name = world_.scene().bodies[world_.scene().joints[worst_].a].name;
   return fmt::format(

@@ -17,15 +17,16 @@ class JointWatch {
   explicit JointWatch(const World& world);
 
   /// To be called after each step.
-  void see();
+  void update();
 
   /// A sentence on the joint that opened farthest, if that is by more than 1 % of the length of the
   /// shorter body, or 1 cm. Joints that give way by their own compliance are not meant.
-  std::optional<std::string> doubt() const;
+  std::optional<std::string> warning() const;
 
  private:
   const World& world_;
-  std::vector<double> much_;  ///< per joint of the scene: openings to be told begin here [m]
+  std::vector<double>
+      thresholds_;  ///< per joint of the scene: a warning tells of wider openings [m]
   std::size_t worst_ = 0;
   double opening_ = 0.0;  ///< of that joint [m]
 };

@@ -55,8 +55,8 @@ double depthUnder(double lambda, const Ends& ends, const Scene& scene) {
   return compliance * ends.inv_mass * lambda * scene.step / s.erp;
 }
 
-/// By more than this the overlap of two bodies is told [m].
-double muchFor(const Ends& ends) {
+/// A warning tells of deeper overlaps than this [m].
+double thresholdFor(const Ends& ends) {
   constexpr double kLittle = 0.02;  // of the size; and 2 cm
   return kLittle * std::min(ends.size, 1.0);
 }
@@ -68,7 +68,7 @@ class LoadWatch {
 
   /// After each step: overlaps as they are, of blows too, but for those of the start and those of
   /// bodies that press each other with little more than their own mass.
-  void see() {
+  void update() {
     const bool first = seen_++ == 0;
     const std::vector<double> heaviest = heaviestNeighbours();
     for (const auto& [pair, load] : loads(&overlapNow)) {
@@ -141,7 +141,7 @@ class LoadWatch {
       load.force += contact.lambda_n / world_.scene().step;
       const double depth = depthOf(contact, ends, world_.scene());
       load.sinks |= depth > 0.25 * ends.size;
-      if (depth > muchFor(ends)) load.depth = std::max(load.depth, depth);
+      if (depth > thresholdFor(ends)) load.depth = std::max(load.depth, depth);
     }
     return loads;
   }
@@ -181,14 +181,14 @@ void warnOfHeavyLoads(Scene& scene) {
   try {
     for (int i = stepsToWatch(scene); i > 0; --i) {
       world.step();
-      loads.see();
-      joints.see();
+      loads.update();
+      joints.update();
     }
   } catch (const SimulationError&) {
     return;  // the run will tell
   }
   warnOfPress(world, loads.deepest(), scene);
-  if (const auto doubt = joints.doubt()) scene.warnings.push_back(*doubt);
+  if (const auto warning = joints.warning()) scene.warnings.push_back(*warning);
 }
 
 void warnOfSmallBodies(Scene& scene) {

@@ -98,9 +98,9 @@ StudyData::StudyData(const std::filesystem::path& folder) {
 }
 
 const std::string& StudyData::text(std::size_t row, const std::string& column) const {
-  static const std::string kNone;
+  static const std::string kEmpty;
   const auto found = columns_.find(column);
-  if (found == columns_.end() || found->second >= rows_[row].size()) return kNone;
+  if (found == columns_.end() || found->second >= rows_[row].size()) return kEmpty;
   return rows_[row][found->second];
 }
 

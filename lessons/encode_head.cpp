@@ -44,9 +44,9 @@ void writeLoads(JsonText& out, const Scene& scene) {
 
 /// Of a long run the names alone: its events are packed columns, which hold indices of names.
 void writeEvents(JsonText& out, const Recording& r) {
-  static const std::vector<TimedEvent> kNone;
+  static const std::vector<TimedEvent> kNoEvents;
   const bool packed = r.every > 1;
-  out.array("events", packed ? kNone : r.events, [&](const TimedEvent& e) {
+  out.array("events", packed ? kNoEvents : r.events, [&](const TimedEvent& e) {
     out.row(e.step, name(e.event.type), e.event.a, e.event.b, e.event.collection,
             name(e.event.reason));
   });

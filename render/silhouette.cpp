@@ -104,8 +104,8 @@ std::vector<Segment> joined(std::vector<Segment> segments, double slack) {
   const auto start = [](const Segment& s) { return s.from.x(); };
   std::ranges::sort(segments, {}, start);
 
-  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> next(segments.size(), kNone);
+  constexpr std::size_t kNoSegment = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> next(segments.size(), kNoSegment);
   std::vector<bool> continues(segments.size(), false);
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const double x = segments[i].to.x();
@@ -122,7 +122,7 @@ std::vector<Segment> joined(std::vector<Segment> segments, double slack) {
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (continues[i]) continue;
     std::size_t last = i;
-    while (next[last] != kNone) last = next[last];
+    while (next[last] != kNoSegment) last = next[last];
     out.push_back({segments[i].from, segments[last].to});
   }
   return out;

@@ -23,7 +23,7 @@ void fillRows(const State& state, std::span<T> out, std::size_t columns, T none,
   }
 }
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 Vec2 centerNow(const State& state, BodyId body) {
   const bool own = state[body].rigid == rigidOf(body);
@@ -33,7 +33,7 @@ Vec2 centerNow(const State& state, BodyId body) {
 }  // namespace
 
 void writePoses(const State& state, std::span<double> out) {
-  fillRows(state, out, 3, kNone, [&](BodyId body, std::span<double> row) {
+  fillRows(state, out, 3, kAbsent, [&](BodyId body, std::span<double> row) {
     const Vec2 x = centerNow(state, body);
     row[0] = x.x();
     row[1] = x.y();
@@ -42,7 +42,7 @@ void writePoses(const State& state, std::span<double> out) {
 }
 
 void writeVelocities(const State& state, std::span<double> out) {
-  fillRows(state, out, 3, kNone, [&](BodyId body, std::span<double> row) {
+  fillRows(state, out, 3, kAbsent, [&](BodyId body, std::span<double> row) {
     const Vec2 v = state.rigid(body).velocityAt(state.pose(body).position);
     row[0] = v.x();
     row[1] = v.y();

@@ -13,6 +13,9 @@ enum class BodyId : std::uint32_t {};
 enum class CollectionId : std::int32_t {};
 inline constexpr CollectionId kNoCollection{-1};
 
+/// Instead of an index: none.
+inline constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
 constexpr std::size_t index(BodyId id) { return static_cast<std::size_t>(id); }
 constexpr std::int32_t value(CollectionId id) { return static_cast<std::int32_t>(id); }
 

@@ -53,14 +53,8 @@ class Contraction {
   }
 
   Groups groups() {
-    constexpr std::uint32_t kNone = ~0u;
-    Groups smallest(parent_.size(), kNone), groups(parent_.size());
-    for (std::uint32_t i = 0; i < groups.size(); ++i) {
-      std::uint32_t& first = smallest[find(i)];
-      if (first == kNone) first = i;
-      groups[i] = first;
-    }
-    return groups;
+    const auto nodes = static_cast<std::uint32_t>(parent_.size());
+    return namedGroups(nodes, [this](std::uint32_t i) { return find(i); });
   }
 
   const std::vector<CycleOfThree>& cycles() const { return cycles_; }

@@ -32,8 +32,6 @@ class PinsOfNodes {
   std::vector<std::uint32_t> first_, pins_;
 };
 
-constexpr std::uint32_t kNone = ~0u;
-
 /// A group that grows.
 class Growth {
  public:

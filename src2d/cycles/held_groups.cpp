@@ -41,12 +41,11 @@ struct Core {
 };
 
 Core coreOf(std::uint32_t nodes, std::span<const Pin> pins, DisjointSets& sets) {
-  constexpr std::uint32_t kUnnumbered = ~0u;
   Core core;
   core.pins.reserve(pins.size());
-  std::vector<std::uint32_t> number(nodes, kUnnumbered);
+  std::vector<std::uint32_t> number(nodes, kNone);
   const auto numbered = [&](std::uint32_t node) {
-    if (number[node] == kUnnumbered) {
+    if (number[node] == kNone) {
       number[node] = static_cast<std::uint32_t>(core.nodes.size());
       core.nodes.push_back(node);
     }
@@ -66,10 +65,10 @@ Core coreOf(std::uint32_t nodes, std::span<const Pin> pins, DisjointSets& sets) 
 void joinGrown(const Core& core, double resolution, DisjointSets& sets) {
   const auto inside =
       grownGroup(static_cast<std::uint32_t>(core.nodes.size()), core.pins, {resolution});
-  std::uint32_t first = ~0u;
+  std::uint32_t first = kNone;
   for (std::uint32_t i = 0; i < inside.size(); ++i) {
     if (inside[i] == 0) continue;
-    if (first == ~0u) first = i;
+    if (first == kNone) first = i;
     sets.unite(core.nodes[first], core.nodes[i]);
   }
 }

@@ -104,14 +104,7 @@ Groups genericGroups(std::uint32_t nodes, std::span<const Pin> pins) {
   for (const Pin& p : pins) game.pin(p.a, p.b);
   // A group that its last pin has made rigid may be larger than what the search reached.
   for (const Pin& p : pins) game.join(p.a, p.b);
-  constexpr std::uint32_t kNoNode = ~0u;
-  Groups smallest(nodes, kNoNode), groups(nodes);
-  for (std::uint32_t i = 0; i < nodes; ++i) {
-    std::uint32_t& first = smallest[game.find(i)];
-    if (first == kNoNode) first = i;
-    groups[i] = first;
-  }
-  return groups;
+  return namedGroups(nodes, [&](std::uint32_t i) { return game.find(i); });
 }
 
 }  // namespace merge2d

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "src2d/core/ids.h"
 #include "src2d/core/vec.h"
 
 namespace merge2d {
@@ -18,5 +19,17 @@ struct Pin {
 
 /// Per node the smallest node of its group; a node on its own is its own group.
 using Groups = std::vector<std::uint32_t>;
+
+/// Names the groups of `nodes` nodes, where `find(i)` is one number for all nodes of a group.
+template <class Find>
+Groups namedGroups(std::uint32_t nodes, Find&& find) {
+  Groups smallest(nodes, kNone), groups(nodes);
+  for (std::uint32_t i = 0; i < nodes; ++i) {
+    std::uint32_t& first = smallest[find(i)];
+    if (first == kNone) first = i;
+    groups[i] = first;
+  }
+  return groups;
+}
 
 }  // namespace merge2d

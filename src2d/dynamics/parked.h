@@ -66,7 +66,6 @@ class ParkedPairs {
   }
 
  private:
-  static constexpr std::uint32_t kNone = ~0u;
   /// A pair, in the lists of both its ends. Half 2i + k is that of end k of node i.
   struct Node {
     Pair pair{};

@@ -22,7 +22,7 @@ void listSources(const State& state, const BodyPair& pair, Scratch& scratch) {
       if (joins) {
         sources.back().points[1] = point;
       } else {
-        sources.push_back({{point, RowSource::kNone}});
+        sources.push_back({{point, kNone}});
       }
     }
   }

@@ -114,7 +114,7 @@ struct SweepItem {
 /// The source of a block of the full solve, which its impulses go back to: one or two points of the
 /// contact table, or a block inside an open collection.
 struct RowSource {
-  static constexpr PointIndex kNone = ~PointIndex{0}, kInner = PointIndex{1} << 31;
+  static constexpr PointIndex kInner = PointIndex{1} << 31;
   std::array<PointIndex, 2> points{kNone, kNone};
 
   static RowSource inside(std::uint32_t slot, std::uint32_t block) {

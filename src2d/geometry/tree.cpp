@@ -112,20 +112,20 @@ std::size_t AabbTree::memoryBytes() const { return bytesOf(leaves_, nodes_, move
 
 AabbTree::Ref AabbTree::newLeaf(const Box& box, std::uint32_t value) {
   Ref ref = free_leaf_;
-  if (ref == kNone) {
+  if (ref == kNoNode) {
     appendTightly(leaves_);
     ref = ~static_cast<Ref>(leaves_.size() - 1);
   } else {
     free_leaf_ = leaf(ref).parent;
   }
-  leaf(ref) = {box, kNone, value};
+  leaf(ref) = {box, kNoNode, value};
   ++leaf_count_;
   return ref;
 }
 
 AabbTree::Ref AabbTree::newNode() {
   const Ref ref = free_node_;
-  if (ref == kNone) {
+  if (ref == kNoNode) {
     appendTightly(nodes_);
     return static_cast<Ref>(nodes_.size() - 1);
   }
@@ -140,7 +140,7 @@ void AabbTree::freeNode(Ref ref) {
 
 void AabbTree::replaceChild(Ref parent, Ref child, Ref by) {
   parentOf(by) = parent;
-  if (parent == kNone) {
+  if (parent == kNoNode) {
     root_ = by;
   } else {
     auto& children = node(parent).child;
@@ -169,7 +169,7 @@ AabbTree::Ref AabbTree::bestSibling(const Box& box) const {
 
 /// Puts a leaf into the tree, or takes it out.
 void AabbTree::link(Ref ref) {
-  if (root_ == kNone) {
+  if (root_ == kNoNode) {
     root_ = ref;
     return;
   }
@@ -183,9 +183,9 @@ void AabbTree::link(Ref ref) {
 
 void AabbTree::unlink(Ref ref) {
   const Ref parent = leaf(ref).parent;
-  leaf(ref).parent = kNone;
-  if (parent == kNone) {
-    root_ = kNone;
+  leaf(ref).parent = kNoNode;
+  if (parent == kNoNode) {
+    root_ = kNoNode;
     return;
   }
   const auto [a, b] = node(parent).child;
@@ -197,7 +197,7 @@ void AabbTree::unlink(Ref ref) {
 
 /// Brings boxes and heights up to date from a node to the root.
 void AabbTree::climb(Ref ref) {
-  while (ref != kNone) {
+  while (ref != kNoNode) {
     ref = balanced(ref);
     refresh(node(ref));
     ref = node(ref).parent;
@@ -263,9 +263,9 @@ void AabbTree::rebuild() {
   };
   list(list, root_);
   nodes_.clear();
-  free_node_ = kNone;
+  free_node_ = kNoNode;
   root_ = build(order, 0, order.size());
-  parentOf(root_) = kNone;
+  parentOf(root_) = kNoNode;
 }
 
 AabbTree::Ref AabbTree::build(std::vector<Ref>& order, std::size_t begin, std::size_t end) {

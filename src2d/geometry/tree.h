@@ -53,7 +53,7 @@ class AabbTree {
 
   std::size_t size() const { return leaf_count_; }
   /// Boxes from the root to the deepest leaf.
-  int height() const { return root_ == kNone ? 0 : heightOf(root_) + 1; }
+  int height() const { return root_ == kNoNode ? 0 : heightOf(root_) + 1; }
   std::size_t memoryBytes() const;
 
   /// Holds a small part of the leaves that it once had.
@@ -63,20 +63,20 @@ class AabbTree {
  private:
   /// A node or a leaf: its place in nodes_, or the complement of that in leaves_.
   using Ref = std::int32_t;
-  static constexpr Ref kNone = -2147483647 - 1;
+  static constexpr Ref kNoNode = -2147483647 - 1;
 
   struct Box {
     float lower_x = 0.0F, lower_y = 0.0F, upper_x = 0.0F, upper_y = 0.0F;
   };
   struct Leaf {
     Box box;
-    Ref parent = kNone;  ///< kNone: the root; of a leaf that is not in use, the next such one
+    Ref parent = kNoNode;  ///< kNoNode: the root; of a leaf that is not in use, the next such one
     std::uint32_t value = 0;
   };
   struct Node {
     Box box;
-    std::array<Ref, 2> child{kNone, kNone};
-    Ref parent = kNone;  ///< as in Leaf
+    std::array<Ref, 2> child{kNoNode, kNoNode};
+    Ref parent = kNoNode;  ///< as in Leaf
     std::int32_t height = 1;
   };
 
@@ -125,7 +125,7 @@ class AabbTree {
 
   template <class Visit>
   void query(const Box& box, Visit& visit) const {
-    if (root_ == kNone) return;
+    if (root_ == kNoNode) return;
     std::array<Ref, kMostWaiting> waiting;
     std::size_t count = 0;
     waiting[count++] = root_;
@@ -164,8 +164,8 @@ class AabbTree {
   std::vector<Node> nodes_;
   std::vector<Ref> moved_;  ///< leaves with new boxes, before `settle`
   std::size_t leaf_count_ = 0;
-  Ref root_ = kNone;
-  Ref free_leaf_ = kNone, free_node_ = kNone;
+  Ref root_ = kNoNode;
+  Ref free_leaf_ = kNoNode, free_node_ = kNoNode;
   double built_cost_ = 0.0;  ///< perimeters of the nodes per leaf's when it was last built at once
 };
 

@@ -12,7 +12,7 @@ void uniteOnFloors(const State& state, const Collection& c, PartFinder& finder) 
   std::map<BodyId, std::uint32_t> on;  // per body of the frame: a member that it holds
   for (const Weld& weld : c.welds) {
     const std::uint32_t member = finder.fixedBy(weld);
-    const bool to_frame = member != PartFinder::kNone;
+    const bool to_frame = member != kNone;
     if (!to_frame || weld.cut || weld.expected || !finder.isFixed(member)) continue;
     const BodyId floor = member == weld.node_a ? weld.b : weld.a;
     finder.unite(member, on.emplace(floor, member).first->second);

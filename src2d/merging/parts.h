@@ -30,8 +30,6 @@ class PartFinder {
   /// The parts in the order of their first members.
   Parts parts();
 
-  static constexpr std::uint32_t kNone = ~0u;
-
  private:
   DisjointSets sets_;
   std::vector<std::uint8_t> on_frame_;  ///< per member: a weld fixes it there
