@@ -27,7 +27,7 @@ double reach(const State& state, double ahead) {
 }
 
 /// Most of those that do not touch stay apart however fast anything is, others as the two are no
-/// faster; and many need no look at all: they were farther apart than what has moved since.
+/// faster; and many need no look at all: they were farther apart than anything has moved since.
 bool staysApart(const State& state, const Approaches& approaches, const ContactKey& key,
                 float& apart) {
   apart -= static_cast<float>(2.0 * state.moved);

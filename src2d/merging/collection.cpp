@@ -27,13 +27,8 @@ RigidId collectionOf(State& state, BodyId b) {
   const RigidId own = rigidOf(b);
   const RigidId id = newCollection(state);
   const Rigid single = state[own];
-  Rigid& r = state[id];
-  const std::uint32_t extent = r.extent;
-  r = single;
-  r.extent = extent;
-  state.extents[extent] = state.extent(single);
-  r.leaf = -1;
-  r.center = Vec2::Zero();
+  takeMotion(state, id, single);
+  state[id].center = Vec2::Zero();
   removeRigid(state, own);
   enlist(state, id, b, {single.x, single.rotation}, single.angle);
   state.collection(id).members = {b};
@@ -127,6 +122,15 @@ RigidId newCollection(State& state) {
   const std::size_t of_bodies = state.extents.size() - state.collections.size();
   state[id].extent = static_cast<std::uint32_t>(of_bodies + slot);
   return id;
+}
+
+void takeMotion(State& state, RigidId id, const Rigid& of) {
+  Rigid& r = state[id];
+  const std::uint32_t extent = r.extent;
+  r = of;
+  r.extent = extent;
+  state.extents[extent] = state.extent(of);
+  r.leaf = -1;
 }
 
 void freeCollection(State& state, RigidId id) {

@@ -57,6 +57,8 @@ void bringBlocksBack(const State& state, Collection& collection);
 
 /// A new, empty collection that has neither place nor members yet.
 RigidId newCollection(State& state);
+/// Gives it the place and the motion of a rigid thing that it takes over from, or is a part of.
+void takeMotion(State& state, RigidId id, const Rigid& of);
 /// Gives the slot back; its rigid thing must have left the broadphase.
 void freeCollection(State& state, RigidId id);
 /// Shortens the tables where the last slots are free.

@@ -88,18 +88,7 @@ bool weld(State& state, Floors& floors, const BodyPair& pair) {
   return true;
 }
 
-/// Brings layouts up to date, from which the next step starts.
-void finishCollections(State& state, Scratch& scratch) {
-  layOutCollections(state);
-  releaseOpenRows(state, scratch, kDecided.kept_steps);
-}
-
-}  // namespace
-
-void merge(State& state, Scratch& scratch) {
-  if (!merges(state.mode)) return;
-  const auto pairs = pairsToWeld(state, scratch);
-  if (pairs.empty()) return finishCollections(state, scratch);
+void weldAll(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs) {
   Floors floors(state);
   for (const BodyPair& pair : pairs) {
     if (!weld(state, floors, pair)) continue;
@@ -109,11 +98,22 @@ void merge(State& state, Scratch& scratch) {
         {EventType::Merge, pair.a, pair.b, state.collection(id).id, EventReason::None});
   }
   absorbContacts(state);
-  finishCollections(state, scratch);
-  dropFreeSlots(state);
-  compactContacts(state.contacts);
-  collectPairs(state, scratch);
-  releaseRows(state, scratch);
+}
+
+}  // namespace
+
+void merge(State& state, Scratch& scratch) {
+  if (!merges(state.mode)) return;
+  const std::vector<BodyPair> pairs = pairsToWeld(state, scratch);
+  if (!pairs.empty()) weldAll(state, scratch, pairs);
+  layOutCollections(state);  // the next step starts from the layouts
+  const bool released = releaseOpenRows(state, scratch, kDecided.kept_steps);
+  if (!pairs.empty()) {
+    dropFreeSlots(state);
+    compactContacts(state.contacts);
+    collectPairs(state, scratch);
+  }
+  if (released || !pairs.empty()) releaseRows(state, scratch);
 }
 
 void releaseRows(State& state, Scratch& scratch) {
@@ -135,9 +135,8 @@ void releaseRows(State& state, Scratch& scratch) {
        scratch.island_bodies, scratch.moved, state.broadphase.near);
 }
 
-void releaseOpenRows(State& state, Scratch& scratch, int kept) {
-  if (scratch.sweep_u.empty() || state.step - scratch.last_sweep <= kept) return;
-  releaseRows(state, scratch);
+bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
+  if (scratch.sweep_u.empty() || state.step - scratch.last_sweep <= kept) return false;
   const auto release = [](auto& v) { std::remove_reference_t<decltype(v)>().swap(v); };
   release(scratch.sweep_u);
   release(scratch.open_start);
@@ -145,6 +144,7 @@ void releaseOpenRows(State& state, Scratch& scratch, int kept) {
   release(scratch.open);
   release(scratch.outer_loads);
   if (!scratch.sweeping) release(scratch.trial_u);
+  return true;
 }
 
 }  // namespace merge2d

@@ -15,8 +15,8 @@ void merge(State& state, Scratch& scratch);
 /// The full solve has become smaller: its memory goes back.
 void releaseRows(State& state, Scratch& scratch);
 
-/// The same where no collection was opened for more than `kept` steps, with all that only opened
-/// collections need.
-void releaseOpenRows(State& state, Scratch& scratch, int kept);
+/// Gives back the memory that only opened collections need, where none was opened for more than
+/// `kept` steps. Returns whether it did.
+bool releaseOpenRows(const State& state, Scratch& scratch, int kept);
 
 }  // namespace merge2d

@@ -3,8 +3,8 @@
 namespace merge2d {
 
 VelocityField sweptField(const State& state, const Scratch& scratch, const Collection& c) {
-  return fieldOf(state, c,
-                 [&](BodyId b) -> const SolverVelocity& { return scratch.sweep_u[index(b)]; });
+  return momentumField(
+      state, c, [&](BodyId b) -> const SolverVelocity& { return scratch.sweep_u[index(b)]; });
 }
 
 }  // namespace merge2d

@@ -9,7 +9,7 @@ namespace merge2d {
 /// A floating collection has the momentum of its members, of which `velocityOf(b)` is the
 /// SolverVelocity; an anchored one moves with its frame.
 template <class VelocityOf>
-VelocityField fieldOf(const State& state, const Collection& c, VelocityOf&& velocityOf) {
+VelocityField momentumField(const State& state, const Collection& c, VelocityOf&& velocityOf) {
   const Rigid& r = state[c.rigid];
   if (!r.floating()) return {r.x, r.v, r.omega};
   Vec2 p = Vec2::Zero();

@@ -98,7 +98,8 @@ void closeCollection(const State& state, Scratch& scratch, const Collection& c) 
   SolverVelocity& u = scratch.u[index(c.rigid)];
   u = {};
   if (r.floating()) {
-    const VelocityField gain = fieldOf(state, c, [&](BodyId b) { return gainOf(scratch, b); });
+    const VelocityField gain =
+        momentumField(state, c, [&](BodyId b) { return gainOf(scratch, b); });
     u = {r.v.x() + gain.v.x(), r.v.y() + gain.v.y(), r.omega + gain.omega};
   } else if (r.anchor != kWorldFrame) {
     const Rigid& anchor = state[rigidOf(c.anchor)];

@@ -2,7 +2,7 @@
 
 namespace merge2d {
 
-VelocityField fieldOf(const Rigid& r) { return {r.x, r.v, r.omega}; }
+VelocityField motionField(const Rigid& r) { return {r.x, r.v, r.omega}; }
 
 OrientedBox worldBox(const State& state, const Rigid& r) {
   OrientedBox box = state.extent(r).box;
@@ -18,7 +18,7 @@ void noteCorners(Notes* notes, const BodyPair& pair, const OrientedBox& box, con
   if (!notes) return;
   NotedCorners seen{.a = pair.a, .b = pair.b, .at = box.corners()};
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    seen.velocity[i] = fieldOf(a).at(seen.at[i]) - fieldOf(b).at(seen.at[i]);
+    seen.velocity[i] = motionField(a).at(seen.at[i]) - motionField(b).at(seen.at[i]);
   }
   notes->corners.push_back(seen);
 }
@@ -32,7 +32,8 @@ double fastestContact(const State& state, const BodyPair& pair) {
     const Contact& contact = state.contacts[state.contacts.order[i]];
     for (int k = 0; k < contact.count; ++k) {
       const Vec2 at = pose * contact.points[static_cast<std::size_t>(k)].position;
-      const Vec2 w = fieldOf(state.rigid(pair.a)).at(at) - fieldOf(state.rigid(pair.b)).at(at);
+      const Vec2 w =
+          motionField(state.rigid(pair.a)).at(at) - motionField(state.rigid(pair.b)).at(at);
       fastest = std::max(fastest, w.norm());
     }
   }
@@ -49,7 +50,7 @@ double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
   for (const Rigid* r : {&a, &b}) {
     if (!r->floating()) continue;
     const OrientedBox box = worldBox(state, *r);
-    fastest = std::max(fastest, fastestCorner(box, fieldOf(a), fieldOf(b)));
+    fastest = std::max(fastest, fastestCorner(box, motionField(a), motionField(b)));
     noteCorners(notes, pair, box, a, b);
   }
   return fastest;

@@ -1,6 +1,6 @@
 #pragma once
-/// How fast the two bodies of a pair move against each other, and what is little for their size
-/// (Section 5.2).
+/// How fast the two bodies of a pair move against each other, and the scale of thresholds by their
+/// size (Section 5.2).
 
 #include <algorithm>
 
@@ -17,7 +17,7 @@ inline double thresholdScale(double size) {
 }
 
 /// The motion of a rigid thing as a field, and its box, in the world.
-VelocityField fieldOf(const Rigid& r);
+VelocityField motionField(const Rigid& r);
 OrientedBox worldBox(const State& state, const Rigid& r);
 
 /// Eq. (15); only the boxes of floating things are looked at [m/s]. With `merging.metric = "naive"`

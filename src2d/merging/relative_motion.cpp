@@ -96,7 +96,7 @@ void countQuietRigids(State& state, Scratch& scratch) {
     Rigid& r = state[id];
     if (r.asleep || !canSleep(state, id)) continue;
     const OrientedBox box = worldBox(state, r);
-    const double motion = fastestCorner(box, fieldOf(r), still);
+    const double motion = fastestCorner(box, motionField(r), still);
     const double velocity = sleeping.velocity * thresholdScale(2.0 * box.half.minCoeff());
     r.slow_steps = motion < velocity ? r.slow_steps + 1 : 0;
     const bool slow = r.slow_steps > 0;

@@ -74,14 +74,9 @@ RigidId newPart(State& state, const std::vector<BodyId>& members,
   c.contacts = std::move(contacts);
   c.anchor = anchor;
   c.stale = true;
-  Rigid& r = state[id];
-  const std::uint32_t extent = r.extent;
-  r = whole;
-  r.extent = extent;
-  state.extents[extent] = state.extent(whole);
-  r.leaf = -1;
-  r.stir();
-  r.asleep = false;
+  takeMotion(state, id, whole);
+  state[id].stir();
+  state[id].asleep = false;
   for (const BodyId b : members) state[b].rigid = id;
   inheritMotion(state, id, whole, anchored);
   addShapes(state, id, members);
