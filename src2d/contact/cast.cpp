@@ -175,16 +175,26 @@ bool couldClose(const State& state, const Flights& f, const Contact& contact) {
   return false;
 }
 
+/// How far two things come in a step without a change of their nearest features, in touching gaps:
+/// bodies that hardly move meet at the features that are nearest now. The normal of a round thing
+/// turns on any way, and with it the direction of a bounce.
+double shortWay(const State& state, const ContactKey& key) {
+  constexpr double kShort = 20.0;
+  const auto isRound = [&](std::uint32_t shape) { return state.collider(shape).isCircle(); };
+  const bool bounces = restitutionOf(state, key.a, key.b) > 0.0;
+  return bounces && (isRound(key.shape_a) || isRound(key.shape_b)) ? 1.0 : kShort;
+}
+
 /// True when the two come so near in this step, on a way so long, that their nearest features may
-/// change: bodies that hardly move meet at the features that are nearest now.
+/// change.
 bool isPredicted(const State& state, const Contact& contact, double ahead) {
-  constexpr double kShort = 20.0;  // touching gaps; and twice the fall from rest by gravity
   const double gap = smallestGap(contact);
   if (gap <= 0.0) return false;
-  const double gravity = 2.0 * state.gravity.norm() * state.h * state.h;
+  const double gravity =
+      2.0 * state.gravity.norm() * state.h * state.h;  // twice the fall from rest
   if (gap >= ahead + gravity || ahead <= gravity) return false;
   const double touching = touchingGap(state, contact.key);
-  return gap > touching && ahead > kShort * touching + gravity;
+  return gap > touching && ahead > shortWay(state, contact.key) * touching + gravity;
 }
 
 /// The contact as it is at the encounter, in the frames of then. The memory of a point is kept

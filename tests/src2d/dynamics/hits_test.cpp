@@ -73,6 +73,25 @@ TEST(Hits, ABilliardCutHasTheAngleAndTheSpeed) {
   }
 }
 
+/// However short the way of a step is against the ball, the line of the centres is that of the
+/// meeting. The faster balls come as far in a step as the slower ones.
+TEST(Hits, ASlowBilliardCutHasTheAngleToo) {
+  const double r = 0.03, angle = 45.0 * kDegree;
+  for (const double speed : {0.02, 0.05, 0.1, 0.2, 0.3}) {
+    Scene scene = noGravity();
+    const Vec2 start(-0.0907, 2 * r * std::sin(angle));
+    add(scene, named("cue", elastic(moving(disc(r, start), {speed, 0}), 0.95)));
+    add(scene, named("object", elastic(disc(r, {0, 0}), 0.95)));
+    SCOPED_TRACE(speed);
+    inAllModesAndSteps(scene, [&](World& world) {
+      runSeconds(world, 0.2 / speed);
+      const Vec2 v = see(world, "object").v;
+      EXPECT_NEAR(v.norm(), speed * std::cos(angle) * 1.95 / 2.0, 1e-3 * speed);
+      EXPECT_NEAR(std::atan2(-v.y(), v.x()), angle, 2e-3);
+    });
+  }
+}
+
 TEST(Hits, RestitutionIsAsGivenAtAnObliqueHit) {
   for (const double e : {0.2, 0.5, 0.8}) {
     Scene scene = noGravity();
