@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "src2d/dynamics/solver.h"
+#include "src2d/scene/compliance.h"
 #include "tests/support/modes_and_steps.h"
 
 namespace merge2d {
@@ -66,6 +67,44 @@ TEST(Sizes, OnlySmallOnesAreHarder) {
   const SolverSettings& s = world.settings().solver;
   EXPECT_NEAR(0.5 - see(world, BodyId{1}).x.y(), s.compliance * kGravity * 1e-4 / (2.0 * s.erp),
               1e-6);
+}
+
+/// Both contacts of a roller yield by C (1/m₁ + 1/m₂) W h² / erp, with the compliance C that the
+/// size of the smaller body allows. docs/limits.md has the figures.
+TEST(Sizes, AHeavyPlankSinksIntoLightRollersByTheSoftnessOfTheirContacts) {
+  constexpr int kRollers = 9;
+  for (const double mass : {10.0, 100.0, 1000.0}) {
+    SCOPED_TRACE(mass);
+    const std::string toml = fmt::format(R"(
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [60, 1]
+[[body]]
+name = "roller"
+at = [-2, 0.1]
+circle = 0.1
+mass = 1
+repeat = {{ count = [{}, 1], spacing = [0.5, 1] }}
+[[body]]
+name = "plank"
+at = [0, 0.25]
+box = [4.4, 0.1]
+mass = {}
+)",
+                                         kRollers, mass);
+    inEachModeAndStep([&](Mode mode, double h) {
+      World world = worldOf(toml, mode, h);
+      runSeconds(world, 4.0);
+      const SolverSettings& s = world.scene().settings.solver;
+      const double fall = kGravity * h * h, weights = mass / kRollers;
+      const double at_plank = complianceFor(s, 0.1, fall) * (1.0 + 1.0 / mass) * weights;
+      const double at_ground = complianceFor(s, 0.2, fall) * (1.0 + weights);
+      const double sinks = (at_plank + at_ground) * fall / s.erp;
+      EXPECT_NEAR(0.25 - see(world, "plank").x.y(), sinks, 0.03 * sinks + 1e-6);
+    });
+  }
 }
 
 }  // namespace
