@@ -29,7 +29,7 @@ void wakeAround(const State& state, Scratch& scratch, BodyId body) {
   listAround(state, body, scratch.stirred);
 }
 
-/// What the user has changed since the last step is awake from its start on.
+/// Bodies that the user has changed since the last step are awake from its start on.
 void takeOverStirred(State& state, Actions& actions, Scratch& scratch) {
   for (const BodyId body : actions.stirred) {
     if (!state[body].alive) continue;
@@ -111,7 +111,7 @@ void beginStep(State& state, Actions& actions, Scratch& scratch) {
   moveScripted(state, actions);
   listLoads(state, actions, scratch);
   listKicks(state, actions, scratch);
-  // What is about to be struck looks ahead for contacts already in this step.
+  // Bodies that are about to be struck look ahead for contacts already in this step.
   for (const Kick& kick : scratch.kicks) {
     if (state.rigid(kick.body).asleep) wakeUp(state, scratch, state[kick.body].rigid);
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// What happens to a world from outside, before a step begins.
+/// Changes to a world from outside, before a step begins.
 
 #include "src2d/dynamics/forces.h"
 #include "src2d/dynamics/state.h"

@@ -19,7 +19,7 @@ struct OwnVelocity {
   double omega = 0.0;     ///< [rad/s]
 };
 
-/// What one stage left behind.
+/// The state after one stage.
 struct StageRecord {
   /// The state after the stage. Contacts carry their impulses as they are then: of the last step
   /// up to WarmStart, of the sweep inside collections after it, of the full solve after SolveLCP.

@@ -29,10 +29,10 @@ void appendJoint(State& state, const JointDesc& desc);
 void appendSpring(Actions& actions, const SpringDesc& spring, const Vec2& center_of_body,
                   const Vec2& center_of_other);
 
-/// What never changes about the bodies, by id.
+/// The constant data of the bodies, by id.
 std::vector<BodyInfo> describeBodies(const Scene& scene, const Setup& setup);
 
-/// What a body was made from.
+/// The description that a body was made from.
 const BodyDesc& descriptionOf(const Scene& scene, const Setup& setup, BodyId body);
 
 /// A body enters the simulation at the pose and velocity that its rigid thing holds.

@@ -294,7 +294,7 @@ void World::wake(BodyId body) { merge2d::wake(impl_->waking(impl_->checked(body)
 BodyId World::addBody(const BodyDesc& desc) {
   checkBody(desc);
   const BodyId body = merge2d::addBody(impl_->changing(), desc);
-  // What is kept of the last step is numbered as the bodies were.
+  // Events and notes of the last step are numbered as the bodies were.
   std::vector<Event> events = std::move(impl_->scratch.events);
   impl_->scratch = {};
   impl_->scratch.events = std::move(events);

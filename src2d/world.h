@@ -82,7 +82,7 @@ class World {
 
   /// Whether the following steps note their decisions.
   void takeNotes(bool on);
-  /// What the stages of the last step wrote down; empty when nobody asked.
+  /// The notes of the stages of the last step; empty when nobody asked.
   const Notes& notes() const;
 
   /// Called after each stage of each step; null for none. The world does not own it.

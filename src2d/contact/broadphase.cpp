@@ -15,7 +15,7 @@ namespace {
 /// things have moved by as much against each other [m].
 constexpr double kNear = 0.05;
 
-/// What became of a rigid thing: its box left its leaf's, or it has other members than before.
+/// Changes of a rigid thing: its box left its leaf's, or it has other members than before.
 constexpr std::uint8_t kMoved = 1, kResized = 2;
 
 Aabb worldBounds(const State& state, const Rigid& r) {

@@ -12,7 +12,8 @@
 
 namespace merge2d {
 
-/// What onGrid does far from the origin. On its own, so that onGrid is small enough to be inlined.
+/// The case of onGrid far from the origin. On its own, so that onGrid is small enough to be
+/// inlined.
 [[gnu::cold, gnu::noinline]] inline double onGridFarOut(double a) {
   constexpr double kSteps = 0x1p42;
   return std::nearbyint(a * kSteps) / kSteps;

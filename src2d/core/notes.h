@@ -1,6 +1,6 @@
 #pragma once
-/// What only the stages themselves know while they work. They write it down when somebody asks
-/// (Scratch::notes), and do not look at it again.
+/// Notes of the stages about their work. They write them down when somebody asks (Scratch::notes),
+/// and do not look at them again.
 
 #include <array>
 #include <vector>

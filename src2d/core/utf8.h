@@ -66,7 +66,7 @@ inline std::string escapedControl(std::string_view character) {
 }
 
 /// The text without what a terminal would obey: for messages, which quote what others wrote.
-/// Control characters are escaped but for those in `kept`; what is no UTF-8 becomes U+FFFD.
+/// Control characters are escaped but for those in `kept`; bytes that are no UTF-8 become U+FFFD.
 inline std::string escaped(std::string_view text, std::string_view kept = {}) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {

@@ -35,7 +35,7 @@ struct ContactGraph {
 /// InputError `source:line:column: …`.
 ContactGraph parseContactGraph(std::string_view text, const std::string& source);
 
-/// What the criteria say. Pinned bodies act as one.
+/// The verdicts of the criteria. Pinned bodies act as one.
 struct CycleVerdicts {
   Groups triangle, rigid;            ///< per body
   Groups generic;                    ///< rigid, were the points in general position

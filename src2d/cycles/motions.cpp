@@ -15,7 +15,8 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// What the velocities of a node refer to: the middle of its pins, and their distance from there.
+/// The reference of the velocities of a node: the middle of its pins, and their distance from
+/// there.
 struct Reference {
   Vec2 middle = Vec2::Zero();
   double size = 0.0;

@@ -27,7 +27,7 @@ struct InternalPoint {
   double lambda_n = 0.0, lambda_t = 0.0;  ///< while the contact has no block [N s]
 };
 
-/// What is known of a point's limits.
+/// The state of a point's limits.
 struct PointWatch {
   bool active = false;  ///< has carried a force, so that its loss is a break
   bool lost = false;    ///< has opened since
@@ -38,8 +38,8 @@ struct PointWatch {
 /// Instead of the step of a merge: a contact that may close in this step, and holds nothing.
 inline constexpr std::int64_t kExpected = -1;
 
-/// A contact inside a collection: its memory is cold, its block hot. What the tests of a step look
-/// at comes first.
+/// A contact inside a collection: its memory is cold, its block hot. The data that the tests
+/// of a step look at come first.
 struct InternalContact {
   static constexpr std::uint32_t kNoBlock = ~0u;
 

@@ -18,7 +18,7 @@
 
 namespace merge2d {
 
-/// What a sweep knows about a body: one cache line.
+/// The data of a body that a sweep needs: one cache line.
 struct alignas(64) SolverVelocity {
   double vx = 0.0, vy = 0.0;  ///< of the centre of mass [m/s]
   double omega = 0.0;         ///< [rad/s]

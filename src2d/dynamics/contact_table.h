@@ -28,7 +28,7 @@ struct ContactKey {
   }
 };
 
-/// What is remembered of a contact point while it lasts.
+/// A contact point, with its memory while it lasts.
 struct ContactPoint {
   Vec2 position = Vec2::Zero();  ///< in a's frame; inside a collection in the collection's [m]
   double gap = 0.0;              ///< [m]

@@ -43,7 +43,7 @@ class Report {
   const std::function<std::string(BodyId)>& name_of_;
 };
 
-/// What the sweep left of the members that it swept.
+/// The velocities of members after a sweep.
 void checkSweep(const State& state, const Scratch& scratch, const Report& report) {
   if (scratch.last_sweep != state.step) return;
   for (const Collection& c : state.collections) {
@@ -55,7 +55,7 @@ void checkSweep(const State& state, const Scratch& scratch, const Report& report
   }
 }
 
-/// What the full solve left of all that touches something.
+/// The velocities of all that touches something after the full solve.
 void checkSolve(const State& state, const Scratch& scratch, const Report& report) {
   for (const std::uint32_t i : scratch.island_bodies) {
     const bool world = i >= state.rigids.size();

@@ -50,7 +50,7 @@ SpringStretch stretchOf(const State& state, const TimedSpring& spring) {
   return s;
 }
 
-/// What an explicit step of a spring does to the velocity of each of its ends, relative to that
+/// The change of the velocity of each end by an explicit step of a spring, relative to that
 /// velocity, summed per body. A spring without length acts in any direction.
 void addGains(const State& state, const TimedSpring& spring, const SpringStretch& s,
               std::vector<double>& gain) {

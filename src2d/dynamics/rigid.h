@@ -1,5 +1,5 @@
 #pragma once
-/// What moves: bodies as they were described, and the rigid things that are simulated.
+/// Bodies as they were described, and the rigid things that are simulated.
 
 #include <cstdint>
 
@@ -30,7 +30,7 @@ struct Extent {
 /// it as members come and go.
 struct Rigid {
   Vec2 x = Vec2::Zero();       ///< centre of mass (the frame's origin when not floating) [m]
-  Vec2 rest = Vec2::Zero();    ///< of it, what is finer than the grid of positions [m]
+  Vec2 rest = Vec2::Zero();    ///< the part of it below the grid of positions [m]
   Vec2 center = Vec2::Zero();  ///< centre of mass in the frame [m]
   Vec2 v = Vec2::Zero();       ///< of the centre of mass [m/s]
   double omega = 0.0;          ///< [rad/s]

@@ -1,5 +1,5 @@
 #pragma once
-/// What lives for one step; its memory is kept for the next.
+/// Data of one step; its memory is kept for the next.
 
 #include <array>
 #include <compare>

@@ -9,7 +9,7 @@
 namespace merge2d {
 namespace {
 
-/// Rows ask for the velocity that closes what is left after the step; no friction.
+/// Rows ask for the velocity that closes the overlap that is left after the step; no friction.
 void aimAtGaps(const State& state, Scratch& scratch) {
   for (std::size_t i = 0; i < scratch.blocks.size(); ++i) {
     ContactBlock& k = scratch.blocks[i];

@@ -11,7 +11,7 @@ namespace merge2d {
 /// The part of an error that one step removes.
 inline constexpr double kCorrectedShare = 0.5;
 
-/// Under `solver.stabilisation = "post"`: moves what is in B by the smallest motions that remove
+/// Under `solver.stabilisation = "post"`: moves the things in B by the smallest motions that remove
 /// half of each overlap; the rows of this step serve again.
 void correctPositions(State& state, Scratch& scratch);
 

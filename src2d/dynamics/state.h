@@ -84,7 +84,7 @@ struct State {
   bool isCollection(RigidId id) const { return index(id) >= bodies.size(); }
   Collection& collection(RigidId id) { return collections[index(id) - bodies.size()]; }
   const Collection& collection(RigidId id) const { return collections[index(id) - bodies.size()]; }
-  /// What a rigid thing is called by: its body, or the first member.
+  /// The body that names a rigid thing: its own, or the first member.
   BodyId firstBody(RigidId id) const {
     return isCollection(id) ? collection(id).members.front()
                             : BodyId{static_cast<std::uint32_t>(id)};

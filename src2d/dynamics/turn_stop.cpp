@@ -14,7 +14,7 @@ constexpr double kLeastTurn = 1e-3;  ///< moves no corner by as much as a shape 
 constexpr double kFarWay = 0.5;      ///< of the thinner shape: likewise a way, for one that turns
 constexpr double kDeeper = 0.1;      ///< of the thinner shape: an overlap that is let be
 
-/// What a thing does in this step.
+/// The motion of a thing in this step.
 struct StepMotion {
   Vec2 way = Vec2::Zero();  ///< of its centre of mass [m]
   double turn = 0.0;        ///< [rad]

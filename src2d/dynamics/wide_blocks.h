@@ -4,7 +4,7 @@
 /// Blocks of one colour share no body that moves: solved side by side they change the same bodies
 /// by the same amounts as one after the other, and the results are the same bits as those of
 /// `solveBlock` on every processor (dynamics/wide_kernel.h). Points of magnets, rolling discs and
-/// what is left of a colour are solved one by one.
+/// the rest of a colour are solved one by one.
 
 #include <array>
 #include <cstdint>

@@ -14,7 +14,7 @@ struct FourPoints {
   FourFloats x, y;
 };
 
-/// Vectors `first` to `first` + 3; what is beyond a polygon's last is of no meaning.
+/// Vectors `first` to `first` + 3; those beyond a polygon's last are of no meaning.
 FourPoints loadPoints(const b2Vec2* all, int first) {
   static_assert(b2_maxPolygonVertices % 4 == 0);
   FourPoints p{};

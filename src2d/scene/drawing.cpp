@@ -155,7 +155,7 @@ class Drawing {
     addHalfPlane(center(lone[0]), center(lone[1]));
   }
 
-  /// What lies below the line, as a box much larger than the drawing.
+  /// The half-plane below the line, as a box much larger than the drawing.
   void addHalfPlane(Vec2 left, Vec2 right) {
     if (left.x() > right.x()) std::swap(left, right);
     const Vec2 along = (right - left).normalized();
@@ -290,7 +290,7 @@ class Drawing {
     return spring;
   }
 
-  // What the user should know
+  // Warnings
 
   /// Remembers a body that is blue in part: `matter` are its pixels.
   void noteMixture(const std::vector<Cell>& matter) {

@@ -151,7 +151,7 @@ constexpr std::array<Format, 6> kFormats{{{"PNG", kSignature},
                                           {"BMP", "BM", 6, {"\0\0\0\0", 4}},
                                           {"WebP", "RIFF", 8, "WEBP"}}};
 
-/// What libpng would say in words of its own, or not at all.
+/// Checks for which libpng has words of its own, or none.
 void checkWhole(std::string_view bytes, const std::string& name) {
   const auto fail = [&](std::string_view sentence) {
     throw InputError(fmt::format("{}: {}", name, sentence));
@@ -171,7 +171,7 @@ bool hasPalette(std::string_view bytes) {
   return bytes.size() > color_type && bytes[color_type] == PNG_COLOR_TYPE_PALETTE;
 }
 
-/// What the header of a whole PNG claims, before anybody believes it.
+/// Checks the size that the header of a whole PNG claims, before anybody believes it.
 void checkSize(std::string_view bytes, const std::string& name) {
   const std::size_t header = kSignature.size() + 4;
   if (bytes.substr(header, 4) != "IHDR") return;  // libpng says so

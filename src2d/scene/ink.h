@@ -22,7 +22,7 @@ enum class Ink {
 /// Colours are compared with a tolerance of 0.05 (of 1).
 Ink inkOf(const Image::Pixel& pixel);
 
-/// What else the pixel might be meant as, when it is near the border of two inks.
+/// The other ink that the pixel might mean, when it is near the border of two.
 std::optional<Ink> doubtfulInk(const Image::Pixel& pixel);
 
 /// Mass relative to black, 1 - (0.30 r + 0.59 g + 0.11 b): between 0 and 1.

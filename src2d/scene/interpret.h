@@ -26,7 +26,7 @@ BodyNames readBodies(TableReader& root, Scene& scene);
 
 /// A body's keys, also of an emitter's template. Material and name come from `defaults`.
 BodyDesc readBody(TableReader& table, const BodyDesc& defaults);
-/// What only a whole table can tell: a scripted body needs a script. Call after `done`.
+/// Checks of a whole table: a scripted body needs a script. Call after `done`.
 void checkBody(const TableReader& table, const BodyDesc& body);
 /// Throws the complaint, if there is one, at its key.
 void obey(const TableReader& table, const Verdict& verdict);

@@ -18,7 +18,7 @@ constexpr bool sleeps(Mode m) { return m == Mode::Sleep || m == Mode::MergeSleep
 /// letter.
 enum class MergingRule { Default, Paper };
 
-/// What comes free: the same two, and `Decided`, which decides from impulses that have converged
+/// Rules of unmerging: the same two; the default one decides from impulses that have converged
 /// (docs/decisions/decided.md).
 enum class UnmergingRule { Default, Paper };
 

@@ -10,7 +10,7 @@
 namespace merge2d {
 namespace {
 
-/// What a terminal shows in one column, and never obeys.
+/// Text that a terminal shows in one column, and never obeys.
 std::string_view printable(std::string_view character, bool valid) {
   if (!valid) return "\xEF\xBF\xBD";  // U+FFFD
   return isControl(character) ? " " : character;

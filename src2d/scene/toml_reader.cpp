@@ -42,7 +42,7 @@ std::string homeOf(std::string_view key) {
   return homes.empty() ? "" : fmt::format(" (it belongs in {})", homes);
 }
 
-/// What may be meant by an unknown key: one of those known or, where these are few, any of them.
+/// A suggestion for an unknown key: one of those known or, where these are few, any of them.
 std::string hintOf(std::string_view key, const std::vector<std::string_view>& known) {
   constexpr std::size_t kFew = 9;
   const std::string near = didYouMean(key, known);

@@ -1,4 +1,4 @@
-/// Scenes as text: what is as by default is left out.
+/// Scenes as text, without values that are the default.
 
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ class TomlText {
   void put(std::string_view key, const T& value) {
     raw(key, written(value));
   }
-  /// Leaves out what is as by default.
+  /// Leaves out default values.
   template <class T>
   void put(std::string_view key, const T& value, const T& usual) {
     if (!(value == usual) || written(value) != written(usual)) put(key, value);

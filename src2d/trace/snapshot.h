@@ -18,8 +18,8 @@
 
 namespace merge2d {
 
-/// What never changes about a body. All bodies of a run, also those not emitted yet, have their
-/// entry from the start: `World::bodies()[index(id)]`.
+/// The constant data of a body. All bodies of a run, also those not emitted yet, have their entry
+/// from the start: `World::bodies()[index(id)]`.
 struct BodyInfo {
   std::string name;
   Motion motion = Motion::Dynamic;

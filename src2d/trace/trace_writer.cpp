@@ -26,7 +26,7 @@ void writeBodyInfo(JsonText& out, std::size_t id, const BodyInfo& body) {
   out.close('}');
 }
 
-/// What never changes about the joints; absent in scenes without them.
+/// The constant data of the joints; absent in scenes without them.
 void writeJointInfo(JsonText& out, const JointDesc& joint) {
   out.open('{').field("kind", nameOf(joint.kind)).field("a", joint.a);
   if (joint.b) {
