@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/contact_runs.h"
+#include "tests/support/modes_and_steps.h"
 
 namespace merge2d {
 namespace {

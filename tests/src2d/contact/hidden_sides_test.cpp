@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "tests/support/contact_runs.h"
+#include "tests/support/modes_and_steps.h"
 
 namespace merge2d {
 namespace {
