@@ -1,358 +1,402 @@
 #include "src2d/dynamics/newton.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
-#include "src2d/dynamics/body_matrix.h"
+#include "src2d/dynamics/direct_rows.h"
 
 namespace merge2d {
 namespace {
 
-constexpr double kRigid = 1e-4;      ///< C of a rigid row, of its K
-constexpr double kConverged = 1e-9;  ///< gradient, of the momenta that balance
-constexpr double kSettled = 1e-5;    ///< velocity of rigid rows, of the fastest change
-constexpr double kStalls = 0.7;      ///< part of it that is left after a futile round
-constexpr int kMostRounds = 20, kMostSteps = 60, kMostTrials = 40;
-constexpr std::uint32_t kFixed = ~0u;
+constexpr double kRigid = 1e-8;   ///< softness of a rigid row, of its K
+constexpr double kExact = 1e-7;   ///< velocity that is left, of the fastest without impulses
+constexpr double kInside = 0.99;  ///< part of the way to the nearest bound that a step goes
+constexpr int kMostSteps = 50;
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// w = d·(v_b − v_a) + r_b ω_b − r_a ω_a + bias, with the softness C.
-struct Row {
-  std::uint32_t a = kFixed, b = kFixed;  ///< places among the bodies of the island
-  Twist j_a, j_b;                        ///< the Jacobian's parts
-  double bias = 0.0;
-  double own = 0.0, softness = 0.0;  ///< its own one, and C, which may be larger
-  double lower = 0.0, upper = 0.0;   ///< of γ, where no cone bounds it
-  std::uint32_t block_a = 0, block_b = 0, block_ab = 0;  ///< of the matrix
-  double mu = -1.0;  ///< of the cone that this row and the next one share; or none
-};
+/// One side on which an impulse may be bounded: how far it is from there [N s], and the velocity
+/// that the bound leaves [m/s]; and how a step changes these.
+struct Bound {
+  bool exists = false;
+  double gap = 1.0, slack = 0.0;
+  double d_gap = 0.0, d_slack = 0.0;
 
-/// The slope −dγ/dw of one or two rows.
-struct Slope {
-  double nn = 0.0, nt = 0.0, tt = 0.0;
-};
-
-double dot(const Twist& x, const Twist& y) { return x.vx * y.vx + x.vy * y.vy + x.omega * y.omega; }
-void add(Twist& x, const Twist& y, double s) {
-  x.vx += s * y.vx;
-  x.vy += s * y.vy;
-  x.omega += s * y.omega;
-}
-
-/// On the cone |γ_t| ≤ μ γ_n, in the metric of the softness.
-Slope project(const Row& n, const Row& t, double& gamma_n, double& gamma_t) {
-  if (std::abs(gamma_t) <= n.mu * gamma_n) return {1.0 / n.softness, 0.0, 1.0 / t.softness};
-  const double edge = std::copysign(n.mu, gamma_t);
-  const double square = n.softness + edge * edge * t.softness;
-  gamma_n = std::max(0.0, (n.softness * gamma_n + edge * t.softness * gamma_t) / square);
-  gamma_t = edge * gamma_n;
-  if (gamma_n == 0.0) return {};
-  return {1.0 / square, edge / square, edge * edge / square};
-}
-
-Slope project(const Row& row, double& gamma) {
-  const double wanted = gamma;
-  gamma = std::clamp(wanted, row.lower, row.upper);
-  return {gamma == wanted ? 1.0 / row.softness : 0.0, 0.0, 0.0};
-}
-
-class Newton {
- public:
-  Newton(std::span<const std::uint32_t> bodies, const std::vector<SolverVelocity>& u) : u_(u) {
-    place_.assign(u.size(), kFixed);
-    for (const std::uint32_t body : bodies) {
-      const SolverVelocity& of = u[body];
-      place_[body] = static_cast<std::uint32_t>(free_.size());
-      free_.push_back({of.vx, of.vy, of.omega});
-      mass_.push_back({1.0 / of.inv_mass, 1.0 / of.inv_mass, 1.0 / of.inv_inertia});
-    }
+  double stiffness() const { return slack / gap; }
+  double product(double s = 0.0) const { return (gap + s * d_gap) * (slack + s * d_slack); }
+  /// The change of the product that a step is to make beyond its linear part.
+  double wanted(double target, bool corrects) const {
+    return target - gap * slack - (corrects ? d_gap * d_slack : 0.0);
   }
+};
+
+/// An impulse that is sought, between its bounds.
+struct Unknown {
+  double x = 0.0;      ///< [N s]
+  double error = 0.0;  ///< by which the velocity along it misses [m/s]
+  double rhs = 0.0;    ///< of its equation in a step [m/s]
+  Bound low, high;
+
+  double stiffness() const {
+    return (low.exists ? low.stiffness() : 0.0) + (high.exists ? high.stiffness() : 0.0);
+  }
+  template <class Visit>
+  void forEachBound(Visit&& visit) {
+    if (low.exists) visit(low);
+    if (high.exists) visit(high);
+  }
+  template <class Visit>
+  void forEachBound(Visit&& visit) const {
+    if (low.exists) visit(low);
+    if (high.exists) visit(high);
+  }
+};
+
+/// A row with its impulse, or the normal and the tangent of a point with those along the edges of
+/// its cone; between a lower and an upper bound.
+struct Group {
+  std::uint32_t row = 0, unknown = 0;
+  double mu = -1.0;  ///< of the cone, if it is one
+  double softness = 0.0;
+  double lower = 0.0, upper = kUnbounded;
+  std::array<double, 3> inverse{};  ///< of the matrix of its impulses: 11, 12, 22
+
+  bool isCone() const { return mu >= 0.0; }
+  bool isFree() const { return isCone() || upper > lower; }
+  std::uint32_t size() const { return isCone() ? 2 : 1; }
+};
+
+/// Two points whose friction acts where their pressure has its centre.
+struct Manifold {
+  const ContactBlock* block;
+  std::uint32_t group;  ///< of the first point
+};
+
+class InteriorPoint {
+ public:
+  InteriorPoint(std::span<const std::uint32_t> bodies, const std::vector<SolverVelocity>& u)
+      : u_(u), rows_(bodies, u) {}
 
   void addBlock(const ContactBlock& k) {
+    const Vec2 n(k.nx, k.ny), t(-k.ny, k.nx);
+    const double belts = u_[k.a].surface + u_[k.b].surface;
+    if (k.count == 2 && !k.bilateral) {
+      manifolds_.push_back({&k, static_cast<std::uint32_t>(groups_.size())});
+    }
     for (int i = 0; i < k.count; ++i) {
-      const double belts = u_[k.a].surface + u_[k.b].surface;
-      Row n = makeRow(k.a, k.b, k.nx, k.ny, k.arm_an[i], k.arm_bn[i], k.bias[i], k.softness);
-      Row t = makeRow(k.a, k.b, -k.ny, k.nx, k.arm_at[i], k.arm_bt[i], belts, 0.0);
+      const auto normal = rows_.add(k.a, k.b, n, k.arm_an[i], k.arm_bn[i], k.bias[i]);
+      const auto tangent = rows_.add(k.a, k.b, t, k.arm_at[i], k.arm_bt[i], belts);
       if (k.bilateral) {
-        n.lower = t.lower = -kUnbounded;
-        n.upper = t.upper = kUnbounded;
+        addImpulse(normal, k.softness, -kUnbounded, kUnbounded, k.lambda_n(i));
+        addImpulse(tangent, 0.0, -kUnbounded, kUnbounded, k.lambda_t(i));
       } else {
-        n.mu = k.mu;
-        n.softness = t.softness = std::max(n.softness, t.softness);
+        addCone(normal, k, i);
       }
-      rows_.push_back(n), rows_.push_back(t);
-      gamma_.push_back(k.lambda_n(i)), gamma_.push_back(k.lambda_t(i));
     }
     if (!k.rolls()) return;
-    Row r = makeRow(k.a, k.b, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0);
-    r.upper = k.rolling() * std::max(0.0, k.lambda_n(0));  // of the load of the last step
-    r.lower = -r.upper;
-    rows_.push_back(r), gamma_.push_back(k.lambda[3]);
+    const double most = k.rolling() * std::max(0.0, k.lambda_n(0));  // of the load of the last step
+    const auto row = rows_.add(k.a, k.b, Vec2::Zero(), 1.0, 1.0, 0.0);
+    addImpulse(row, 0.0, -most, most, k.lambda_r());
   }
 
   void addJoint(const JointBlock& k) {
     k.forEachRow([&](std::size_t i) {
       const JointRow& of = k.rows[i];
-      Row r = makeRow(k.a, k.b, of.dx, of.dy, of.arm_a, of.arm_b, of.bias, of.softness);
+      const auto row = rows_.add(k.a, k.b, {of.dx, of.dy}, of.arm_a, of.arm_b, of.bias);
       const bool bounded = i >= static_cast<std::size_t>(k.coupled);
-      r.lower = bounded ? of.lower : -kUnbounded;
-      r.upper = bounded ? of.upper : kUnbounded;
-      rows_.push_back(r), gamma_.push_back(k.lambda[i]);
+      addImpulse(row, of.softness, bounded ? of.lower : -kUnbounded,
+                 bounded ? of.upper : kUnbounded, k.lambda[i]);
     });
   }
 
-  /// Rounds end where the rigid rows are slower than the tolerance. Where bodies slide they may
-  /// never be: then a search ends when a round has hardly helped.
   void run(double tolerance) {
-    start();
-    holdImpulses();
-    double left = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < kMostRounds; ++round) {
-      findImpulses(0.0);
-      for (int step = 0; step < kMostSteps && !hasConverged(); ++step) {
-        findDirection();
-        if (!moveAlong()) break;
-      }
-      const double before = std::exchange(left, holdImpulses());
-      if (left <= std::max(tolerance, kSettled * fastest()) ||
-          (tolerance > 0.0 && left > kStalls * before))
-        break;
+    start(tolerance);
+    for (int step = 0; step < kMostSteps && findErrors() > exact_; ++step) {
+      if (!factorize()) break;
+      findStep(0.0, false);
+      const double affine = meanProduct(longest(1.0)) / meanProduct(0.0);
+      const double target = affine * affine * affine * meanProduct(0.0);
+      findStep(target, true);
+      move(longest(kInside));
     }
+    snap();
   }
 
   void takeImpulses(ContactBlock& k) {
     for (int i = 0; i < k.count; ++i) {
-      k.lambda_n(i) = gamma_[next_++];
-      k.lambda_t(i) = gamma_[next_++];
+      const double first = unknowns_[next_++].x, second = unknowns_[next_++].x;
+      k.lambda_n(i) = k.bilateral ? first : first + second;
+      k.lambda_t(i) = k.bilateral ? second : k.mu * (first - second);
     }
-    if (k.rolls()) k.lambda[3] = gamma_[next_++];
+    if (k.count == 2) {
+      const ManifoldFriction f(k);
+      const double friction = k.lambda_t(0) + k.lambda_t(1);
+      for (int i = 0; i < 2; ++i) k.lambda_t(i) = f.part[i] * friction;
+    }
+    if (k.rolls()) k.lambda[3] = unknowns_[next_++].x;
   }
   void takeImpulses(JointBlock& k) {
-    k.forEachRow([&](std::size_t i) { k.lambda[i] = gamma_[next_++]; });
+    k.forEachRow([&](std::size_t i) { k.lambda[i] = unknowns_[next_++].x; });
   }
 
  private:
-  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+  Group& addGroup(std::uint32_t row, double softness) {
+    const auto unknown = static_cast<std::uint32_t>(unknowns_.size());
+    const double soft = std::max(softness, kRigid * rows_[row].k);
+    groups_.push_back({.row = row, .unknown = unknown, .softness = soft});
+    return groups_.back();
+  }
 
-  /// A body that does not respond adds its velocity to the bias.
-  Row makeRow(std::uint32_t a, std::uint32_t b, double dx, double dy, double arm_a, double arm_b,
-              double bias, double softness) const {
-    Row row{place_[a], place_[b], {-dx, -dy, -arm_a}, {dx, dy, arm_b}};
-    double k = 0.0;
-    const auto meet = [&](std::uint32_t body, const Twist& j) {
-      const SolverVelocity& of = u_[body];
-      if (place_[body] == kFixed) {
-        row.bias += dot(j, {of.vx, of.vy, of.omega});
-      } else {
-        k += of.inv_mass * (j.vx * j.vx + j.vy * j.vy) + of.inv_inertia * j.omega * j.omega;
+  void addCone(std::uint32_t normal, const ContactBlock& k, int i) {
+    addGroup(normal, k.softness).mu = k.mu;
+    const double half = 0.5 * k.lambda_n(i), along = k.mu > 0.0 ? 0.5 * k.lambda_t(i) / k.mu : 0.0;
+    for (const double x : {half + along, half - along}) unknowns_.emplace_back().x = x;
+  }
+
+  void addImpulse(std::uint32_t row, double softness, double lower, double upper, double x) {
+    Group& group = addGroup(row, softness);
+    group.lower = lower;
+    group.upper = upper;
+    unknowns_.emplace_back().x = std::clamp(x, lower, upper);
+  }
+
+  /// The velocities along the unknowns of a group that the twists of the bodies give.
+  std::array<double, 2> along(const Group& g, const std::vector<Twist>& twists) const {
+    const double n = rows_.along(g.row, twists);
+    if (!g.isCone()) return {n, 0.0};
+    const double t = g.mu * rows_.along(g.row + 1, twists);
+    return {n + t, n - t};
+  }
+  std::array<double, 2> bias(const Group& g) const {
+    const double n = rows_[g.row].bias;
+    if (!g.isCone()) return {n, 0.0};
+    const double t = g.mu * rows_[g.row + 1].bias;
+    return {n + t, n - t};
+  }
+  void push(const Group& g, double x, double y, std::vector<Twist>& momenta) const {
+    if (!g.isCone()) return rows_.push(g.row, x, momenta);
+    rows_.push(g.row, x + y, momenta);
+    rows_.push(g.row + 1, g.mu * (x - y), momenta);
+  }
+
+  /// Calls `visit(group, i, unknown)` for the unknowns that are free.
+  template <class Visit>
+  void forEachUnknown(Visit&& visit) {
+    for (const Group& g : groups_) {
+      if (!g.isFree()) continue;
+      for (std::uint32_t i = 0; i < g.size(); ++i) visit(g, i, unknowns_[g.unknown + i]);
+    }
+  }
+
+  /// The velocities under the impulses that there are, and how far all bounds are kept from at
+  /// first: as far as these impulses are from a solution.
+  void start(double tolerance) {
+    const std::vector<Twist>& free = rows_.freeVelocities();
+    momenta_.assign(rows_.bodies(), {});
+    double fastest = 0.0;
+    for (const Group& g : groups_) {
+      push(g, unknowns_[g.unknown].x, g.isCone() ? unknowns_[g.unknown + 1].x : 0.0, momenta_);
+      const auto w = along(g, free), b = bias(g);
+      for (std::uint32_t i = 0; i < g.size(); ++i)
+        fastest = std::max(fastest, std::abs(w[i] + b[i]));
+    }
+    exact_ = std::max(tolerance, kExact * fastest);
+    u_now_ = free;
+    for (std::size_t i = 0; i < u_now_.size(); ++i)
+      add(u_now_[i], rows_.velocity(i, momenta_[i]), 1.0);
+    double off = 0.0;
+    forEachUnknown([&](const Group& g, std::uint32_t i, Unknown& x) {
+      off = std::max(off, residualOf(g, x, along(g, u_now_)[i] + bias(g)[i]));
+    });
+    off = std::clamp(off, exact_, std::max(exact_, fastest));
+    forEachUnknown([&](const Group& g, std::uint32_t i, Unknown& x) {
+      startInside(g, x, along(g, u_now_)[i] + bias(g)[i], off);
+    });
+  }
+
+  /// Each friction as in a sweep (ManifoldFriction), with the pressure that there is by now.
+  void aimFriction() {
+    for (const Manifold& m : manifolds_) {
+      ContactBlock k = *m.block;
+      for (std::uint32_t i = 0; i < 2; ++i) {
+        const Unknown* x = &unknowns_[groups_[m.group + i].unknown];
+        k.lambda_n(static_cast<int>(i)) = x[0].x + x[1].x;
       }
+      const ManifoldFriction friction(k);
+      for (std::uint32_t i = 0; i < 2; ++i) {
+        rows_.setArms(groups_[m.group + i].row + 1, friction.arm_a, friction.arm_b);
+      }
+    }
+  }
+
+  /// By how much a velocity w misses what its impulse and its bounds allow.
+  double residualOf(const Group& g, const Unknown& x, double w) const {
+    const double k = rows_[g.row].k;
+    return std::abs(x.x - std::clamp(x.x - w / k, g.lower, g.upper)) * k;
+  }
+
+  void startInside(const Group& g, Unknown& x, double w, double off) {
+    const double margin = std::min(off / rows_[g.row].k, 0.5 * (g.upper - g.lower));
+    x.low.exists = g.lower > -kUnbounded;
+    x.high.exists = g.upper < kUnbounded;
+    if (x.low.exists) x.x = std::max(x.x, g.lower + margin);
+    if (x.high.exists) x.x = std::min(x.x, g.upper - margin);
+    if (x.low.exists) x.low.gap = x.x - g.lower, x.low.slack = std::max(w, off);
+    if (x.high.exists) x.high.gap = g.upper - x.x, x.high.slack = std::max(-w, off);
+  }
+
+  /// The errors of all equations; returns the largest velocity by which one misses [m/s].
+  double findErrors() {
+    double most = 0.0;
+    aimFriction();
+    momenta_.assign(rows_.bodies(), {});
+    for (const Group& g : groups_) {
+      Unknown *x = &unknowns_[g.unknown], *y = g.isCone() ? x + 1 : nullptr;
+      push(g, x->x, y ? y->x : 0.0, momenta_);
+      if (!g.isFree()) continue;
+      const auto w = along(g, u_now_), b = bias(g);
+      const double soft = g.softness * (x->x + (y ? y->x : 0.0));
+      const double steep = g.mu > 0.0 ? std::min(1.0, g.mu) : 1.0;  // of the tangent
+      for (std::uint32_t i = 0; i < g.size(); ++i) {
+        Unknown& of = x[i];
+        of.error = w[i] + b[i] + soft;
+        if (of.low.exists) of.error -= of.low.slack;
+        if (of.high.exists) of.error += of.high.slack;
+        most = std::max(most, std::abs(of.error) / steep);
+        of.forEachBound([&](const Bound& bound) {
+          most = std::max(most, std::min(bound.slack, rows_[g.row].k * bound.gap) / steep);
+        });
+      }
+    }
+    for (std::size_t i = 0; i < momenta_.size(); ++i) {
+      Twist v = rows_.freeVelocities()[i];
+      add(v, rows_.velocity(i, momenta_[i]), 1.0);
+      add(v, u_now_[i], -1.0);
+      momenta_[i] = rows_.momentum(i, v);
+      most = std::max({most, std::abs(v.vx), std::abs(v.vy)});
+    }
+    return most;
+  }
+
+  /// (C + Z)⁻¹ of each group, with the softness C and the bounds' stiffness Z.
+  bool factorize() {
+    rows_.beginMatrix();
+    for (Group& g : groups_) {
+      if (!g.isFree()) continue;
+      const Unknown* x = &unknowns_[g.unknown];
+      const double c = g.softness, z = x->stiffness();
+      if (!g.isCone()) {
+        g.inverse = {1.0 / (c + z), 0.0, 0.0};
+        rows_.weigh(g.row, g.inverse[0]);
+        continue;
+      }
+      const double z_y = x[1].stiffness(), det = z * z_y + c * (z + z_y);
+      g.inverse = {(c + z_y) / det, -c / det, (c + z) / det};
+      const double sum = (z + z_y) / det;
+      rows_.weigh(g.row, {sum, g.mu * (z_y - z) / det, g.mu * g.mu * (sum + 4.0 * c / det)});
+    }
+    return rows_.factorize();
+  }
+
+  /// The step to where all products of bounds are `target`; with the second-order part of the step
+  /// found before.
+  void findStep(double target, bool corrects) {
+    std::vector<Twist>& rhs = direction_;
+    rhs = momenta_;
+    for (const Group& g : groups_) {
+      if (!g.isFree()) continue;
+      Unknown* x = &unknowns_[g.unknown];
+      for (std::uint32_t i = 0; i < g.size(); ++i) {
+        x[i].rhs = -x[i].error;
+        if (x[i].low.exists) x[i].rhs += x[i].low.wanted(target, corrects) / x[i].low.gap;
+        if (x[i].high.exists) x[i].rhs -= x[i].high.wanted(target, corrects) / x[i].high.gap;
+      }
+      const auto [p, q] = timesInverse(g, x[0].rhs, g.isCone() ? x[1].rhs : 0.0);
+      push(g, p, q, rhs);
+    }
+    rows_.solve(rhs, direction_);
+    for (const Group& g : groups_) {
+      if (!g.isFree()) continue;
+      Unknown* x = &unknowns_[g.unknown];
+      const auto w = along(g, direction_);
+      const auto d = timesInverse(g, x[0].rhs - w[0], g.isCone() ? x[1].rhs - w[1] : 0.0);
+      for (std::uint32_t i = 0; i < g.size(); ++i) stepBounds(x[i], d[i], target, corrects);
+    }
+  }
+
+  static std::array<double, 2> timesInverse(const Group& g, double p, double q) {
+    const auto& [first, cross, second] = g.inverse;
+    return {first * p + cross * q, cross * p + second * q};
+  }
+
+  static void stepBounds(Unknown& x, double d, double target, bool corrects) {
+    const auto step = [&](Bound& bound, double d_gap) {
+      bound.d_slack = (bound.wanted(target, corrects) - bound.slack * d_gap) / bound.gap;
+      bound.d_gap = d_gap;
     };
-    meet(a, row.j_a);
-    meet(b, row.j_b);
-    row.bias += bias;
-    row.own = softness;
-    row.softness = std::max(softness, kRigid * k);
-    return row;
+    if (x.low.exists) step(x.low, d);
+    if (x.high.exists) step(x.high, -d);
+    x.rhs = d;
   }
 
-  /// The velocity along a row that the twists of the bodies give, without its bias.
-  double along(const Row& row, const std::vector<Twist>& of) const {
-    double w = 0.0;
-    if (row.a != kFixed) w += dot(row.j_a, of[row.a]);
-    if (row.b != kFixed) w += dot(row.j_b, of[row.b]);
-    return w;
+  /// The longest step along the direction, at most 1, that goes this part of the way to a bound.
+  double longest(double inside) {
+    double s = 1.0;
+    forEachUnknown([&](const Group&, std::uint32_t, const Unknown& x) {
+      x.forEachBound([&](const Bound& b) {
+        if (b.d_gap < 0.0) s = std::min(s, -inside * b.gap / b.d_gap);
+        if (b.d_slack < 0.0) s = std::min(s, -inside * b.slack / b.d_slack);
+      });
+    });
+    return s;
   }
 
-  void start() {
-    u_now_ = free_;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const auto push = [&](std::uint32_t place, const Twist& j) {
-        if (place == kFixed) return;
-        const Twist& m = mass_[place];
-        add(u_now_[place], {j.vx / m.vx, j.vy / m.vy, j.omega / m.omega}, gamma_[i]);
-      };
-      push(rows_[i].a, rows_[i].j_a);
-      push(rows_[i].b, rows_[i].j_b);
-    }
-    w_.resize(rows_.size());
-    dw_.resize(rows_.size());
-    slopes_.resize(rows_.size());
-    for (std::size_t i = 0; i < rows_.size(); ++i) w_[i] = along(rows_[i], u_now_) + rows_[i].bias;
+  double meanProduct(double s) {
+    double sum = 0.0, count = 1e-300;
+    forEachUnknown([&](const Group&, std::uint32_t, const Unknown& x) {
+      x.forEachBound([&](const Bound& b) {
+        sum += b.product(s);
+        ++count;
+      });
+    });
+    return sum / count;
   }
 
-  /// C acts on the change of the impulses, where a row is not as soft as that. Returns the largest
-  /// velocity that this leaves [m/s].
-  double holdImpulses() {
-    double most = 0.0;
-    held_.resize(rows_.size());
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const double now = (rows_[i].softness - rows_[i].own) * gamma_[i];
-      most = std::max(most, std::abs(now - held_[i]));
-      held_[i] = now;
-    }
-    return most;
+  void move(double s) {
+    forEachUnknown([&](const Group&, std::uint32_t, Unknown& x) {
+      x.x += s * x.rhs;
+      x.forEachBound([&](Bound& b) {
+        b.gap += s * b.d_gap;
+        b.slack += s * b.d_slack;
+      });
+    });
+    for (std::size_t i = 0; i < u_now_.size(); ++i) add(u_now_[i], direction_[i], s);
   }
 
-  /// The fastest change of a velocity in this step [m/s].
-  double fastest() const {
-    double most = 0.0;
-    for (std::size_t i = 0; i < free_.size(); ++i) {
-      most = std::max(
-          {most, std::abs(u_now_[i].vx - free_[i].vx), std::abs(u_now_[i].vy - free_[i].vy)});
-    }
-    return most;
+  /// Puts an impulse on its bound where it is nearer to that, in velocities, than the slack to
+  /// zero.
+  void snap() {
+    forEachUnknown([&](const Group& g, std::uint32_t, Unknown& x) {
+      const double k = rows_[g.row].k;
+      if (x.low.exists && k * x.low.gap < x.low.slack) x.x = g.lower;
+      if (x.high.exists && k * x.high.gap < x.high.slack) x.x = g.upper;
+    });
   }
 
-  /// γ at w + s Δw; returns Σ γ Δw.
-  double findImpulses(double s) {
-    double power = 0.0;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      gamma_[i] = (held_[i] - w_[i] - s * dw_[i]) / rows_[i].softness;
-      if (rows_[i].mu < 0.0) {
-        slopes_[i] = project(rows_[i], gamma_[i]);
-      } else {
-        gamma_[i + 1] = (held_[i + 1] - w_[i + 1] - s * dw_[i + 1]) / rows_[i + 1].softness;
-        slopes_[i] = project(rows_[i], rows_[i + 1], gamma_[i], gamma_[i + 1]);
-        power += gamma_[i] * dw_[i];
-        ++i;
-      }
-      power += gamma_[i] * dw_[i];
-    }
-    return power;
-  }
-
-  /// M (u − u*) − Jᵀγ, beside the momenta that balance in it, in the metric of M⁻¹.
-  bool hasConverged() {
-    gradient_.assign(free_.size(), {});
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const Row& row = rows_[i];
-      if (row.a != kFixed) add(gradient_[row.a], row.j_a, -gamma_[i]);
-      if (row.b != kFixed) add(gradient_[row.b], row.j_b, -gamma_[i]);
-    }
-    double contacts = 0.0, inertia = 0.0, rest = 0.0;
-    for (std::size_t i = 0; i < free_.size(); ++i) {
-      const Twist& m = mass_[i];
-      const auto square = [&](const Twist& p) {
-        return p.vx * p.vx / m.vx + p.vy * p.vy / m.vy + p.omega * p.omega / m.omega;
-      };
-      const Twist p{m.vx * (u_now_[i].vx - free_[i].vx), m.vy * (u_now_[i].vy - free_[i].vy),
-                    m.omega * (u_now_[i].omega - free_[i].omega)};
-      contacts += square(gradient_[i]);
-      inertia += square(p);
-      add(gradient_[i], p, 1.0);
-      rest += square(gradient_[i]);
-    }
-    return rest <= kConverged * kConverged * std::max(contacts, inertia);
-  }
-
-  void layOut() {
-    for (const Row& row : rows_) {
-      if (row.a != kFixed && row.b != kFixed) hessian_.share(row.a, row.b);
-    }
-    hessian_.layOut(static_cast<std::uint32_t>(mass_.size()));
-    for (Row& row : rows_) {
-      if (row.a != kFixed) row.block_a = hessian_.blockOf(row.a, row.a);
-      if (row.b != kFixed) row.block_b = hessian_.blockOf(row.b, row.b);
-      if (row.a != kFixed && row.b != kFixed) row.block_ab = hessian_.blockOf(row.a, row.b);
-    }
-  }
-
-  /// Adds the part of Jᵀ G J of two rows between the same bodies.
-  void fill(const Row& x, const Row& y, double g) {
-    const auto vec = [](const Twist& j) { return BodyMatrix::Vec{j.vx, j.vy, j.omega}; };
-    if (x.a != kFixed) hessian_.add(x.block_a, vec(x.j_a), vec(y.j_a), g);
-    if (x.b != kFixed) hessian_.add(x.block_b, vec(x.j_b), vec(y.j_b), g);
-    if (x.a == kFixed || x.b == kFixed) return;
-    if (x.a > x.b) {
-      hessian_.add(x.block_ab, vec(x.j_a), vec(y.j_b), g);
-    } else {
-      hessian_.add(x.block_ab, vec(x.j_b), vec(y.j_a), g);
-    }
-  }
-
-  /// H = M + Jᵀ G J.
-  void fillHessian() {
-    hessian_.clear();
-    for (std::uint32_t i = 0; i < mass_.size(); ++i) {
-      hessian_.add(i, {mass_[i].vx, mass_[i].vy, mass_[i].omega});
-    }
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      fill(rows_[i], rows_[i], slopes_[i].nn);
-      if (rows_[i].mu < 0.0) continue;
-      const Row &n = rows_[i], &t = rows_[++i];
-      fill(n, t, slopes_[i - 1].nt);
-      fill(t, n, slopes_[i - 1].nt);
-      fill(t, t, slopes_[i - 1].tt);
-    }
-  }
-
-  /// d = −H⁻¹ g.
-  void findDirection() {
-    if (is_new_) layOut();
-    fillHessian();
-    if (std::exchange(is_new_, false)) cholesky_.analyzePattern(hessian_.matrix());
-    cholesky_.factorize(hessian_.matrix());
-    Eigen::VectorXd g(static_cast<Eigen::Index>(3 * mass_.size()));
-    for (std::size_t i = 0; i < gradient_.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(3 * i);
-      g[at] = -gradient_[i].vx, g[at + 1] = -gradient_[i].vy, g[at + 2] = -gradient_[i].omega;
-    }
-    const Eigen::VectorXd d = cholesky_.solve(g);
-    direction_.resize(mass_.size());
-    for (std::size_t i = 0; i < direction_.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(3 * i);
-      direction_[i] = {d[at], d[at + 1], d[at + 2]};
-    }
-    for (std::size_t i = 0; i < rows_.size(); ++i) dw_[i] = along(rows_[i], direction_);
-  }
-
-  /// The slope of the cost along the direction, at `s` of it.
-  double slopeAt(double s) {
-    double slope = -findImpulses(s);
-    for (std::size_t i = 0; i < mass_.size(); ++i) {
-      const Twist &m = mass_[i], &d = direction_[i], &u = u_now_[i], &f = free_[i];
-      slope += m.vx * d.vx * (u.vx + s * d.vx - f.vx) + m.vy * d.vy * (u.vy + s * d.vy - f.vy) +
-               m.omega * d.omega * (u.omega + s * d.omega - f.omega);
-    }
-    return slope;
-  }
-
-  /// To the minimum of the cost, whose slope grows along the direction. False where there is none.
-  bool moveAlong() {
-    const double begin = slopeAt(0.0);
-    if (!(begin < 0.0)) return false;
-    double low = 0.0, at_low = begin, high = 1.0, at_high = slopeAt(1.0);
-    for (int i = 0; at_high < 0.0 && i < kMostTrials; ++i) {
-      low = high, at_low = at_high;
-      high *= 2.0, at_high = slopeAt(high);
-    }
-    double s = high;
-    for (int i = 0; i < kMostTrials && std::abs(at_high) > kConverged * -begin; ++i) {
-      s = (low * at_high - high * at_low) / (at_high - at_low);
-      if (i % 3 == 2) s = 0.5 * (low + high);  // where one end would stay for long
-      const double slope = slopeAt(s);
-      if (std::abs(slope) <= kConverged * -begin) break;
-      (slope < 0.0 ? low : high) = s;
-      (slope < 0.0 ? at_low : at_high) = slope;
-    }
-    findImpulses(s);
-    for (std::size_t i = 0; i < direction_.size(); ++i) add(u_now_[i], direction_[i], s);
-    for (std::size_t i = 0; i < rows_.size(); ++i) w_[i] += s * dw_[i];
-    return true;
+  static void add(Twist& x, const Twist& y, double s) {
+    x.vx += s * y.vx;
+    x.vy += s * y.vy;
+    x.omega += s * y.omega;
   }
 
   const std::vector<SolverVelocity>& u_;
-  std::vector<std::uint32_t> place_;  ///< per body: among those of the island, or fixed
-  std::vector<Twist> free_, mass_;    ///< per body: velocity without impulses; m, m, I
-  std::vector<Row> rows_;
-  std::vector<double> gamma_, held_, w_, dw_;  ///< per row
-  std::vector<Slope> slopes_;                  ///< at the first row of each cone, and at the others
-  std::vector<Twist> u_now_, gradient_, direction_;
-  BodyMatrix hessian_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky_;
-  bool is_new_ = true;
+  DirectRows rows_;
+  std::vector<Group> groups_;
+  std::vector<Manifold> manifolds_;
+  std::vector<Unknown> unknowns_;
+  std::vector<Twist> u_now_, momenta_, direction_;
+  double exact_ = 0.0;
   std::size_t next_ = 0;
 };
 
@@ -361,12 +405,12 @@ class Newton {
 void solveByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
                    std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
                    double tolerance) {
-  Newton newton(bodies, u);
-  for (const ContactBlock& k : blocks) newton.addBlock(k);
-  for (const JointBlock& k : joints) newton.addJoint(k);
-  newton.run(tolerance);
-  for (ContactBlock& k : blocks) newton.takeImpulses(k);
-  for (JointBlock& k : joints) newton.takeImpulses(k);
+  InteriorPoint solver(bodies, u);
+  for (const ContactBlock& k : blocks) solver.addBlock(k);
+  for (const JointBlock& k : joints) solver.addJoint(k);
+  solver.run(tolerance);
+  for (ContactBlock& k : blocks) solver.takeImpulses(k);
+  for (JointBlock& k : joints) solver.takeImpulses(k);
   for (const ContactBlock& k : blocks) applyImpulses(k, u[k.a], u[k.b]);
   for (const JointBlock& k : joints) applyJointImpulses(k, {}, u[k.a], u[k.b]);
 }
