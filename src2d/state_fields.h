@@ -154,8 +154,8 @@ void fields(Ar& ar, Some<Weld> auto& w) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Witness> auto& w) {
-  auto& [frame, outer, lambda] = w;
-  ar(frame, outer, lambda);
+  auto& [frame, outer, lambda, motion] = w;
+  ar(frame, outer, lambda, motion);
 }
 template <class Ar>
 void fields(Ar& ar, Some<NncgBuffers> auto& m) {

@@ -115,6 +115,7 @@ struct Witness {
   FrameLoad frame{};
   std::vector<Twist> outer;      ///< per column of the certificate; the spin times the size
   std::vector<Impulses> lambda;  ///< per block, then per joint
+  double motion = 0.0;           ///< of the members that these impulses leave [m/s]
 };
 
 /// A search for the impulses that carry a load, over several steps.

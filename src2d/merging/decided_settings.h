@@ -28,7 +28,7 @@ struct DecidedSettings {
   /// After so many steps of a search, a power of two, and after each twice as many, the direct
   /// solver takes part, with the load of that step. With 64 a wall of 1,000 bricks on a swinging
   /// platform costs more than its reference; with 8 `bench/tilts` falls a little later.
-  int direct_from = 16;
+  int direct_from = 8;
   /// A carried load is followed by one this part further from the mean of the witnesses [1]: a wall
   /// on a swinging platform then needs one search, not one per new extreme.
   double overshoot = 0.5;
@@ -59,6 +59,16 @@ inline constexpr DecidedSettings kDecided;
 /// Something hits it in these steps.
 inline bool isHit(const State& state, const Collection& c) {
   return state.step - c.last_blow < kDecided.hit_steps;
+}
+
+/// The speed at which bodies of a weld part [m/s].
+inline double cutSpeed(const State& state, const Collection& c) {
+  return isHit(state, c) ? kDecided.cut_in_hit : kDecided.cut_acceleration * state.h;
+}
+
+/// Below this residual a search has converged [m/s].
+inline double toleratedResidual(const State& state) {
+  return kDecided.tolerance * kDecided.cut_acceleration * state.h;
 }
 
 }  // namespace merge2d

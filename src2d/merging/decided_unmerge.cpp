@@ -113,18 +113,15 @@ bool turns(const Collection& c, const WeldMotions& motions, double threshold, do
   });
 }
 
-/// Welds whose bodies move: none, such alone as did not move in the search, or some that are cut.
-enum class Movers : std::uint8_t { None, Uncut, Cut };
-
 /// Cuts the welds whose bodies move. Motion slower than the residual may be an error of the solve.
 /// Where a search has found motion, so may the motion of welds that did not move in it. While one
-/// goes on, some weld must move by more than a few residuals.
-Movers cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofSearch& search) {
+/// goes on, some weld must move by more than a few residuals. True where some are cut.
+bool cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofSearch& search) {
   const WeldMotions motions(state, c, scratch.trial_u);
   const double threshold = cutSpeed(state, c);
   const double residual = c.last_blow == state.step ? 0.0 : c.residual;
   const bool moves = search.start.empty() || turns(c, motions, threshold, kDecided.sure * residual);
-  Movers found = Movers::None;
+  bool any = false;
   for (std::size_t i = 0; i < c.welds.size(); ++i) {
     Weld& weld = c.welds[i];
     weld.cut = false;
@@ -135,14 +132,13 @@ Movers cutMovers(const State& state, Scratch& scratch, Collection& c, const Proo
     const Decision decision = decide(weld, speed, threshold);
     if (scratch.notes) scratch.notes->decisions.push_back(decision);
     if (speed <= threshold) continue;
-    if (found == Movers::None) found = Movers::Uncut;
     if (!search.movers.empty() && search.movers[i] == 0) continue;
     weld.cut = true;
     weld.motion = static_cast<float>(speed);
     weld.reason = reasonOf(c, weld);
-    found = Movers::Cut;
+    any = true;
   }
-  return found;
+  return any;
 }
 
 /// Where no part comes off.
@@ -165,18 +161,34 @@ void prove(const State& state, Collection& c, Witness&& witness) {
   beginSearchAhead(state, c, std::move(next), way);
 }
 
-/// No part moves in the full solve: a proof, where that has converged. Else a search that was under
-/// way goes on.
+/// How fast the members of the trial move, at contacts and at the corners of welds; turning about a
+/// contact of a body beside which the other hardly moves is left to the residual [m/s].
+double motionOf(const State& state, const Scratch& scratch, const Collection& c) {
+  const WeldMotions motions(state, c, scratch.trial_u);
+  double most = fastestContact(scratch, c);
+  for (const Weld& weld : c.welds) {
+    if (weld.expected) continue;
+    const WeldMotion motion = motions.of(weld, 0.0);
+    if (motion.least > toleratedResidual(state)) most = std::max(most, motion.most);
+  }
+  return most;
+}
+
+/// No part comes off in the full solve: a proof, where that has converged to rest. A search that
+/// had not goes on; one that had, with the load of an earlier step, begins anew.
 void keepTogether(const State& state, Scratch& scratch, Collection& c, ProofSearch&& search) {
   LoadCertificate& proof = c.certificate.front();
-  c.settled = !isHit(state, c) && c.residual <= toleratedResidual(state);
+  const bool converged = c.residual <= toleratedResidual(state);
+  const double motion = converged ? motionOf(state, scratch, c) : 0.0;
+  c.settled = !isHit(state, c) && converged && motion <= cutSpeed(state, c);
   if (c.settled) {
     Witness witness = asWitness(state, c, loadOn(state, scratch, c));
+    witness.motion = motion;
     readImpulses(c, witness);
     return prove(state, c, std::move(witness));
   }
   proof.in_doubt |= !isHit(state, c) || proof.witnesses.empty();
-  if (isHit(state, c) || search.start.empty()) return;
+  if (isHit(state, c) || search.start.empty() || converged) return;
   swapImpulses(c, search.load);
   proof.search = std::move(search);
 }
@@ -188,11 +200,11 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   if (breakJointsInside(state, scratch, c)) return;
   if (!c.joints.empty()) loosenJoints(state, c, scratch.sweep_u);
   Noted noted(scratch.notes);
-  const Movers movers = cutMovers(state, scratch, c, before);
+  const bool moves = cutMovers(state, scratch, c, before);
   noted.close();
   if (isHit(state, c)) swapImpulses(c, before.load);  // those of a hit are not those of a load
-  const Parts parts = movers == Movers::Cut ? componentsOf(c) : Parts();
-  const bool parting = movers == Movers::Cut && fallsApart(state, c, parts);
+  const Parts parts = moves ? componentsOf(c) : Parts();
+  const bool parting = moves && fallsApart(state, c, parts);
   if (parting) {
     c.settled = false;
     proof.in_doubt = true;
@@ -208,7 +220,7 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
 bool restsIn(const State& state, Scratch& scratch, Collection& c) {
   const double tolerance = toleratedResidual(state);
   const auto sure = [&] { return c.residual / kDecided.tolerance; };
-  if (!isAtRest(scratch, c, std::max(cutSpeed(state, c), sure()))) return false;
+  if (fastestContact(scratch, c) > std::max(cutSpeed(state, c), sure())) return false;
   const WeldMotions motions(state, c, scratch.trial_u);
   const auto turnsBy = [&](double noise) { return turns(c, motions, cutSpeed(state, c), noise); };
   if (c.residual > tolerance || !turnsBy(c.residual)) return true;
@@ -244,6 +256,7 @@ bool endSearch(State& state, Scratch& scratch, Collection& c) {
     return true;  // it goes on
   }
   ProofSearch search = std::exchange(proof.search, {});
+  if (rests) search.load.motion = motionOf(state, scratch, c);
   if (search.ahead) {
     c.settled = true;
     if (rests) remember(c, std::move(search.load));

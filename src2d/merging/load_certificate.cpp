@@ -57,9 +57,15 @@ struct Projection {
   double left = 0.0;  ///< |ℓ − Σ βᵢ ℓᵢ|², of which rounding may leave less than nothing
 };
 
+using Gram = std::array<double, kWitnesses * kWitnesses>;
+
 /// The nearest combination of the first `n` loads of `gram` to one of products `b` and square `ll`.
-Projection project(std::span<const double> gram, const LoadCertificate::Weights& b, std::size_t n,
-                   double ll) {
+/// Loads are known but for as little as may be left over of any: one of nothing but rounding must
+/// not get a weight.
+Projection project(Gram gram, const LoadCertificate::Weights& b, std::size_t n, double ll) {
+  for (std::size_t i = 0; i < n; ++i) {
+    gram[i * kWitnesses + i] += kDecided.left_of_rest * kDecided.left_of_rest;
+  }
   Projection p{nonNegativeFit(gram, b, n), ll};
   for (std::size_t i = 0; i < n; ++i) {
     p.left -= 2.0 * p.weights[i] * b[i];
@@ -76,13 +82,30 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
   LoadCertificate& proof = c.certificate.front();
   const std::size_t n = proof.witnesses.size();
   if (n == 0) return false;
+  const auto most = [](double part, double norm) {
+    return std::max(kDecided.left_of_rest, part * norm);
+  };
+  const double frame = most(kDecided.left_of_frame, load.norm);
+  const double outer = frame + most(kDecided.left_of_outer, kOuterWeight * load.outer_norm);
+  const double scale = frame * frame / (outer * outer);  // of the loads from outside
+  Gram gram{};
   LoadCertificate::Weights b{};
-  for (std::size_t i = 0; i < n; ++i) b[i] = product(state, c, load, proof.witnesses[i]);
-  const double outer = kOuterWeight * load.outer_norm;
-  const Projection p = project(proof.gram, b, n, square(load));
-  const double most = std::max(kDecided.left_of_rest,
-                               kDecided.left_of_frame * load.norm + kDecided.left_of_outer * outer);
-  if (!(p.left <= most * most)) return false;  // nor where they are no numbers
+  for (std::size_t i = 0; i < n; ++i) {
+    const Witness& witness = proof.witnesses[i];
+    const double of_frame = dot(load.frame, witness.frame);
+    b[i] = of_frame + scale * (product(state, c, load, witness) - of_frame);
+    for (std::size_t j = 0; j < n; ++j) {
+      const double of_frames = dot(witness.frame, proof.witnesses[j].frame);
+      const std::size_t ij = i * kWitnesses + j;
+      gram[ij] = of_frames + scale * (proof.gram[ij] - of_frames);
+    }
+  }
+  const double ll = load.norm * load.norm;
+  const Projection p = project(gram, b, n, ll + scale * (square(load) - ll));
+  if (!(p.left <= frame * frame)) return false;  // nor where they are no numbers
+  double motion = 0.0;
+  for (std::size_t i = 0; i < n; ++i) motion += p.weights[i] * proof.witnesses[i].motion;
+  if (motion > cutSpeed(state, c)) return false;
   proof.lambda_stale |= p.weights != proof.weights;
   proof.weights = p.weights;
   return true;
@@ -109,7 +132,7 @@ void fillGram(LoadCertificate& proof) {
 
 /// How far a witness is from the cone of the others, squared.
 double worthOf(const LoadCertificate& proof, std::size_t which) {
-  std::array<double, kWitnesses * kWitnesses> gram{};
+  Gram gram{};
   LoadCertificate::Weights b{};
   std::size_t n = 0;
   for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "src2d/dynamics/newton.h"
 #include "src2d/merging/collection.h"
@@ -12,17 +13,9 @@
 
 namespace merge2d {
 
-double cutSpeed(const State& state, const Collection& c) {
-  return isHit(state, c) ? kDecided.cut_in_hit : kDecided.cut_acceleration * state.h;
-}
-
 bool isLookedAt(const State& state, const Collection& c) {
   const std::int64_t since_hit = state.step - c.last_blow;
   return since_hit >= kDecided.shaken_steps || since_hit % state.settings.merging.steps == 0;
-}
-
-double toleratedResidual(const State& state) {
-  return kDecided.tolerance * kDecided.cut_acceleration * state.h;
 }
 
 namespace {
@@ -165,16 +158,19 @@ void continueSearch(const State& state, Scratch& scratch, Collection& c, double 
   if (search.ahead) swapImpulses(c, search.load);
 }
 
-bool isAtRest(const Scratch& scratch, const Collection& c, double speed) {
+double fastestContact(const Scratch& scratch, const Collection& c) {
   const auto& u = scratch.trial_u;
-  return std::ranges::all_of(c.blocks, [&](const ContactBlock& k) {
+  double most = 0.0;
+  for (const ContactBlock& k : c.blocks) {
     for (int p = 0; p < k.count; ++p) {
       const ContactVelocity w = contactVelocity(k, p, k.nx, k.ny, u[k.a], u[k.b]);
+      const double speed = std::max(std::abs(w.n), std::abs(w.t));
       // What is no number is not at rest: the full solve tells of it.
-      if (!(std::abs(w.n) <= speed && std::abs(w.t) <= speed)) return false;
+      if (std::isnan(w.n) || std::isnan(w.t)) return std::numeric_limits<double>::infinity();
+      most = std::max(most, speed);
     }
-    return true;
-  });
+  }
+  return most;
 }
 
 }  // namespace merge2d

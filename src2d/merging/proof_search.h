@@ -9,12 +9,6 @@
 
 namespace merge2d {
 
-/// The speed at which bodies of a weld part [m/s].
-double cutSpeed(const State& state, const Collection& collection);
-
-/// Below this residual a search has converged [m/s].
-double toleratedResidual(const State& state);
-
 /// Whether its load is looked at in this step, as always but for a while after a hit.
 bool isLookedAt(const State& state, const Collection& collection);
 
@@ -42,7 +36,8 @@ void beginSearchAhead(const State& state, Collection& collection, Witness&& load
 /// Collection::residual.
 void continueSearch(const State& state, Scratch& scratch, Collection& collection, double tolerance);
 
-/// The velocities of the members in `scratch.trial_u` are all below `speed` at the contacts.
-bool isAtRest(const Scratch& scratch, const Collection& collection, double speed);
+/// How fast the members move at the contacts with the velocities in `scratch.trial_u` [m/s];
+/// infinite where one is no number.
+double fastestContact(const Scratch& scratch, const Collection& collection);
 
 }  // namespace merge2d

@@ -214,6 +214,55 @@ TEST(DecidedUnmerge, SaysWhichMotionItDecidedFromAndCitesItsPage) {
   EXPECT_TRUE(found);
 }
 
+/// Two boxes without weight, pressed together by a spring until its far end is drawn away slowly.
+std::string slowPull(const std::string& base) {
+  return R"(
+format = 1
+gravity = [0, 0]
+[[body]]
+name = "base"
+box = [1, 1]
+)" + base +
+         R"(
+[[body]]
+name = "box"
+at = [1, 0]
+box = [1, 1]
+mass = 1
+[[body]]
+name = "hook"
+motion = "scripted"
+box = [0.1, 0.1]
+script = { keyframes = [[0, 4, 0, 0], [2, 4, 0, 0], [42, 14, 0, 0]] }
+[[spring]]
+body = "box"
+to_body = "hook"
+stiffness = 0.3
+rest_length = 3.1
+)";
+}
+
+/// When the box is 5 mm away from its base, or 99 [s].
+double timeOfParting(const std::string& scene, Mode mode) {
+  Simulation run(scene, mode);
+  while (run.world().time() < 20.0) {
+    run.steps(1);
+    if ((run.body("box").x - run.body("base").x).norm() > 1.005) return run.world().time();
+  }
+  return 99.0;
+}
+
+/// A load too small to move anything within the residual of a search proves nothing about one that
+/// is many times as large. A tenth of a second: the pull grows to the cut acceleration meanwhile.
+TEST(DecidedUnmerge, APullThatGrowsFromNothingPartsWhatItPullsApart) {
+  for (const std::string base : {"motion = \"pinned\"", "mass = 1"}) {
+    const std::string scene = slowPull(base);
+    const double reference = timeOfParting(scene, Mode::Reference);
+    ASSERT_LT(reference, 6.0);
+    EXPECT_NEAR(timeOfParting(scene, Mode::Merge), reference, 0.1) << base;
+  }
+}
+
 TEST(DecidedUnmerge, GoesOnFromASavedStateAsIfItHadNotBeenSaved) {
   const Scene scene = parseScene(heavyTop(4, 14.0, 20.0), "test.toml");
   World straight(scene, {.mode = Mode::Merge, .timings = false});
