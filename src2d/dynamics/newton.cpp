@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "src2d/dynamics/bounded_impulse.h"
 #include "src2d/dynamics/direct_rows.h"
 
 namespace merge2d {
@@ -14,58 +14,6 @@ constexpr double kRigid = 1e-8;   ///< softness of a rigid row, of its K
 constexpr double kExact = 1e-7;   ///< velocity that is left, of the fastest without impulses
 constexpr double kInside = 0.99;  ///< part of the way to the nearest bound that a step goes
 constexpr int kMostSteps = 50;
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-
-/// One side on which an impulse may be bounded: how far it is from there [N s], and the velocity
-/// that the bound leaves [m/s]; and how a step changes these.
-struct Bound {
-  bool exists = false;
-  double gap = 1.0, slack = 0.0;
-  double d_gap = 0.0, d_slack = 0.0;
-
-  double stiffness() const { return slack / gap; }
-  double product(double s = 0.0) const { return (gap + s * d_gap) * (slack + s * d_slack); }
-  /// The change of the product that a step is to make beyond its linear part.
-  double wanted(double target, bool corrects) const {
-    return target - gap * slack - (corrects ? d_gap * d_slack : 0.0);
-  }
-};
-
-/// An impulse that is sought, between its bounds.
-struct Unknown {
-  double x = 0.0;      ///< [N s]
-  double error = 0.0;  ///< by which the velocity along it misses [m/s]
-  double rhs = 0.0;    ///< of its equation in a step [m/s]
-  Bound low, high;
-
-  double stiffness() const {
-    return (low.exists ? low.stiffness() : 0.0) + (high.exists ? high.stiffness() : 0.0);
-  }
-  template <class Visit>
-  void forEachBound(Visit&& visit) {
-    if (low.exists) visit(low);
-    if (high.exists) visit(high);
-  }
-  template <class Visit>
-  void forEachBound(Visit&& visit) const {
-    if (low.exists) visit(low);
-    if (high.exists) visit(high);
-  }
-};
-
-/// A row with its impulse, or the normal and the tangent of a point with those along the edges of
-/// its cone; between a lower and an upper bound.
-struct Group {
-  std::uint32_t row = 0, unknown = 0;
-  double mu = -1.0;  ///< of the cone, if it is one
-  double softness = 0.0;
-  double lower = 0.0, upper = kUnbounded;
-  std::array<double, 3> inverse{};  ///< of the matrix of its impulses: 11, 12, 22
-
-  bool isCone() const { return mu >= 0.0; }
-  bool isFree() const { return isCone() || upper > lower; }
-  std::uint32_t size() const { return isCone() ? 2 : 1; }
-};
 
 /// Two points whose friction acts where their pressure has its centre.
 struct Manifold {
@@ -141,7 +89,7 @@ class InteriorPoint {
   }
 
  private:
-  Group& addGroup(std::uint32_t row, double softness) {
+  RowGroup& addGroup(std::uint32_t row, double softness) {
     const auto unknown = static_cast<std::uint32_t>(unknowns_.size());
     const double soft = std::max(softness, kRigid * rows_[row].k);
     groups_.push_back({.row = row, .unknown = unknown, .softness = soft});
@@ -155,26 +103,26 @@ class InteriorPoint {
   }
 
   void addImpulse(std::uint32_t row, double softness, double lower, double upper, double x) {
-    Group& group = addGroup(row, softness);
+    RowGroup& group = addGroup(row, softness);
     group.lower = lower;
     group.upper = upper;
     unknowns_.emplace_back().x = std::clamp(x, lower, upper);
   }
 
   /// The velocities along the unknowns of a group that the twists of the bodies give.
-  std::array<double, 2> along(const Group& g, const std::vector<Twist>& twists) const {
+  std::array<double, 2> along(const RowGroup& g, const std::vector<Twist>& twists) const {
     const double n = rows_.along(g.row, twists);
     if (!g.isCone()) return {n, 0.0};
     const double t = g.mu * rows_.along(g.row + 1, twists);
     return {n + t, n - t};
   }
-  std::array<double, 2> bias(const Group& g) const {
+  std::array<double, 2> bias(const RowGroup& g) const {
     const double n = rows_[g.row].bias;
     if (!g.isCone()) return {n, 0.0};
     const double t = g.mu * rows_[g.row + 1].bias;
     return {n + t, n - t};
   }
-  void push(const Group& g, double x, double y, std::vector<Twist>& momenta) const {
+  void push(const RowGroup& g, double x, double y, std::vector<Twist>& momenta) const {
     if (!g.isCone()) return rows_.push(g.row, x, momenta);
     rows_.push(g.row, x + y, momenta);
     rows_.push(g.row + 1, g.mu * (x - y), momenta);
@@ -183,7 +131,7 @@ class InteriorPoint {
   /// Calls `visit(group, i, unknown)` for the unknowns that are free.
   template <class Visit>
   void forEachUnknown(Visit&& visit) {
-    for (const Group& g : groups_) {
+    for (const RowGroup& g : groups_) {
       if (!g.isFree()) continue;
       for (std::uint32_t i = 0; i < g.size(); ++i) visit(g, i, unknowns_[g.unknown + i]);
     }
@@ -195,7 +143,7 @@ class InteriorPoint {
     const std::vector<Twist>& free = rows_.freeVelocities();
     momenta_.assign(rows_.bodies(), {});
     double fastest = 0.0;
-    for (const Group& g : groups_) {
+    for (const RowGroup& g : groups_) {
       push(g, unknowns_[g.unknown].x, g.isCone() ? unknowns_[g.unknown + 1].x : 0.0, momenta_);
       const auto w = along(g, free), b = bias(g);
       for (std::uint32_t i = 0; i < g.size(); ++i)
@@ -206,11 +154,11 @@ class InteriorPoint {
     for (std::size_t i = 0; i < u_now_.size(); ++i)
       add(u_now_[i], rows_.velocity(i, momenta_[i]), 1.0);
     double off = 0.0;
-    forEachUnknown([&](const Group& g, std::uint32_t i, Unknown& x) {
+    forEachUnknown([&](const RowGroup& g, std::uint32_t i, BoundedImpulse& x) {
       off = std::max(off, residualOf(g, x, along(g, u_now_)[i] + bias(g)[i]));
     });
     off = std::clamp(off, exact_, std::max(exact_, fastest));
-    forEachUnknown([&](const Group& g, std::uint32_t i, Unknown& x) {
+    forEachUnknown([&](const RowGroup& g, std::uint32_t i, BoundedImpulse& x) {
       startInside(g, x, along(g, u_now_)[i] + bias(g)[i], off);
     });
   }
@@ -220,7 +168,7 @@ class InteriorPoint {
     for (const Manifold& m : manifolds_) {
       ContactBlock k = *m.block;
       for (std::uint32_t i = 0; i < 2; ++i) {
-        const Unknown* x = &unknowns_[groups_[m.group + i].unknown];
+        const BoundedImpulse* x = &unknowns_[groups_[m.group + i].unknown];
         k.lambda_n(static_cast<int>(i)) = x[0].x + x[1].x;
       }
       const ManifoldFriction friction(k);
@@ -231,12 +179,12 @@ class InteriorPoint {
   }
 
   /// By how much a velocity w misses what its impulse and its bounds allow.
-  double residualOf(const Group& g, const Unknown& x, double w) const {
+  double residualOf(const RowGroup& g, const BoundedImpulse& x, double w) const {
     const double k = rows_[g.row].k;
     return std::abs(x.x - std::clamp(x.x - w / k, g.lower, g.upper)) * k;
   }
 
-  void startInside(const Group& g, Unknown& x, double w, double off) {
+  void startInside(const RowGroup& g, BoundedImpulse& x, double w, double off) {
     const double margin = std::min(off / rows_[g.row].k, 0.5 * (g.upper - g.lower));
     x.low.exists = g.lower > -kUnbounded;
     x.high.exists = g.upper < kUnbounded;
@@ -251,15 +199,15 @@ class InteriorPoint {
     double most = 0.0;
     aimFriction();
     momenta_.assign(rows_.bodies(), {});
-    for (const Group& g : groups_) {
-      Unknown *x = &unknowns_[g.unknown], *y = g.isCone() ? x + 1 : nullptr;
+    for (const RowGroup& g : groups_) {
+      BoundedImpulse *x = &unknowns_[g.unknown], *y = g.isCone() ? x + 1 : nullptr;
       push(g, x->x, y ? y->x : 0.0, momenta_);
       if (!g.isFree()) continue;
       const auto w = along(g, u_now_), b = bias(g);
       const double soft = g.softness * (x->x + (y ? y->x : 0.0));
       const double steep = g.mu > 0.0 ? std::min(1.0, g.mu) : 1.0;  // of the tangent
       for (std::uint32_t i = 0; i < g.size(); ++i) {
-        Unknown& of = x[i];
+        BoundedImpulse& of = x[i];
         of.error = w[i] + b[i] + soft;
         if (of.low.exists) of.error -= of.low.slack;
         if (of.high.exists) of.error += of.high.slack;
@@ -282,9 +230,9 @@ class InteriorPoint {
   /// (C + Z)⁻¹ of each group, with the softness C and the bounds' stiffness Z.
   bool factorize() {
     rows_.beginMatrix();
-    for (Group& g : groups_) {
+    for (RowGroup& g : groups_) {
       if (!g.isFree()) continue;
-      const Unknown* x = &unknowns_[g.unknown];
+      const BoundedImpulse* x = &unknowns_[g.unknown];
       const double c = g.softness, z = x->stiffness();
       if (!g.isCone()) {
         g.inverse = {1.0 / (c + z), 0.0, 0.0};
@@ -304,9 +252,9 @@ class InteriorPoint {
   void findStep(double target, bool corrects) {
     std::vector<Twist>& rhs = direction_;
     rhs = momenta_;
-    for (const Group& g : groups_) {
+    for (const RowGroup& g : groups_) {
       if (!g.isFree()) continue;
-      Unknown* x = &unknowns_[g.unknown];
+      BoundedImpulse* x = &unknowns_[g.unknown];
       for (std::uint32_t i = 0; i < g.size(); ++i) {
         x[i].rhs = -x[i].error;
         if (x[i].low.exists) x[i].rhs += x[i].low.wanted(target, corrects) / x[i].low.gap;
@@ -316,21 +264,21 @@ class InteriorPoint {
       push(g, p, q, rhs);
     }
     rows_.solve(rhs, direction_);
-    for (const Group& g : groups_) {
+    for (const RowGroup& g : groups_) {
       if (!g.isFree()) continue;
-      Unknown* x = &unknowns_[g.unknown];
+      BoundedImpulse* x = &unknowns_[g.unknown];
       const auto w = along(g, direction_);
       const auto d = timesInverse(g, x[0].rhs - w[0], g.isCone() ? x[1].rhs - w[1] : 0.0);
       for (std::uint32_t i = 0; i < g.size(); ++i) stepBounds(x[i], d[i], target, corrects);
     }
   }
 
-  static std::array<double, 2> timesInverse(const Group& g, double p, double q) {
+  static std::array<double, 2> timesInverse(const RowGroup& g, double p, double q) {
     const auto& [first, cross, second] = g.inverse;
     return {first * p + cross * q, cross * p + second * q};
   }
 
-  static void stepBounds(Unknown& x, double d, double target, bool corrects) {
+  static void stepBounds(BoundedImpulse& x, double d, double target, bool corrects) {
     const auto step = [&](Bound& bound, double d_gap) {
       bound.d_slack = (bound.wanted(target, corrects) - bound.slack * d_gap) / bound.gap;
       bound.d_gap = d_gap;
@@ -343,7 +291,7 @@ class InteriorPoint {
   /// The longest step along the direction, at most 1, that goes this part of the way to a bound.
   double longest(double inside) {
     double s = 1.0;
-    forEachUnknown([&](const Group&, std::uint32_t, const Unknown& x) {
+    forEachUnknown([&](const RowGroup&, std::uint32_t, const BoundedImpulse& x) {
       x.forEachBound([&](const Bound& b) {
         if (b.d_gap < 0.0) s = std::min(s, -inside * b.gap / b.d_gap);
         if (b.d_slack < 0.0) s = std::min(s, -inside * b.slack / b.d_slack);
@@ -354,7 +302,7 @@ class InteriorPoint {
 
   double meanProduct(double s) {
     double sum = 0.0, count = 1e-300;
-    forEachUnknown([&](const Group&, std::uint32_t, const Unknown& x) {
+    forEachUnknown([&](const RowGroup&, std::uint32_t, const BoundedImpulse& x) {
       x.forEachBound([&](const Bound& b) {
         sum += b.product(s);
         ++count;
@@ -364,7 +312,7 @@ class InteriorPoint {
   }
 
   void move(double s) {
-    forEachUnknown([&](const Group&, std::uint32_t, Unknown& x) {
+    forEachUnknown([&](const RowGroup&, std::uint32_t, BoundedImpulse& x) {
       x.x += s * x.rhs;
       x.forEachBound([&](Bound& b) {
         b.gap += s * b.d_gap;
@@ -377,7 +325,7 @@ class InteriorPoint {
   /// Puts an impulse on its bound where it is nearer to that, in velocities, than the slack to
   /// zero.
   void snap() {
-    forEachUnknown([&](const Group& g, std::uint32_t, Unknown& x) {
+    forEachUnknown([&](const RowGroup& g, std::uint32_t, BoundedImpulse& x) {
       const double k = rows_[g.row].k;
       if (x.low.exists && k * x.low.gap < x.low.slack) x.x = g.lower;
       if (x.high.exists && k * x.high.gap < x.high.slack) x.x = g.upper;
@@ -392,9 +340,9 @@ class InteriorPoint {
 
   const std::vector<SolverVelocity>& u_;
   DirectRows rows_;
-  std::vector<Group> groups_;
+  std::vector<RowGroup> groups_;
   std::vector<Manifold> manifolds_;
-  std::vector<Unknown> unknowns_;
+  std::vector<BoundedImpulse> unknowns_;
   std::vector<Twist> u_now_, momenta_, direction_;
   double exact_ = 0.0;
   std::size_t next_ = 0;
