@@ -78,7 +78,6 @@ void DirectRows::layOut() {
     if (has_b) row.block_b = hessian_.blockOf(row.b, row.b);
     if (has_a && has_b) row.block_ab = hessian_.blockOf(row.a, row.b);
   }
-  cholesky_.analyzePattern(hessian_.matrix());
   is_laid_out_ = true;
 }
 
@@ -111,23 +110,15 @@ void DirectRows::weigh(std::uint32_t row, const RowWeights& g) {
   fill(t, t, g.tt);
 }
 
-bool DirectRows::factorize() {
-  cholesky_.factorize(hessian_.matrix());
-  return cholesky_.info() == Eigen::Success;
-}
+bool DirectRows::factorize() { return hessian_.factorize(); }
 
 void DirectRows::solve(const std::vector<Twist>& momenta, std::vector<Twist>& velocities) const {
-  Eigen::VectorXd p(static_cast<Eigen::Index>(3 * momenta.size()));
-  for (std::size_t i = 0; i < momenta.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(3 * i);
-    p[at] = momenta[i].vx, p[at + 1] = momenta[i].vy, p[at + 2] = momenta[i].omega;
-  }
-  const Eigen::VectorXd v = cholesky_.solve(p);
-  velocities.resize(momenta.size());
-  for (std::size_t i = 0; i < velocities.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(3 * i);
-    velocities[i] = {v[at], v[at + 1], v[at + 2]};
-  }
+  std::vector<double> x;
+  x.reserve(3 * momenta.size());
+  for (const Twist& p : momenta) x.insert(x.end(), {p.vx, p.vy, p.omega});
+  hessian_.solve(x);
+  velocities.clear();
+  for (std::size_t i = 0; i < x.size(); i += 3) velocities.push_back({x[i], x[i + 1], x[i + 2]});
 }
 
 }  // namespace merge2d

@@ -2,7 +2,6 @@
 /// The rows of an island for a direct solve, over the bodies that respond, and the matrix of their
 /// normal equations, M + Jᵀ G J.
 
-#include <Eigen/SparseCholesky>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -72,7 +71,6 @@ class DirectRows {
   std::vector<Twist> free_, mass_;    ///< per body: velocity without impulses; m, m, I
   std::vector<DirectRow> rows_;
   BodyMatrix hessian_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky_;
   bool is_laid_out_ = false;
 };
 
