@@ -135,11 +135,10 @@ void findDoubts(State& state, Scratch& scratch) {
   scratch.doubts.assign(state.collections.size(), Doubt::None);
   openWhatFramesDrag(state, scratch);
   bool any = false;
-  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
-    Collection& c = state.collections[slot];
+  for (Collection& c : state.collections) {
     if (!isSwept(state, c)) continue;
     openCertificate(state, c);
-    Doubt& doubt = scratch.doubts[slot];
+    Doubt& doubt = scratch.doubts[state.collections.slotOf(c)];
     if (doubt == Doubt::None) doubt = findDoubt(state, scratch, c);
     any |= doubt != Doubt::None;
     if (doubt == Doubt::None && isLongQuiet(state, c)) putBlocksAway(c);
@@ -147,9 +146,8 @@ void findDoubts(State& state, Scratch& scratch) {
   scratch.sweeping = any;
   if (!any) return;
   spreadDoubts(state, scratch);
-  for (std::size_t slot = 0; slot < state.collections.size(); ++slot) {
-    Collection& c = state.collections[slot];
-    if (scratch.doubts[slot] == Doubt::None || !isSwept(state, c)) continue;
+  for (Collection& c : state.collections) {
+    if (doubtAbout(state, scratch, c) == Doubt::None) continue;
     bringBlocksBack(state, c);
     writeImpulses(c);
     c.certificate.front().last_doubt = state.step;
