@@ -16,7 +16,7 @@ constexpr double kInside = 0.99;  ///< part of the way to the nearest bound that
 constexpr int kMostSteps = 50;
 
 /// Two points whose friction acts where their pressure has its centre.
-struct Manifold {
+struct PointPair {
   const ContactBlock* block;
   std::uint32_t group;  ///< of the first point
 };
@@ -30,7 +30,7 @@ class InteriorPoint {
     const Vec2 n(k.nx, k.ny), t(-k.ny, k.nx);
     const double belts = u_[k.a].surface + u_[k.b].surface;
     if (k.count == 2 && !k.bilateral) {
-      manifolds_.push_back({&k, static_cast<std::uint32_t>(groups_.size())});
+      pairs_.push_back({&k, static_cast<std::uint32_t>(groups_.size())});
     }
     for (int i = 0; i < k.count; ++i) {
       const auto normal = rows_.add(k.a, k.b, n, k.arm_an[i], k.arm_bn[i], k.bias[i]);
@@ -165,7 +165,7 @@ class InteriorPoint {
 
   /// Each friction as in a sweep (ManifoldFriction), with the pressure that there is by now.
   void aimFriction() {
-    for (const Manifold& m : manifolds_) {
+    for (const PointPair& m : pairs_) {
       ContactBlock k = *m.block;
       for (std::uint32_t i = 0; i < 2; ++i) {
         const BoundedImpulse* x = &unknowns_[groups_[m.group + i].unknown];
@@ -341,7 +341,7 @@ class InteriorPoint {
   const std::vector<SolverVelocity>& u_;
   DirectRows rows_;
   std::vector<RowGroup> groups_;
-  std::vector<Manifold> manifolds_;
+  std::vector<PointPair> pairs_;
   std::vector<BoundedImpulse> unknowns_;
   std::vector<Twist> u_now_, momenta_, direction_;
   double exact_ = 0.0;

@@ -163,7 +163,7 @@ void prove(const State& state, Collection& c, Witness&& witness) {
 
 /// How fast the members of the trial move, at contacts and at the corners of welds; turning about a
 /// contact of a body beside which the other hardly moves is left to the residual [m/s].
-double motionOf(const State& state, const Scratch& scratch, const Collection& c) {
+double fastestOf(const State& state, const Scratch& scratch, const Collection& c) {
   const WeldMotions motions(state, c, scratch.trial_u);
   double most = fastestContact(scratch, c);
   for (const Weld& weld : c.welds) {
@@ -179,7 +179,7 @@ double motionOf(const State& state, const Scratch& scratch, const Collection& c)
 void keepTogether(const State& state, Scratch& scratch, Collection& c, ProofSearch&& search) {
   LoadCertificate& proof = c.certificate.front();
   const bool converged = c.residual <= toleratedResidual(state);
-  const double motion = converged ? motionOf(state, scratch, c) : 0.0;
+  const double motion = converged ? fastestOf(state, scratch, c) : 0.0;
   c.settled = !isHit(state, c) && converged && motion <= cutSpeed(state, c);
   if (c.settled) {
     Witness witness = asWitness(state, c, loadOn(state, scratch, c));
@@ -256,7 +256,7 @@ bool endSearch(State& state, Scratch& scratch, Collection& c) {
     return true;  // it goes on
   }
   ProofSearch search = std::exchange(proof.search, {});
-  if (rests) search.load.motion = motionOf(state, scratch, c);
+  if (rests) search.load.motion = fastestOf(state, scratch, c);
   if (search.ahead) {
     c.settled = true;
     if (rests) remember(c, std::move(search.load));
