@@ -136,7 +136,7 @@ void BlockCholesky::await(std::uint32_t k) {
   list = k;
 }
 
-/// What the columns before leave of this one.
+/// Takes the products of the columns before from this one.
 void BlockCholesky::subtract(std::uint32_t column) {
   for (std::uint32_t k = waiting_[column], after = kNone; k != kNone; k = after) {
     after = next_[k];
