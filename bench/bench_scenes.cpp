@@ -226,7 +226,7 @@ std::vector<BenchScene> benchScenes(bool quick) {
     scenes.push_back(pyramid(100));
     scenes.push_back(pyramids(400));
     scenes.push_back(swingingStacks(10'000));
-    for (BenchScene large : {tower(20'000), wall(100'000)}) {
+    for (BenchScene large : {tower(20'000), wall(99'980)}) {
       large.large = true;
       scenes.push_back(std::move(large));
     }
