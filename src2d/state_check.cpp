@@ -293,9 +293,7 @@ class StateCheck {
         const std::size_t blocks = areBlocksAway(c) ? c.block_contact.size() : c.blocks.size();
         require(witness.lambda.size() == blocks + c.joints.size(), "proofs");
       }
-      const std::size_t products =
-          witnesses == 0 ? 0 : LoadCertificate::kMost * (witnesses - 1) + witnesses;
-      require(proof.gram.size() >= products, "proofs");
+      require(proof.gram.size() == witnesses * witnesses, "proofs");
     }
   }
 

@@ -139,7 +139,7 @@ struct LoadCertificate {
 
   std::vector<std::uint32_t> columns;  ///< members on which something outside acts, in any witness
   std::vector<Witness> witnesses;
-  std::vector<double> gram;  ///< products of their loads: that of i and j at kMost i + j
+  std::vector<double> gram;  ///< products of their n loads: that of i and j at n i + j
   Weights weights{};         ///< of the load that was carried last
   /// Of a floating collection: the member whose rows follow from those of the others.
   std::uint32_t heaviest = ~0u;

@@ -96,8 +96,7 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
     b[i] = of_frame + scale * (product(state, c, load, witness) - of_frame);
     for (std::size_t j = 0; j < n; ++j) {
       const double of_frames = dot(witness.frame, proof.witnesses[j].frame);
-      const std::size_t ij = i * kWitnesses + j;
-      gram[ij] = of_frames + scale * (proof.gram[ij] - of_frames);
+      gram[i * kWitnesses + j] = of_frames + scale * (proof.gram[i * n + j] - of_frames);
     }
   }
   const double ll = load.norm * load.norm;
@@ -122,10 +121,10 @@ namespace {
 
 void fillGram(LoadCertificate& proof) {
   const std::size_t n = proof.witnesses.size();
-  proof.gram.resize(kWitnesses * kWitnesses);
+  proof.gram.resize(n * n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
-      proof.gram[i * kWitnesses + j] = product(proof.witnesses[i], proof.witnesses[j]);
+      proof.gram[i * n + j] = product(proof.witnesses[i], proof.witnesses[j]);
     }
   }
 }
@@ -134,16 +133,17 @@ void fillGram(LoadCertificate& proof) {
 double worthOf(const LoadCertificate& proof, std::size_t which) {
   Gram gram{};
   LoadCertificate::Weights b{};
+  const std::size_t all = proof.witnesses.size();
   std::size_t n = 0;
-  for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
+  for (std::size_t i = 0; i < all; ++i) {
     if (i == which) continue;
     std::size_t m = 0;
-    for (std::size_t j = 0; j < proof.witnesses.size(); ++j) {
-      if (j != which) gram[n * kWitnesses + m++] = proof.gram[i * kWitnesses + j];
+    for (std::size_t j = 0; j < all; ++j) {
+      if (j != which) gram[n * kWitnesses + m++] = proof.gram[i * all + j];
     }
-    b[n++] = proof.gram[i * kWitnesses + which];
+    b[n++] = proof.gram[i * all + which];
   }
-  const double xx = proof.gram[which * kWitnesses + which];
+  const double xx = proof.gram[which * all + which];
   return project(gram, b, n, xx).left / xx;
 }
 
@@ -209,7 +209,7 @@ LoadCertificate::Weights combinationFor(const LoadCertificate& proof, const Witn
   LoadCertificate::Weights b{};
   double largest = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) gram[i][j] = proof.gram[i * kWitnesses + j];
+    for (std::size_t j = 0; j < n; ++j) gram[i][j] = proof.gram[i * n + j];
     b[i] = product(proof.witnesses[i], load);
     largest = std::max(largest, gram[i][i]);
   }
