@@ -15,7 +15,7 @@ struct DecidedSettings {
   double cut_acceleration = 0.005;
   /// In a step in which something hits, a slip may go on that friction ends within this way [m]: of
   /// a weld with friction 0.6 one of 5 mm/s.
-  double slip_in_hit = 2.1e-6;
+  double slip_in_hit = 2.124e-6;
   /// A search has converged where the largest row residual is below this part of the cut speed [1].
   double tolerance = 0.1;
   /// A weld must also move by more than the residual at the box where it moves least: a long body

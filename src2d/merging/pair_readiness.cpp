@@ -24,15 +24,18 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
   PairContacts seen;
   const bool bilateral = isBilateral(state, pair.a, pair.b);
   const double mu = frictionOf(state, pair.a, pair.b);
+  // On one frame they are at rest: their contacts have no rows, and show how they came there.
+  const bool rests = sameFrame(state.rigid(pair.a), state.rigid(pair.b));
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
     const Contact& contact = state.contacts[state.contacts.order[i]];
     for (int k = 0; k < contact.count; ++k) {
       const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
       if (p.lambda_n <= 0.0 && !bilateral) continue;
       ++seen.active;
-      seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
+      const double slip = rests ? 0.0 : std::abs(p.w_t);
+      seen.fastest_slip = std::max(seen.fastest_slip, slip);
       seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
-      const bool sticks = mu > 0.0 && std::abs(p.w_t) < state.settings.sleeping.velocity;
+      const bool sticks = mu > 0.0 && slip < state.settings.sleeping.velocity;
       seen.on_edge +=
           !bilateral && !sticks && std::abs(p.lambda_t) >= kPairOnEdge * mu * p.lambda_n;
     }
