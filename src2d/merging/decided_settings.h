@@ -53,7 +53,8 @@ struct DecidedSettings {
   int shaken_steps = 100;
   /// A pair whose weld broke sooner after it had formed waits for the rest of these steps before it
   /// may merge again, or it would merge and part in turn while it barely moves. One that moved
-  /// slowly waits as long as it would still seem at rest, at most so many steps.
+  /// slowly waits as long as it would still seem at rest, at most so many steps, unless it is found
+  /// to gain less by then.
   int flicker_steps = 20, longest_wait = 200;
   /// Steps for which the memory of rows is kept that nothing asks for: loads come again.
   int kept_steps = 100;
@@ -74,6 +75,11 @@ inline double cutSpeed(const State& state, const Collection& c, const Weld& weld
   const double friction = frictionOf(state, weld.a, weld.b);
   const double slip = std::sqrt(2.0 * friction * state.gravity.norm() * kDecided.slip_in_hit);
   return std::max(slip, cutSpeed(state));
+}
+
+/// Steps after which a pair no longer seems at rest that parts with this gain per step [m/s].
+inline double stepsUntilSeen(const State& state, double gain) {
+  return std::min<double>(kDecided.longest_wait, state.settings.merging.velocity / gain);
 }
 
 /// Below this residual a search has converged [m/s].
