@@ -47,6 +47,8 @@ struct Contact {
   std::int16_t count = 0;
   /// Consecutive steps in which the pair could have merged; below 0 it may not yet.
   int quiet_steps = 0;
+  /// Where it waits: the velocity that its bodies gained in the step in which they parted [m/s].
+  float parting = 0.0F;
   float apart = 0.0F;  ///< without points: the shapes are at least this far from each other [m]
   /// Of a single point, the second's lambda_t holds the impulse against rolling (contact_block.h).
   std::array<ContactPoint, 2> points;

@@ -76,8 +76,9 @@ void JointSolver::addWeakRows(std::vector<JointVector>& x) {
 }
 
 /// Of the corrections alone: rows that depend on others get the error that the others leave them,
-/// or else they would be stressed against each other, by little over little. Motors and limits may
-/// well press against each other.
+/// or else they would be stressed against each other, by little over little. The stress that there
+/// is stays: a bridge without slack that is one body carries its load by it, and its joints would
+/// let go of it. Motors and limits may well press against each other.
 void JointSolver::reconcile() {
   const auto isError = [&](const SoftenedRow& s) {
     const JointColumn& c = m_.columns[s.column];
@@ -93,7 +94,10 @@ void JointSolver::reconcile() {
   }
   solve(x);
   for (const SoftenedRow& s : m_.softened) {
-    if (isError(s)) rowAt(s.column, s.row).bias += s.more * x[s.column][s.row];
+    if (!isError(s)) continue;
+    const JointColumn& c = m_.columns[s.column];
+    const double stress = c.joint->lambda[c.row[s.row]];
+    rowAt(s.column, s.row).bias += s.more * (x[s.column][s.row] - stress);
   }
 }
 

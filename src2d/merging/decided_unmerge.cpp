@@ -27,6 +27,9 @@ class WeldMotions {
   WeldMotions(const State& state, const Collection& c, const std::vector<SolverVelocity>& u)
       : state_(state), c_(c), u_(u) {}
 
+  /// The speed at which the bodies of a weld part [m/s].
+  double limitOf(const Weld& weld) const { return cutSpeed(state_, c_, weld); }
+
   /// Zero where a bound tells that nothing is faster than `ignored`.
   WeldMotion of(const Weld& weld, double ignored) const {
     const Vec2 origin = state_[isMember(weld.a) ? weld.a : weld.b].local;
@@ -106,10 +109,11 @@ Decision decide(const Weld& weld, double speed, double threshold) {
 
 /// The bodies of some weld move against each other, at their corners, by more than `noise`: a beam
 /// that begins to tip about its pivot hardly moves there.
-bool turns(const Collection& c, const WeldMotions& motions, double threshold, double noise) {
+bool turns(const Collection& c, const WeldMotions& motions, double noise) {
   return std::ranges::any_of(c.welds, [&](const Weld& weld) {
-    const WeldMotion motion = motions.of(weld, threshold);
-    return !weld.expected && motion.most > threshold && motion.least > noise;
+    const double limit = motions.limitOf(weld);
+    const WeldMotion motion = motions.of(weld, limit);
+    return !weld.expected && motion.most > limit && motion.least > noise;
   });
 }
 
@@ -118,20 +122,20 @@ bool turns(const Collection& c, const WeldMotions& motions, double threshold, do
 /// goes on, some weld must move by more than a few residuals. True where some are cut.
 bool cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofSearch& search) {
   const WeldMotions motions(state, c, scratch.trial_u);
-  const double threshold = cutSpeed(state, c);
   const double residual = c.last_blow == state.step ? 0.0 : c.residual;
-  const bool moves = search.start.empty() || turns(c, motions, threshold, kDecided.sure * residual);
+  const bool moves = search.start.empty() || turns(c, motions, kDecided.sure * residual);
   bool any = false;
   for (std::size_t i = 0; i < c.welds.size(); ++i) {
     Weld& weld = c.welds[i];
     weld.cut = false;
     weld.motion = 0.0F;
     if (weld.expected) continue;
-    const WeldMotion motion = motions.of(weld, scratch.notes ? 0.0 : threshold);
+    const double limit = motions.limitOf(weld);
+    const WeldMotion motion = motions.of(weld, scratch.notes ? 0.0 : limit);
     const double speed = moves && motion.least > residual ? motion.most : 0.0;
-    const Decision decision = decide(weld, speed, threshold);
+    const Decision decision = decide(weld, speed, limit);
     if (scratch.notes) scratch.notes->decisions.push_back(decision);
-    if (speed <= threshold) continue;
+    if (speed <= limit) continue;
     if (!search.movers.empty() && search.movers[i] == 0) continue;
     weld.cut = true;
     weld.motion = static_cast<float>(speed);
@@ -180,7 +184,7 @@ void keepTogether(const State& state, Scratch& scratch, Collection& c, ProofSear
   LoadCertificate& proof = c.certificate.front();
   const bool converged = c.residual <= toleratedResidual(state);
   const double motion = converged ? fastestOf(state, scratch, c) : 0.0;
-  c.settled = !isHit(state, c) && converged && motion <= cutSpeed(state, c);
+  c.settled = !isHit(state, c) && converged && motion <= cutSpeed(state);
   if (c.settled) {
     Witness witness = asWitness(state, c, loadOn(state, scratch, c));
     witness.motion = motion;
@@ -220,9 +224,9 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
 bool restsIn(const State& state, Scratch& scratch, Collection& c) {
   const double tolerance = toleratedResidual(state);
   const auto sure = [&] { return c.residual / kDecided.tolerance; };
-  if (fastestContact(scratch, c) > std::max(cutSpeed(state, c), sure())) return false;
+  if (fastestContact(scratch, c) > std::max(cutSpeed(state), sure())) return false;
   const WeldMotions motions(state, c, scratch.trial_u);
-  const auto turnsBy = [&](double noise) { return turns(c, motions, cutSpeed(state, c), noise); };
+  const auto turnsBy = [&](double noise) { return turns(c, motions, noise); };
   if (c.residual > tolerance || !turnsBy(c.residual)) return true;
   continueSearch(state, scratch, c, kDecided.tolerance * tolerance);
   return !turnsBy(sure());
@@ -232,11 +236,11 @@ bool restsIn(const State& state, Scratch& scratch, Collection& c) {
 std::vector<std::uint8_t> moversOf(const State& state, const Scratch& scratch,
                                    const Collection& c) {
   const WeldMotions motions(state, c, scratch.trial_u);
-  const double threshold = cutSpeed(state, c);
   std::vector<std::uint8_t> movers;
   movers.reserve(c.welds.size());
   for (const Weld& weld : c.welds) {
-    movers.push_back(motions.of(weld, threshold).most > threshold ? 1 : 0);
+    const double limit = motions.limitOf(weld);
+    movers.push_back(motions.of(weld, limit).most > limit ? 1 : 0);
   }
   return movers;
 }

@@ -62,9 +62,8 @@ int waitUntilSeen(const State& state, const InternalContact& contact, const Weld
   const auto age = state.step - contact.since;
   const auto rest = std::max(std::int64_t{0}, kDecided.flicker_steps - age);
   if (!cut || cut->motion <= 0.0F) return static_cast<int>(rest);
-  const double seen = state.settings.merging.velocity / static_cast<double>(cut->motion);
-  return std::max(static_cast<int>(rest),
-                  static_cast<int>(std::min<double>(kDecided.longest_wait, seen)));
+  const double seen = stepsUntilSeen(state, static_cast<double>(cut->motion));
+  return std::max(static_cast<int>(rest), static_cast<int>(seen));
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
   if (!(p.left <= frame * frame)) return false;  // nor where they are no numbers
   double motion = 0.0;
   for (std::size_t i = 0; i < n; ++i) motion += p.weights[i] * proof.witnesses[i].motion;
-  if (motion > cutSpeed(state, c)) return false;
+  if (motion > cutSpeed(state)) return false;
   proof.lambda_stale |= p.weights != proof.weights;
   proof.weights = p.weights;
   return true;

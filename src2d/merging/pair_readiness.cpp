@@ -24,17 +24,20 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
   PairContacts seen;
   const bool bilateral = isBilateral(state, pair.a, pair.b);
   const double mu = frictionOf(state, pair.a, pair.b);
+  // On one frame they are at rest: their contacts have no rows, and show how they came there.
+  const bool rests = sameFrame(state.rigid(pair.a), state.rigid(pair.b));
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
     const Contact& contact = state.contacts[state.contacts.order[i]];
     for (int k = 0; k < contact.count; ++k) {
       const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
       if (p.lambda_n <= 0.0 && !bilateral) continue;
       ++seen.active;
-      seen.fastest_slip = std::max<double>(seen.fastest_slip, std::abs(p.w_t));
+      const double slip = rests ? 0.0 : std::abs(p.w_t);
+      seen.fastest_slip = std::max(seen.fastest_slip, slip);
       seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
-      const bool at_rest = std::abs(p.w_t) < state.settings.sleeping.velocity;
+      const bool sticks = mu > 0.0 && slip < state.settings.sleeping.velocity;
       seen.on_edge +=
-          !bilateral && !at_rest && std::abs(p.lambda_t) >= kPairOnEdge * mu * p.lambda_n;
+          !bilateral && !sticks && std::abs(p.lambda_t) >= kPairOnEdge * mu * p.lambda_n;
     }
   }
   return seen;
@@ -42,7 +45,7 @@ PairContacts lookAt(const State& state, const BodyPair& pair) {
 
 /// All active contacts are on the edge of their cones: is there a motion of b against a, keeping
 /// all of them closed, in which every one slips against its friction? A body wedged into a corner
-/// is on the edge too, but goes nowhere.
+/// is on the edge too, but goes nowhere. On ice any such motion goes on, however slow.
 bool aboutToSlide(const State& state, const BodyPair& pair) {
   const Pose pose = state.pose(pair.b);
   const double size = state.extent(rigidOf(pair.b)).box.half.norm();
@@ -65,7 +68,7 @@ bool aboutToSlide(const State& state, const BodyPair& pair) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(closed);
   constexpr double kRankTolerance = 1e-6;
   const auto free = (modes.eigenvalues().array() < kRankTolerance).count();
-  if (free != 1) return free > 1;
+  if (free != 1 || frictionOf(state, pair.a, pair.b) == 0.0) return free > 0;
   const Eigen::Vector3d motion = modes.eigenvectors().col(0);
   const auto along = [&](const Eigen::Vector3d& row) { return row.dot(motion); };
   return std::all_of(tangents.begin(), tangents.end(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src2d/core/memory.h"
+#include "src2d/merging/decided_settings.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/pair_metric.h"
 #include "src2d/merging/pair_readiness.h"
@@ -24,12 +25,24 @@ void notePatience(Notes* notes, const BodyPair& pair, int count) {
                               .verdict = "wait"});
 }
 
+/// A pair that waits, as it parted slowly, and does not move half as fast as it would by now with
+/// the gain of that step: a load that swings, or was near the edge of what its contacts carry, has
+/// gone back. Guarded by Merge.APairThatPartedSlowlyAndStoppedWaitsNoLonger.
+bool hasStopped(const State& state, const BodyPair& pair, const Contact& contact) {
+  if (contact.parting <= 0.0F || contact.quiet_steps >= -1) return false;
+  const auto gain = static_cast<double>(contact.parting);
+  const double steps = stepsUntilSeen(state, gain) + contact.quiet_steps;
+  return steps >= kDecided.flicker_steps &&
+         relativeMotion(state, pair, nullptr) < 0.5 * steps * gain;
+}
+
 void countQuietPairs(State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
     if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) continue;
     if (hasBelt(state, pair.a, pair.b)) continue;  // a carried body moves, however slowly
     Contact& first = state.contacts[state.contacts.order[pair.first]];
+    if (hasStopped(state, pair, first)) first.quiet_steps = -1;
     const int count = first.quiet_steps;
     if (count < -1) notePatience(scratch.notes, pair, count);
     PairTest test(state, pair, scratch.notes);

@@ -87,7 +87,8 @@ RigidId newPart(State& state, const std::vector<BodyId>& members,
 /// A contact that leaves a collection.
 struct Released {
   InternalContact inner;
-  int patience;  ///< steps before its pair may merge again
+  int patience;   ///< steps before its pair may merge again
+  float parting;  ///< as Contact::parting
 };
 
 /// The weld that a contact belongs to, when a test of this step found it broken, sliding or moving.
@@ -110,9 +111,10 @@ double farthestPoint(const InternalContact& inner) {
 /// Contacts between the parts return to the table with their impulses and today's geometry.
 void releaseContacts(State& state, const std::vector<Released>& released) {
   std::vector<Contact> contacts;
-  for (const auto& [inner, patience] : released) {
+  for (const auto& [inner, patience, parting] : released) {
     Contact& contact = contacts.emplace_back(inner.released());
     contact.quiet_steps = -patience;
+    contact.parting = parting;
     updateManifold(state, contact, farthestPoint(inner));
   }
   std::ranges::sort(contacts, {}, &Contact::key);
@@ -198,7 +200,8 @@ class Split {
         continue;
       }
       const Weld* cut = cutByTest(c, inner);
-      released_.push_back({inner, unmergingMethod(state_).waitAfterSplit(state_, inner, cut)});
+      released_.push_back({inner, unmergingMethod(state_).waitAfterSplit(state_, inner, cut),
+                           cut ? cut->motion : 0.0F});
     }
     c.contacts.resize(staying);
   }

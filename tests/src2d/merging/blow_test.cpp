@@ -226,5 +226,86 @@ TEST(Blow, AHardOneAfterManySmallOnesIsNotHeld) {
   EXPECT_NEAR(lastWay(run), expected, 0.05 * expected);
 }
 
+/// A wall on a plate that the ground resists with the friction `mu`.
+std::string wallOnPlate(double mu) {
+  return fmt::format(R"({}friction = {}
+[[body]]
+name = "plate"
+at = [0, 0.1]
+box = [6, 0.2]
+[[body]]
+name = "brick"
+at = [-1.5, 0.45]
+box = [1, 0.5]
+repeat = {{ count = [4, 4], spacing = [1, 0.5] }}
+)",
+                     kGround, mu * mu / 0.6);
+}
+constexpr double kMassOnPlate = 9.2;  // kg
+
+/// All that a world without friction on its ground may gain is what acts on it from outside.
+class OnIce : public testing::TestWithParam<Mode> {};
+
+TEST_P(OnIce, ABlowLosesNothingToTheGroundHoweverGentle) {
+  for (const double speed : {1e-5, 1e-4, 1e-3, 4e-3, 2e-2}) {
+    Simulation run(wallOnPlate(0.0), GetParam());
+    run.until(2.0);
+    const double impulse = kMassOnPlate * speed, before = run.body("plate").x.x();
+    run.kick("plate", {impulse, 0.0});
+    run.until(4.0);
+    EXPECT_NEAR(run.now().stats.momentum.x(), impulse, 0.01 * impulse) << speed;
+    EXPECT_NEAR(run.body("plate").x.x() - before, 2.0 * speed, 0.02 * speed) << speed;
+  }
+}
+
+TEST_P(OnIce, ABallThatHitsAWallDrivesItOff) {
+  Simulation run(wallOnPlate(0.0) + R"(
+[[body]]
+name = "ball"
+at = [-6, 1.2]
+circle = 0.2
+mass = 0.01
+velocity = [4, 0]
+pinned_until = 2
+friction = 0
+)",
+                 GetParam());
+  run.until(4.0);
+  EXPECT_NEAR(run.now().stats.momentum.x(), 0.04, 0.0004);
+}
+
+TEST_P(OnIce, ASlowPushMovesAWall) {
+  for (const double acceleration : {1e-4, 4e-3, 1e-2}) {
+    Simulation run(wallOnPlate(0.0) + fmt::format(R"(
+[[force]]
+body = "plate"
+force = [{}, 0]
+from = 2
+)",
+                                                  kMassOnPlate * acceleration),
+                   GetParam());
+    run.until(6.0);
+    EXPECT_NEAR(run.body("plate").x.x(), 8.0 * acceleration, 0.08 * acceleration);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(EachMode, OnIce,
+                         testing::Values(Mode::Reference, Mode::Merge, Mode::MergeSleep));
+
+/// v² / 2μg. A step of 0.01 s takes 1 % of it off, as forces act at its end.
+TEST(Blow, OnLittleFrictionAWallSlidesAsFarAsItsSpeedCarriesIt) {
+  const double v = 4e-3;
+  for (const double mu : {1e-4, 1e-3}) {
+    for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {
+      Simulation run(wallOnPlate(mu), mode);
+      run.until(2.0);
+      const double before = run.body("plate").x.x();
+      run.kick("plate", {kMassOnPlate * v, 0.0});
+      run.until(8.0);
+      const double way = v * v / (2.0 * mu * 9.81);
+      EXPECT_NEAR(run.body("plate").x.x() - before, way, 0.03 * way) << mu << name(mode);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace merge2d
