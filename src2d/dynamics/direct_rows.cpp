@@ -28,19 +28,27 @@ DirectRows::DirectRows(std::span<const std::uint32_t> bodies, const std::vector<
 std::uint32_t DirectRows::add(std::uint32_t a, std::uint32_t b, const Vec2& d, double arm_a,
                               double arm_b, double bias) {
   DirectRow row{place_[a], place_[b], {-d.x(), -d.y(), -arm_a}, {d.x(), d.y(), arm_b}};
-  const auto meet = [&](std::uint32_t body, const Twist& j) {
+  const auto meet = [&](std::uint32_t body, const Twist& j, double& turn) {
     const SolverVelocity& of = u_[body];
     if (place_[body] == DirectRow::kFixed) {
+      turn = of.omega;
       row.bias += dot(j, {of.vx, of.vy, of.omega});
     } else {
       row.k += of.inv_mass * (j.vx * j.vx + j.vy * j.vy) + of.inv_inertia * j.omega * j.omega;
     }
   };
-  meet(a, row.j_a);
-  meet(b, row.j_b);
+  meet(a, row.j_a, row.turn_a);
+  meet(b, row.j_b, row.turn_b);
   row.bias += bias;
   rows_.push_back(row);
   return static_cast<std::uint32_t>(rows_.size() - 1);
+}
+
+void DirectRows::setArms(std::uint32_t row, double arm_a, double arm_b) {
+  DirectRow& r = rows_[row];
+  r.bias += r.turn_b * (arm_b - r.j_b.omega) - r.turn_a * (arm_a + r.j_a.omega);
+  r.j_a.omega = -arm_a;
+  r.j_b.omega = arm_b;
 }
 
 double DirectRows::along(std::uint32_t row, const std::vector<Twist>& twists) const {

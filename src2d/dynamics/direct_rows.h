@@ -17,6 +17,7 @@ struct DirectRow {
   std::uint32_t a = kFixed, b = kFixed;  ///< places among the bodies, or one that does not respond
   Twist j_a, j_b;                        ///< the Jacobian's parts
   double bias = 0.0;                     ///< with the velocity of a body that does not respond
+  double turn_a = 0.0, turn_b = 0.0;     ///< of a body that does not respond, else 0 [rad/s]
   double k = 0.0;                        ///< J M⁻¹ Jᵀ
   std::uint32_t block_a = 0, block_b = 0, block_ab = 0;  ///< of the matrix
 };
@@ -36,10 +37,7 @@ class DirectRows {
                     double bias);
 
   /// Moves the point where a row acts, a little.
-  void setArms(std::uint32_t row, double arm_a, double arm_b) {
-    rows_[row].j_a.omega = -arm_a;
-    rows_[row].j_b.omega = arm_b;
-  }
+  void setArms(std::uint32_t row, double arm_a, double arm_b);
 
   const DirectRow& operator[](std::uint32_t row) const { return rows_[row]; }
   std::size_t bodies() const { return mass_.size(); }

@@ -224,7 +224,8 @@ void limitImpulses(const Collection& c, Witness& load) {
     Impulses& lambda = load.lambda[b];
     for (std::size_t i = 0; i < 2; ++i) {
       lambda[i] = static_cast<int>(i) < k.count ? std::max(0.0, lambda[i]) : 0.0;
-      const double most = k.mu * lambda[i];
+      const bool rolls = i == 1 && k.rolls();
+      const double most = rolls ? k.rolling() * lambda[0] : k.mu * lambda[i];
       lambda[i + 2] = std::clamp(lambda[i + 2], -most, most);
     }
   }

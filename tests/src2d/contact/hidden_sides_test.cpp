@@ -163,6 +163,64 @@ TEST(Seams, ASeamNeedNotBeExact) {
   }
 }
 
+/// `n` tiles of 1 m as heavy as told, which lie loose on the ground, with their surface at y = 0.
+Scene looseTiles(int n, double mass) {
+  Scene scene;
+  scene.settings.material.friction = 0.3;
+  add(scene, named("ground", pinned(box(200, 1, {0, -1.5}))));
+  for (int i = 0; i < n; ++i) {
+    BodyDesc tile = box(1, 1, {0.5 + i, -0.5});
+    tile.density = mass;
+    add(scene, tile);
+  }
+  return scene;
+}
+
+/// Hinges between all that are neighbours, in the middle of their sides.
+void joinTiles(Scene& scene) {
+  for (std::uint32_t tile = 1; tile + 1 < scene.bodies.size(); ++tile) {
+    scene.joints.push_back({.a = tile, .b = tile + 1, .at = {tile, -0.5}});
+  }
+}
+
+/// v²/(2μg) = 4.247 m, of which the discrete friction takes up to v·h/2.
+TEST(Seams, ABoxSlidesOverLooseTilesAsFarAsCoulombSays) {
+  for (const double mass : {1.0, 10.0, 1000.0}) {
+    for (const bool hinged : {false, true}) {
+      Scene scene = looseTiles(12, mass);
+      if (hinged) joinTiles(scene);
+      BodyDesc slider = moving(box(0.6, 0.6, {1.5, 0.3}), {5, 0});
+      slider.density = 1.0 / 0.36;
+      add(scene, named("slider", slider));
+      SCOPED_TRACE(mass);
+      inAllModesAndSteps(scene, [](World& world) {
+        runSeconds(world, 2.0);
+        const double lost = 5.0 * world.scene().step;
+        EXPECT_NEAR(see(world, "slider").x.x(), 1.5 + 25.0 / (2.0 * 0.3 * kGravity), 0.6 * lost);
+        EXPECT_NEAR(see(world, "slider").x.y(), 0.3, 1e-3);
+      });
+    }
+  }
+}
+
+/// The tiles give way by the sag of their contacts, which takes some of the disc's energy: of a
+/// disc that weighs as much as a tile 0.07 % at 1/60 s.
+TEST(Seams, ADiscRollsOnOverLooseTiles) {
+  for (const double mass : {1.0, 10.0, 1000.0}) {
+    Scene scene = looseTiles(14, mass);
+    BodyDesc slider = moving(disc(0.3, {1.5, 0.3}), {5, 0});
+    slider.density = 1.0 / (std::numbers::pi * 0.09);
+    slider.spin = -5.0 / 0.3;
+    add(scene, named("slider", slider));
+    SCOPED_TRACE(mass);
+    inAllModesAndSteps(scene, [](World& world) {
+      runSeconds(world, 2.0);
+      EXPECT_NEAR(see(world, "slider").v.x(), 5.0, 0.005);
+      EXPECT_NEAR(see(world, "slider").x.x(), 11.5, 0.01);
+    });
+  }
+}
+
 /// A box of 0.6 m weighs 0.36 kg and sinks in by 0.2 mm: at a step of more it ends against it, and
 /// a drop by as much lets it go on.
 TEST(Seams, AStepStopsABoxAndADropDoesNot) {

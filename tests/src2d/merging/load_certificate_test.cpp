@@ -147,6 +147,27 @@ TEST(LoadCertificate, WritesTheSameImpulsesIntoContactsAsIntoBlocks) {
                                   [](const ContactBlock& k) { return k.lambda_r() != 0.0; }));
 }
 
+/// The moments against rolling as well: they are parts of the solution.
+TEST(LoadCertificate, PredictsTheImpulsesOfALoadThatItKnows) {
+  const World world = quietCart();
+  Inside inside(world);
+  Collection& cart = inside.cart();
+  bringBlocksBack(inside.setup.state, cart);
+  for (const Witness& witness : cart.certificate.front().witnesses) {
+    Witness load{witness.frame, witness.outer, {}};
+    predictImpulses(cart, load);
+    double largest = 0.0, moment = 0.0;
+    for (std::size_t b = 0; b < cart.blocks.size(); ++b) {
+      for (std::size_t r = 0; r < 4; ++r) {
+        largest = std::max(largest, std::abs(witness.lambda[b][r]));
+        EXPECT_NEAR(load.lambda[b][r], witness.lambda[b][r], 1e-3 * largest) << b << ", " << r;
+      }
+      if (cart.blocks[b].rolls()) moment = std::max(moment, std::abs(witness.lambda[b][3]));
+    }
+    EXPECT_GT(moment, 0.0);
+  }
+}
+
 /// Brought back by a blow that comes later, the blocks are those that the straight run has.
 TEST(LoadCertificate, AWorldSavedWhileTheBlocksAreAwayGoesOnWithTheSameBytes) {
   World straight = quietCart();
