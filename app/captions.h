@@ -1,5 +1,5 @@
 #pragma once
-/// What happens in a film, in words and with times (WebVTT).
+/// The events of a film, in words and with times (WebVTT).
 
 #include <map>
 #include <string>

@@ -18,7 +18,7 @@ namespace merge2d {
 inline constexpr std::array<Mode, 4> kModes = {Mode::Reference, Mode::Sleep, Mode::Merge,
                                                Mode::MergeSleep};
 
-/// What one step took and did.
+/// The time and the events of one step.
 struct StepRow {
   StepTime time;  ///< zero without timings
   int active_bodies = 0, contacts = 0, internal_contacts = 0;
@@ -45,7 +45,7 @@ struct Window {
   double from = 0.0, to = 0.0;
 };
 
-/// What a mode did.
+/// The run of one mode.
 struct ModeRun {
   Mode mode = Mode::Reference;
   std::vector<StepRow> steps;

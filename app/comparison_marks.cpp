@@ -10,7 +10,7 @@ namespace {
 /// Of a run; hits that are closer together could not be told apart in a chart.
 constexpr double kApart = 1.0 / 20.0;
 
-/// What the scene itself makes happen.
+/// The scene's own events.
 std::vector<ChartMark> scheduled(const Scene& scene) {
   std::vector<ChartMark> marks;
   const auto& body = scene.bodies;

@@ -1,5 +1,5 @@
 #pragma once
-/// What the charts of a comparison point out.
+/// The moments that the charts of a comparison point out.
 
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ std::vector<Hit> markedHits(const Comparison& comparison);
 /// "ball hits brick[0,20]", or "bookcase and wagon meet" where both moved.
 std::string labelOf(const Comparison& comparison, const Hit& hit);
 
-/// What the scene itself makes happen, and those hits; in the order of time, one at a time.
+/// The scene's own events, and those hits; in the order of time, one at a time.
 std::vector<ChartMark> marksOf(const Comparison& comparison);
 
 }  // namespace merge2d

@@ -151,7 +151,7 @@ std::string row(const Comparison& comparison, const std::string& what, const Cel
   return line + '\n';
 }
 
-/// What the steps took, and how many bodies and contacts there were.
+/// The time of the steps, and the numbers of bodies and contacts.
 std::string meanRows(const Comparison& comparison, const StepsOf& stepsOf) {
   const auto& runs = comparison.runs();
   const auto line = [&](const char* what, const Cell& cell) { return row(comparison, what, cell); };

@@ -83,7 +83,7 @@ double beyond(double value, const JointDesc::Limits& limits) {
   return std::max({limits.lower - value, value - limits.upper, 0.0});
 }
 
-/// What is wrong with the start of a joint, if anything.
+/// The fault of a joint's start, if there is one.
 std::optional<std::string> strainOf(const JointDesc& joint) {
   constexpr double kSlack = 1e-3;  // [m] or [rad]
   const bool distance = joint.kind == JointKind::Distance;

@@ -97,7 +97,7 @@ void printJson(const Json& json) {
   print(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-/// What one step decided.
+/// The decisions of one step.
 class StepReport {
  public:
   StepReport(const ExplainOptions& options, const World& world)

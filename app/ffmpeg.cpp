@@ -33,7 +33,7 @@ std::string plainPath(const fs::path& path) {
   return plain ? text : "./" + text;
 }
 
-/// What went wrong, in a line: the first message is about the cause, the others about what
+/// The reason of a failure, in a line: the first message is about the cause, the others about what
 /// followed.
 std::string reasonOf(const ChildResult& result) {
   std::istringstream lines(result.messages);

@@ -13,7 +13,8 @@ namespace merge2d {
 /// The program ffmpeg, if there is one on the PATH.
 std::optional<std::filesystem::path> findFfmpeg();
 
-/// What makes a film from the frames of a folder, as arguments; `output` is the last one.
+/// The arguments of the command that makes a film from the frames of a folder; `output` is the last
+/// one.
 struct FfmpegJob {
   std::filesystem::path folder;
   std::string scene;

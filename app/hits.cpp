@@ -20,7 +20,7 @@ Vec2 velocityAt(const BodyState& body, const Vec2& point) {
   return body.v + cross(body.omega, Vec2(point - body.x));
 }
 
-/// What a unit impulse along the normal changes of the velocity at the point [1/kg].
+/// The change of the velocity at the point by a unit impulse along the normal [1/kg].
 double mobility(const BodyState& body, const BodyInfo& info, const ContactView& contact) {
   if (body.pinned || info.motion != Motion::Dynamic) return 0.0;
   const double lever = cross(contact.x - body.x, contact.normal);

@@ -11,7 +11,7 @@ namespace merge2d {
 /// There may be only one at a time.
 class LineEditor {
  public:
-  /// What the last word of a line could become.
+  /// The completions of the last word of a line.
   using Completions = std::function<std::vector<std::string>(const std::string& line)>;
 
   explicit LineEditor(Completions completions);

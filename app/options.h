@@ -19,7 +19,7 @@ struct MessageOptions {
   bool verbose = false;
 };
 
-/// What every command that takes a scene understands.
+/// The options of every command that takes a scene.
 struct SceneOptions : MessageOptions {
   std::string scene;                  ///< a built-in name or a file
   Overrides overrides;                ///< --set and --seed

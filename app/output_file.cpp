@@ -45,8 +45,8 @@ fs::path linkTarget(fs::path path) {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// What two names have in common that lead to one file. Empty for what takes all that comes: a
-/// terminal, /dev/null.
+/// The identity of a file, which two names that lead to it share. Empty for a file that takes all
+/// that comes: a terminal, /dev/null.
 std::string identity(const std::string& path) {
   struct stat file {};
   const bool there =

@@ -14,7 +14,7 @@
 
 namespace merge2d {
 
-/// What a file may replace.
+/// The files that an output may replace.
 struct Replaces {
   bool everything = false;      ///< --force
   std::string_view ours = "?";  ///< a file that begins like this is one of ours; "?" is none

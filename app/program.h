@@ -6,7 +6,7 @@
 
 namespace merge2d {
 
-/// What the program returns to the shell.
+/// The exit codes of the program.
 enum ExitCode : int {
   kFine = 0,
   kCheckFailed = 1,  ///< also: a simulation stopped being finite

@@ -149,7 +149,7 @@ void Rendering::stepTo(std::int64_t step, FrameSink& sink) {
   }
 }
 
-/// What a kill leaves can be told from what somebody else put there.
+/// Files that a kill leaves can be told from those of somebody else.
 void Rendering::noteProgress() {
   if (RenderClock::now() < noted_ + kNotedEvery) return;
   run_file_.write(false, *digests_);

@@ -73,7 +73,7 @@ Format readFormat(const std::string& text) {
                                fmt::join(kFormats, ", "), text, didYouMean(text, kFormats)));
 }
 
-/// What the renderer does not understand was typed wrongly.
+/// An option that the renderer does not understand was typed wrongly.
 template <class F>
 auto asUsage(F&& read) {
   try {

@@ -1,5 +1,5 @@
 #pragma once
-/// What `render` can be asked for.
+/// The options of `render`.
 
 #include <cstdint>
 #include <optional>

@@ -31,7 +31,7 @@ Json picture(const RenderOptions& options, const FrameStyle& style) {
   return out;
 }
 
-/// What has to be the same in two renderings of one film.
+/// The settings that two renderings of one film must share.
 Json fixedPart(const Json& film) {
   Json fixed;
   for (const char* key : {"program", "scene", "mode", "parameters", "picture", "digest"}) {

@@ -10,7 +10,7 @@
 
 namespace merge2d {
 
-/// What is told above a stage's picture.
+/// The text above a stage's picture.
 StageCaption captionOf(const StepRecord& record, Stage stage);
 
 /// Draws stages of one scene, in a picture of a fixed camera.

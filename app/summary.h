@@ -1,5 +1,5 @@
 #pragma once
-/// What there is to say about a run when it is over.
+/// The summary of a run.
 
 #include <array>
 #include <optional>

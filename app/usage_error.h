@@ -1,5 +1,5 @@
 #pragma once
-/// What ends a command early, beside the errors of src2d/core/error.h.
+/// Errors that end a command early, beside those of src2d/core/error.h.
 
 #include <stdexcept>
 #include <string>

@@ -32,7 +32,7 @@ struct ValidateOptions : SceneOptions {
   std::string to;  ///< file for the text scene, or empty
 };
 
-/// What a scene consists of.
+/// The parts of a scene.
 struct Inventory {
   std::map<Motion, int> motions;
   int held = 0;  ///< dynamic, but pinned at first

@@ -13,7 +13,7 @@ namespace merge2d::bench {
 /// is not mistaken for what it creeps.
 inline constexpr int kSwingSteps = 400;
 
-/// What a scene's bodies ought to do, and so what is worth reporting beside the time.
+/// The expected behaviour of a scene's bodies, and so the figures reported beside the time.
 enum class Expectation {
   Stands,  ///< nothing should move against body 0, the platform or ground
   Moves,

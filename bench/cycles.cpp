@@ -73,7 +73,7 @@ struct Phase {
 constexpr Phase kPhases[] = {
     {"falling", 0.0, 2.0}, {"settling", 2.0, 6.0}, {"settled", 16.0, 20.0}};
 
-/// What judging takes of a step while a large pile falls and comes to rest.
+/// The share of judging in a step while a large pile falls and comes to rest.
 void measureCost(int bodies) {
   fmt::print("| pile of {} mixed bodies | phase | ms per step | of which judging |", bodies);
   fmt::print(" share | most in one step | judged in |\n|---|---|---:|---:|---:|---:|---:|\n");

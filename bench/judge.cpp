@@ -105,7 +105,7 @@ struct Held {
   double slid = 0.0, crept = 0.0;  ///< slip on the edge of the cone, and inside it [m]
 };
 
-/// What was lost first of what held a pair; of several at once the last of these.
+/// The contact that a pair lost first; of several at once the last of these.
 enum class Loss { None, Hit, Crept, Slid, Opened };
 
 /// The contacts that were judged at one time, and which of them are left.

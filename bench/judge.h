@@ -14,7 +14,7 @@ inline constexpr std::array kCriteria = {CycleCriterion::Off, CycleCriterion::Tr
                                          CycleCriterion::Rigid};
 inline constexpr std::array kCriterionNames = {"off", "triangle", "rigid"};
 
-/// What one criterion did with the pairs of a single contact.
+/// The verdicts of one criterion on the pairs of a single contact.
 struct Score {
   int welded = 0, false_soon = 0, false_later = 0, missed = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// What random scenes are made from.
+/// The parts of random scenes.
 
 #include <CLI/CLI.hpp>
 #include <cstddef>

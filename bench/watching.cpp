@@ -1,4 +1,4 @@
-/// What it costs to be asked: steps of a world that nobody watches, of one that notes its
+/// The cost of observation: steps of a world that nobody watches, of one that notes its
 /// decisions, and of one whose stages are recorded, in turns on the same machine.
 
 #include <fmt/format.h>

@@ -174,7 +174,7 @@ class Encoder {
     return kept;
   }
 
-  /// What the sweep changed is little as a rule: it is kept as a difference of codes.
+  /// The changes by the sweep are small as a rule: they are kept as differences of codes.
   void changes(const std::vector<float>& from, const std::vector<float>& to) {
     codes_.clear();
     for (std::size_t i = 0; i < to.size(); ++i) {

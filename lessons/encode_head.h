@@ -10,7 +10,7 @@
 
 namespace merge2d {
 
-/// What one has to know to read the columns.
+/// The head of a recording, which tells how to read its columns.
 struct ColumnLegend {
   std::int64_t every = 1;  ///< time steps between two samples of contacts and decisions
   Linear length, angle;

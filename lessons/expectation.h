@@ -1,5 +1,5 @@
 #pragma once
-/// What a lesson says will happen, checked against what does.
+/// The predictions of a lesson, checked against its run.
 
 #include <optional>
 #include <string>

@@ -10,7 +10,7 @@
 namespace merge2d {
 namespace {
 
-/// What a decision is about: a pair on its way to a weld, a weld, an impact, or something that may
+/// The subject of a decision: a pair on its way to a weld, a weld, an impact, or something that may
 /// sleep.
 enum class Matter { Impact, Sleep, Weld, Pair };
 
@@ -27,8 +27,8 @@ bool has(const std::vector<Decision>& tests, std::string_view verdict) {
 /// Above its threshold by how much: 1 is just there.
 double closeness(const Decision& d) { return d.threshold > 0.0 ? d.value / d.threshold : 0.0; }
 
-/// What is worth being told first among several of one outcome: what lost its count, and what is
-/// near its threshold, on either side.
+/// The order of several decisions of one outcome: first those that lost their count, and
+/// those near their thresholds, on either side.
 double interest(const Explanation& e) {
   const Decision* nearest = nearestTest(e.tests);
   if (nearest == nullptr) return 0.0;

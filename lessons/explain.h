@@ -1,6 +1,6 @@
 #pragma once
-/// What one step decided about each pair of bodies, and why: the decision records put into
-/// sentences. Nothing is tested anew here.
+/// The decisions of one step about each pair of bodies, with their reasons: the decision records
+/// put into sentences. Nothing is tested anew here.
 
 #include <string>
 #include <vector>

@@ -49,7 +49,7 @@ std::vector<Recording> recordLesson(const Lesson& lesson,
 /// One sentence for each expectation that does not hold.
 std::vector<std::string> failures(const Lesson& lesson, const std::vector<Recording>& recordings);
 
-/// What the page needs of it, as JSON; questions are answered from the recordings. Throws
+/// The lesson as JSON for the page; questions are answered from the recordings. Throws
 /// InputError where a moment does not happen.
 std::string lessonJson(const Lesson& lesson, const std::vector<Recording>& recordings);
 

@@ -19,7 +19,7 @@
 
 namespace merge2d {
 
-/// What a moment means in a recording: a step, and the event that was found there, if any.
+/// A moment in a recording: a step, and the event that was found there, if any.
 struct Found {
   std::int64_t step = 0;
   std::optional<Event> event;

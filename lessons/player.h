@@ -28,7 +28,7 @@ class Player {
  public:
   Player(const Scene& scene, Mode mode, std::int64_t last, PictureMaker draw);
 
-  /// What one sees at first.
+  /// The first view.
   std::string greeting() const;
   /// "step 118 Unmerge > ".
   std::string prompt() const;
@@ -36,7 +36,7 @@ class Player {
   Answer run(std::string_view line);
   bool done() const { return done_; }
 
-  /// What the last word of a line could become: commands, stages, bodies.
+  /// The completions of the last word of a line: commands, stages, bodies.
   std::vector<std::string> completions(std::string_view line) const;
 
   std::int64_t step() const { return step_; }

@@ -1,4 +1,4 @@
-/// What the player tells: where we are, tables, reasons, bodies, pairs.
+/// The views of the player: the place, tables, reasons, bodies, pairs.
 
 #include <fmt/format.h>
 

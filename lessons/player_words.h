@@ -1,5 +1,5 @@
 #pragma once
-/// What the words of a line to the player mean.
+/// The meaning of the words of a line to the player.
 
 #include <cstdint>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-/// What each stage did, in one line.
+/// The work of each stage, in one line.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a stage did, as a table of text: for terminals, pipes and screen readers.
+/// The work of a stage as a table of text: for terminals, pipes and screen readers.
 
 #include <optional>
 #include <string>
@@ -48,7 +48,7 @@ std::string stageTable(const Words& words, const StepRecord& record, Stage stage
 /// "Which welds break?" …: what a stage does, in one line.
 const char* purpose(Stage stage);
 
-/// What a stage did in this step, in one line: "2 welds ended; C1 came apart into 2".
+/// The work of a stage in this step, in one line: "2 welds ended; C1 came apart into 2".
 std::string summary(const StepRecord& record, Stage stage);
 /// The same in at most 26 characters: "34 found", "nothing to do".
 std::string result(const StepRecord& record, Stage stage);

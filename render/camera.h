@@ -40,7 +40,7 @@ Camera fitCamera(const Snapshot& snapshot, const std::vector<BodyInfo>& bodies, 
 /// The world box a body covers.
 Aabb bodyBounds(const BodyInfo& info, const Pose& pose);
 
-/// What a camera sees in a part of the picture.
+/// The view of a camera in a part of the picture.
 struct View {
   PixelBox panel;
   Vec2 center = Vec2::Zero();  ///< in the middle of the panel [m]

@@ -31,7 +31,7 @@ class Canvas {
   int height() const { return height_; }
   /// Sets the text of the drawings for this canvas: it owns their glyphs.
   Text& text() { return text_; }
-  /// What draws: "4.5 (Core Profile) Mesa 22.3.6, llvmpipe (…)".
+  /// The name of the renderer: "4.5 (Core Profile) Mesa 22.3.6, llvmpipe (…)".
   std::string description();
 
   Picture draw(const Drawing& drawing) {

@@ -11,11 +11,11 @@
 
 namespace merge2d {
 
-/// What is to be drawn; `text` sets the letters and must belong to the canvas that draws them.
+/// The content of a frame; `text` sets the letters and must belong to the canvas that draws them.
 Drawing composeFrame(Text& text, const Snapshot& snapshot, const std::vector<BodyInfo>& bodies,
                      const BodyLooks& looks, const FrameStyle& style, const CollectionSlots& slots);
 
-/// What the picture shows, for those who cannot see it: "A tower. Step 123, t = 1.23 s,
+/// A description of the picture, for those who cannot see it: "A tower. Step 123, t = 1.23 s,
 /// merge+sleep: 320 bodies, 5 active |B|, …".
 std::string describe(const Snapshot& snapshot, const FrameStyle& style);
 

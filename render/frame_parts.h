@@ -72,7 +72,7 @@ struct Count {
   const char* one;
   const char* many;
 };
-/// What a frame's caption counts; the same entries in all frames of a mode.
+/// The entries of a frame's caption, the same in all frames of a mode.
 std::vector<Count> countsOf(const Snapshot& snapshot, Mode mode);
 
 /// Title and numbers above the world; legend and scale bar below it.

@@ -15,7 +15,7 @@
 namespace merge2d {
 namespace {
 
-/// What one of the two panels shows.
+/// The content of one of the two panels.
 struct Panel {
   const char* title;
   const Groups& groups;

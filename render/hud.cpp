@@ -1,4 +1,4 @@
-/// What stands around the world: title and numbers above it, legend and scale bar below.
+/// The frame around the world: title and numbers above it, legend and scale bar below.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be shown over the bodies, by name.
+/// The overlays over the bodies, by name.
 
 #include <array>
 #include <bitset>

@@ -39,7 +39,7 @@ class Painter {
 
   Text& text() { return text_; }
 
-  /// What follows is drawn over what came before, inside of `clip`.
+  /// The drawing that follows lies over the earlier one, inside of `clip`.
   void beginLayer(std::optional<PixelBox> clip = {});
 
   void disc(Pixel center, float radius, const Paint& paint);

@@ -100,7 +100,7 @@ void appendBytes(png_structp png, png_bytep data, std::size_t size) {
 
 }  // namespace
 
-/// What the pixels of a file are.
+/// The format of a file's pixels.
 struct PngEncoder::Image {
   int color_type = PNG_COLOR_TYPE_RGB;
   std::span<const std::uint32_t> pixels;

@@ -50,7 +50,7 @@ inline std::vector<std::uint8_t> encodePng(const Picture& picture, const PngOpti
 /// Throws IoError for what is not a PNG, is damaged, or is larger than 8192 pixels a side.
 Picture decodePng(std::span<const std::uint8_t> bytes);
 
-/// What can be told of a file without decoding it.
+/// The properties of a file that need no decoding.
 struct PngSummary {
   bool complete = false;  ///< from the signature to the last chunk
   int width = 0, height = 0;

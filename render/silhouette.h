@@ -1,5 +1,5 @@
 #pragma once
-/// What never changes about how a body looks, computed once per run.
+/// The looks of a body that never change, computed once per run.
 
 #include <vector>
 

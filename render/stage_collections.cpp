@@ -1,4 +1,4 @@
-/// What falls asleep, which welds are cut, and what merges.
+/// Bodies that fall asleep, welds that are cut, and pairs that merge.
 
 #include <fmt/format.h>
 
@@ -49,7 +49,7 @@ void drawCollection(StageSheet& s, const CollectionView& c, bool now) {
   s.painter.line(center - Pixel{0.0F, r}, center + Pixel{0.0F, r}, s.scene.px(1.4F), color);
 }
 
-/// What is new has its numbers beside it.
+/// New marks have their numbers beside them.
 void drawCollections(StageSheet& s) {
   std::set<CollectionId> fresh;
   for (const Event& e : s.after.events) {

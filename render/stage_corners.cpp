@@ -17,7 +17,7 @@ struct Progress {
   std::string obstacle;  ///< what keeps it apart; empty when nothing does
 };
 
-/// What keeps a pair apart, in a word or two.
+/// The reason that keeps a pair apart, in a word or two.
 std::string obstacleName(std::string_view criterion) {
   if (criterion == "pressed") return "no force";
   if (criterion == "edge") return "on edge";

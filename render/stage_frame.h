@@ -1,5 +1,5 @@
 #pragma once
-/// What one stage of Algorithm 1 did in one step, as a picture.
+/// One stage of Algorithm 1 in one step, as a picture.
 
 #include <optional>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace merge2d {
 
-/// What is told above the picture of a stage, beside its number and name.
+/// The text above the picture of a stage, beside its number and name.
 struct StageCaption {
   std::string purpose;  ///< what the stage does
   std::string summary;  ///< what it did in this step
@@ -25,7 +25,7 @@ class StageDrawer {
   /// `bodies` must outlive the drawer.
   StageDrawer(const std::vector<BodyInfo>& bodies, FrameStyle style);
 
-  /// What the following pictures show of the world.
+  /// The part of the world in the pictures that follow.
   void look(const Camera& camera) { style_.camera = camera; }
   /// A state that is not drawn: the colours of its collections are kept.
   void note(const Snapshot& snapshot) { colors_.update(snapshot); }
@@ -50,7 +50,7 @@ class StageDrawer {
   Text text_;                     ///< of the others
 };
 
-/// What the picture shows, for those who cannot see it.
+/// A description of the picture, for those who cannot see it.
 std::string describeStage(const StepRecord& record, Stage stage, const StageCaption& caption,
                           const FrameStyle& style);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the marks of a stage mean, below the picture. Internal to the renderer.
+/// The meaning of a stage's marks, below the picture. Internal to the renderer.
 
 #include <functional>
 #include <string>

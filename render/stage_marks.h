@@ -1,5 +1,5 @@
 #pragma once
-/// What each stage draws over the bodies. Internal to the renderer.
+/// The marks of each stage over the bodies. Internal to the renderer.
 
 #include "render/frame_parts.h"
 #include "src2d/recorder.h"

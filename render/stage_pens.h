@@ -1,5 +1,5 @@
 #pragma once
-/// What the marks of stages are drawn with: colours, sizes, shapes. Internal to the renderer.
+/// Colours, sizes and shapes of the marks of stages. Internal to the renderer.
 
 #include <string>
 #include <utility>

@@ -22,7 +22,7 @@ class Peer {
   virtual void step() = 0;
   /// Centres of mass, in the scene's order [m].
   virtual std::vector<Vec2> positions() const = 0;
-  /// What the engine itself says that it holds; 0 when it does not say.
+  /// The memory that the engine itself reports; 0 when it reports none.
   virtual std::size_t ownBytes() const { return 0; }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the colours of a drawn scene mean.
+/// The meaning of the colours of a drawn scene.
 
 #include <optional>
 #include <string_view>

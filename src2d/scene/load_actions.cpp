@@ -1,4 +1,4 @@
-/// What acts on bodies: [[spring]], [[impulse]], [[force]] and [[magnet]] of a scene file.
+/// Actions on bodies: [[spring]], [[impulse]], [[force]] and [[magnet]] of a scene file.
 
 #include <fmt/format.h>
 

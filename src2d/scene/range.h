@@ -1,5 +1,5 @@
 #pragma once
-/// What numbers a setting accepts.
+/// The numbers that a setting accepts.
 
 #include <string_view>
 

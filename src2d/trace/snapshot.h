@@ -1,5 +1,5 @@
 #pragma once
-/// What can be seen of a world after a step (or a stage of one), as plain data: the one source of
+/// The visible state of a world after a step (or a stage of one), as plain data: the one source of
 /// the trace, the pictures, the summaries and the lessons. A snapshot owns its numbers, so that it
 /// can be drawn while the world goes on.
 
