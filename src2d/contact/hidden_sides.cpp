@@ -185,12 +185,30 @@ struct Side {
   }
 };
 
-/// True when the shape of `t` may hide sides of the shape of `s`: it is about as near; and where a
-/// blow of the toucher could part the two, it rests on `t` already.
+/// The direction in which the toucher of a seam is pushed.
+Vec2 pushOf(const State& state, const SeamContact& seam) {
+  const Contact& contact = contactOf(state, seam);
+  const Vec2 n = state.pose(contact.key.a).rotation * contact.normal;
+  return seam.ofA() ? n : Vec2(-n);
+}
+
+/// True when the toucher rests on `t` already, so that no blow of it parts the two, and `s` would
+/// push it another way.
+bool restsOn(const State& state, const SeamContact& t, const SeamContact& s) {
+  constexpr double kSameWay = 1.0 - 1e-6;
+  return bears(contactOf(state, t)) && pushOf(state, t).dot(pushOf(state, s)) < kSameWay;
+}
+
+/// True when the shape of `t` may hide sides of the shape of `s`: it is about as near. Something
+/// that bounces off `t` first meets `s` elsewhere.
 bool mayHide(const State& state, const SeamContact& t, const SeamContact& s, bool may_part,
              const SeamScale& scale) {
   const Contact& other = contactOf(state, t);
-  return (!may_part || bears(other)) &&
+  const ContactKey& key = other.key;
+  if (smallestGap(other) > touchingGap(state, key) && restitutionOf(state, key.a, key.b) > 0.0) {
+    return false;
+  }
+  return (!may_part || restsOn(state, t, s)) &&
          smallestGap(other) <= smallestGap(contactOf(state, s)) + scale.ahead;
 }
 

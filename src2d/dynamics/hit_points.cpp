@@ -45,6 +45,9 @@ HitPoint hitPoint(const HitIsland& island, std::uint32_t block, int row, const C
   p.gap = end ? end->carried : point.gap;
   p.e = k.bilateral ? 0.0 : restitutionOf(state, key.a, key.b);
   p.still = p.e > 0.0 || k.bilateral ? HitPoint::kStill : HitPoint::kSoft;
+  const bool is_disc =
+      state.collider(key.shape_a).isCircle() || state.collider(key.shape_b).isCircle();
+  p.round = is_disc && p.e > 0.0 && k.count == 1;
   p.touching = touchingGap(state, key);
   p.least = leastBounce(state, key);
   const bool hit = (k.hits >> row & 1) != 0;

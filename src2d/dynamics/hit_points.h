@@ -22,6 +22,7 @@ struct HitPoint {
   double alpha = 0.0;       ///< how much faster the approach becomes by loads [m/s²]
   double allowed = 0.0;     ///< slower approaches may sink in [m/s]
   double still = kStill;    ///< slower is no approach [m/s]
+  bool round = false;       ///< bounces off or on a disc: its normal turns on the way
   bool holds = false;       ///< touches and does not bounce: bears at any hit
   bool meets = false;       ///< takes part in the hit at hand
   std::int32_t rows = -1;   ///< of that hit, or −1

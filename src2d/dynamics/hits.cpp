@@ -4,6 +4,7 @@
 
 #include "src2d/dynamics/hit_points.h"
 #include "src2d/dynamics/hit_solver.h"
+#include "src2d/geometry/collide.h"
 
 namespace merge2d {
 namespace {
@@ -18,16 +19,22 @@ class HitPath {
     for (const ContactBlock& k : island.blocks()) {
       ends_.push_back({island.placeOf(k.a), island.placeOf(k.b)});
     }
+    for (HitPoint& p : points_) {
+      if (p.round) meetAnew(p);
+    }
   }
 
   void follow() {
     const double h = island_.state().h;
     HitSolver solver(island_);
     const std::size_t most = kFewHits + 2 * std::min(points_.size(), kManyPoints);
-    for (std::size_t hits = 0; hits < most; ++hits) {
+    std::size_t hits = 0;
+    for (std::size_t looks = 0; hits < most && looks < kLooks * most; ++looks) {
       const double wait = timeToNext();
       if (time_ + wait >= h) return advance(h - time_);
       advance(wait);
+      if (someAreLater()) continue;
+      ++hits;
       moveArms();
       for (HitPoint& p : points_) aim(p, kMet);
       for (std::size_t i = 1; i < points_.size(); ++i) meetTogether(points_[i - 1], points_[i]);
@@ -44,20 +51,53 @@ class HitPath {
 
  private:
   static constexpr std::size_t kFewHits = 32, kManyPoints = 200;
+  static constexpr std::size_t kLooks = 30;  ///< at each hit, until the distance has closed
 
   /// The places of a block's bodies among those of the island.
   struct Ends {
     std::uint32_t a = HitIsland::kFixed, b = HitIsland::kFixed;
   };
 
+  static bool approaches(const HitPoint& p, double w) { return w < p.allowed - p.still; }
+
   double timeToNext() const {
     double least = 1e300;
     for (const HitPoint& p : points_) {
       const double w = island_.velocityOf(p);
-      if (w >= p.allowed - p.still) continue;
-      least = std::min(least, p.gap <= kMet ? 0.0 : p.gap / -w);
+      if (approaches(p, w)) least = std::min(least, p.gap <= kMet ? 0.0 : p.gap / -w);
     }
     return least;
+  }
+
+  /// The gap along any normal is a lower bound of the distance. True when one that has closed along
+  /// the normal of before is still open along that of now.
+  bool someAreLater() {
+    bool later = false;
+    for (HitPoint& p : points_) {
+      if (!p.round || p.gap > kMet || !approaches(p, island_.velocityOf(p))) continue;
+      meetAnew(p);
+      later |= p.gap > kMet;
+    }
+    return later;
+  }
+
+  /// The normal, the gap and the arms where the bodies are now.
+  void meetAnew(HitPoint& p) {
+    const State& state = island_.state();
+    const Contact& contact = state.contacts.contactOf(island_.sourceOf(p.block).points[0]);
+    const ContactKey& key = contact.key;
+    ContactBlock& k = island_.blocks()[p.block];
+    const Pose a = poseNow(k.a, ends_[p.block].a, key.a), b = poseNow(k.b, ends_[p.block].b, key.b);
+    constexpr double kAnyGap = 1e9;
+    const Manifold found =
+        collide(state.collider(key.shape_a), state.collider(key.shape_b), a.toLocal(b), kAnyGap);
+    if (found.count != 1) return;
+    p.gap = found.points[0].gap;
+    BlockGeometry g{.normal = a.rotation * found.normal, .count = 1};
+    const Vec2 on_a = a.exactly(found.points[0].position) - 0.5 * p.gap * g.normal;
+    g.arm_a[0] = on_a - centerNow(k.a, ends_[p.block].a);
+    g.arm_b[0] = on_a - centerNow(k.b, ends_[p.block].b);
+    setArms(k, g);
   }
 
   void advance(double dt) {
@@ -73,11 +113,10 @@ class HitPath {
   /// The velocities by Newton's law of the points that have met.
   void aim(HitPoint& p, double met) const {
     const double w = island_.velocityOf(p), extra = p.alpha * (time_ - 0.5 * island_.state().h);
-    const bool approaches = w < p.allowed - p.still && p.gap <= met;
-    p.meets = approaches;
+    p.meets = approaches(p, w) && p.gap <= met;
     p.target = island_.blocks()[p.block].bilateral ? w : p.allowed;
     p.extra = 0.0;
-    if (!approaches || p.e == 0.0 || -w + extra <= p.least) return;
+    if (!p.meets || p.e == 0.0 || -w + extra <= p.least) return;
     p.target = std::max(0.0, p.e * (-w + extra) + extra);
     p.extra = std::max(0.0, p.target + p.e * w);
   }
@@ -107,6 +146,23 @@ class HitPath {
         k.arm_bt[i] = k.arm_at[i] - along;
       }
     }
+  }
+
+  /// The way so far of a body at a place of the island, or of one that does not respond.
+  Twist wayOf(std::uint32_t rigid, std::uint32_t place) const {
+    if (place != HitIsland::kFixed) return ways_[place];
+    const SolverVelocity& v = island_.u(rigid);
+    return {time_ * v.vx, time_ * v.vy, time_ * v.omega};
+  }
+  Vec2 centerNow(std::uint32_t rigid, std::uint32_t place) const {
+    const Twist way = wayOf(rigid, place);
+    return island_.state().rigids[rigid].x + Vec2(way.vx, way.vy);
+  }
+  Pose poseNow(std::uint32_t rigid, std::uint32_t place, BodyId body) const {
+    const Pose start = island_.state().pose(body);
+    const Rotation turn = Rotation::of(wayOf(rigid, place).omega);
+    const Vec2 arm = start.position - island_.state().rigids[rigid].x;
+    return {centerNow(rigid, place) + turn * arm, turn * start.rotation};
   }
 
   const HitIsland& island_;

@@ -4,7 +4,8 @@
 /// A row can end an approach, but not turn it into a bounce: the step's velocities would have to
 /// bring the bodies together and apart. So a point that is about to bounce takes no part in the
 /// full solve. From its velocities on, the bodies of the island move in straight lines from hit to
-/// hit. At each, Newton's law w⁺ = −e w⁻ holds at the points that have met and approach, pair by
+/// hit. The normal of a disc turns on any way; so where one meets is found from where it is then.
+/// At each hit, Newton's law w⁺ = −e w⁻ holds at the points that have met and approach, pair by
 /// pair: an approach that these cause at contacts that touch already is a further hit at the same
 /// time, so that of a row of balls only the last one leaves. Contacts without restitution, slow
 /// ones, and joints hold meanwhile (w⁺ ≥ 0, w⁺ = w⁻), as do points without restitution after their

@@ -163,15 +163,19 @@ TEST(Seams, ASeamNeedNotBeExact) {
   }
 }
 
+void addRough(Scene& scene, BodyDesc body) {
+  body.friction = 0.3;
+  add(scene, std::move(body));
+}
+
 /// `n` tiles of 1 m as heavy as told, which lie loose on the ground, with their surface at y = 0.
 Scene looseTiles(int n, double mass) {
   Scene scene;
-  scene.settings.material.friction = 0.3;
-  add(scene, named("ground", pinned(box(200, 1, {0, -1.5}))));
+  addRough(scene, named("ground", pinned(box(200, 1, {0, -1.5}))));
   for (int i = 0; i < n; ++i) {
     BodyDesc tile = box(1, 1, {0.5 + i, -0.5});
     tile.density = mass;
-    add(scene, tile);
+    addRough(scene, tile);
   }
   return scene;
 }
@@ -179,7 +183,11 @@ Scene looseTiles(int n, double mass) {
 /// Hinges between all that are neighbours, in the middle of their sides.
 void joinTiles(Scene& scene) {
   for (std::uint32_t tile = 1; tile + 1 < scene.bodies.size(); ++tile) {
-    scene.joints.push_back({.a = tile, .b = tile + 1, .at = {tile, -0.5}});
+    JointDesc hinge;
+    hinge.a = tile;
+    hinge.b = tile + 1;
+    hinge.at = {tile, -0.5};
+    scene.joints.push_back(hinge);
   }
 }
 
@@ -191,7 +199,7 @@ TEST(Seams, ABoxSlidesOverLooseTilesAsFarAsCoulombSays) {
       if (hinged) joinTiles(scene);
       BodyDesc slider = moving(box(0.6, 0.6, {1.5, 0.3}), {5, 0});
       slider.density = 1.0 / 0.36;
-      add(scene, named("slider", slider));
+      addRough(scene, named("slider", slider));
       SCOPED_TRACE(mass);
       inAllModesAndSteps(scene, [](World& world) {
         runSeconds(world, 2.0);
@@ -211,7 +219,7 @@ TEST(Seams, ADiscRollsOnOverLooseTiles) {
     BodyDesc slider = moving(disc(0.3, {1.5, 0.3}), {5, 0});
     slider.density = 1.0 / (std::numbers::pi * 0.09);
     slider.spin = -5.0 / 0.3;
-    add(scene, named("slider", slider));
+    addRough(scene, named("slider", slider));
     SCOPED_TRACE(mass);
     inAllModesAndSteps(scene, [](World& world) {
       runSeconds(world, 2.0);
