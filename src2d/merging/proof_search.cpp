@@ -69,7 +69,7 @@ void relaxOpen(const State& state, Scratch& scratch, Collection& c) {
     scratch.trial_u[index(b)] = memberAt(state, b, {v.x(), v.y(), u.omega - one.omega});
   }
   c.residual = static_cast<float>(residualInside(c, scratch.trial_u));
-  const double tolerance = toleratedResidual(state);
+  const double tolerance = kDecided.tolerance * cutSpeed(state, c);
   if (c.residual <= tolerance) return;
   c.residual = static_cast<float>(relax(state, scratch, c, tolerance));
   for (const BodyId b : c.members) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "src2d/dynamics/joint_system.h"
 #include "src2d/dynamics/nncg.h"
@@ -30,7 +31,10 @@ class Relaxation {
     for (const ContactBlock& k : c.blocks) ends_.push_back({memberOf(k.a), memberOf(k.b)});
   }
 
-  double run() {
+  double run() { return isLocal() ? runLocally() : runWidely(); }
+
+ private:
+  double runWidely() {
     bool whole = isUnderWay();
     if (whole) sweepAll(affordable(c_.blocks.size()));
     double residual = choose();
@@ -47,7 +51,19 @@ class Relaxation {
     return residual;
   }
 
- private:
+  /// A hit is followed as far as it moves anything: after each round only the rows are looked at
+  /// that it may have changed.
+  double runLocally() {
+    double residual = choose();
+    listBlocksAtMembers();
+    while (residual > tolerance_ && mayGoOn()) {
+      sweep(kRound);
+      residual = chooseBeside();
+    }
+    return residual;
+  }
+  bool isLocal() { return !isSearch() && isHit(state_, c_); }
+
   static constexpr int kRound = 10, kLookEvery = 5;  // sweeps
   static constexpr int kLocalRounds = 3;
   static constexpr std::size_t kLeastWide = 8;  // blocks
@@ -78,6 +94,56 @@ class Relaxation {
     take([&](std::uint32_t i) {
       return std::ranges::any_of(ends_[i], [&](auto m) { return m != kFrame && hot_[m]; });
     });
+    return most;
+  }
+
+  void listBlocksAtMembers() {
+    first_.assign(c_.members.size() + 2, 0);
+    const auto forEachEnd = [&](auto&& visit) {
+      for (std::uint32_t i = 0; i < ends_.size(); ++i) {
+        for (const std::uint32_t m : ends_[i]) {
+          if (m != kFrame) visit(m, i);
+        }
+      }
+    };
+    forEachEnd([&](std::uint32_t m, std::uint32_t) { ++first_[m + 2]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    at_.resize(first_.back());
+    forEachEnd([&](std::uint32_t m, std::uint32_t i) { at_[first_[m + 1]++] = i; });
+  }
+
+  /// Ascending.
+  std::vector<std::uint32_t> blocksAt(const std::vector<std::uint32_t>& members) const {
+    std::vector<std::uint32_t> blocks;
+    for (const std::uint32_t m : members) {
+      blocks.insert(blocks.end(), at_.begin() + first_[m], at_.begin() + first_[m + 1]);
+    }
+    std::ranges::sort(blocks);
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    return blocks;
+  }
+
+  /// The same as `choose` where nothing has changed but at the members that were swept.
+  double chooseBeside() {
+    double most = 0.0;
+    std::vector<std::uint32_t> hot;
+    for (const std::uint32_t i : blocksAt(members_)) {
+      const double residual = residualOfBlock(i);
+      most = std::max(most, residual);
+      if (residual <= tolerance_) continue;
+      for (const std::uint32_t m : ends_[i]) {
+        if (m != kFrame) hot.push_back(m);
+      }
+    }
+    blocks_ = blocksAt(hot);
+    members_.clear();
+    for (const std::uint32_t i : blocks_) {
+      for (const std::uint32_t m : ends_[i]) {
+        if (m != kFrame) members_.push_back(m);
+      }
+    }
+    std::ranges::sort(members_);
+    members_.erase(std::unique(members_.begin(), members_.end()), members_.end());
     return most;
   }
 
@@ -190,6 +256,7 @@ class Relaxation {
   std::vector<std::array<std::uint32_t, 2>> ends_;  ///< per block: its members, or the frame
   std::vector<std::uint32_t> blocks_, members_;     ///< that are swept
   std::vector<std::uint8_t> hot_, taken_;           ///< per member
+  std::vector<std::uint32_t> first_, at_;           ///< per member: its run of blocks
 };
 
 }  // namespace
