@@ -1,8 +1,10 @@
 #include "src2d/merging/relaxation.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
+#include <ranges>
 
 #include "src2d/dynamics/joint_system.h"
 #include "src2d/dynamics/nncg.h"
@@ -55,6 +57,8 @@ class Relaxation {
   /// that it may have changed.
   double runLocally() {
     double residual = choose();
+    left_ = std::max(kDecided.row_sweeps,
+                     kDecided.full_sweeps * static_cast<double>(blocks_.size()));
     listBlocksAtMembers();
     while (residual > tolerance_ && mayGoOn()) {
       sweep(kRound);
@@ -79,6 +83,10 @@ class Relaxation {
     return residualOf(k, k.nx, k.ny, u_[k.a], u_[k.b]);
   }
 
+  auto allBlocks() const {
+    return std::views::iota(0u, static_cast<std::uint32_t>(c_.blocks.size()));
+  }
+
   /// Chooses the rows at members at which some row has a residual; returns the largest [m/s].
   double choose() {
     double most = 0.0;
@@ -91,7 +99,7 @@ class Relaxation {
         if (m != kFrame) hot_[m] = 1;
       }
     }
-    take([&](std::uint32_t i) {
+    take(allBlocks(), [&](std::uint32_t i) {
       return std::ranges::any_of(ends_[i], [&](auto m) { return m != kFrame && hot_[m]; });
     });
     return most;
@@ -113,13 +121,20 @@ class Relaxation {
   }
 
   /// Ascending.
-  std::vector<std::uint32_t> blocksAt(const std::vector<std::uint32_t>& members) const {
-    std::vector<std::uint32_t> blocks;
+  std::vector<std::uint32_t> blocksAt(const std::vector<std::uint32_t>& members) {
+    constexpr std::uint32_t kBits = 64;
+    marks_.resize(c_.blocks.size() / kBits + 1, 0);
     for (const std::uint32_t m : members) {
-      blocks.insert(blocks.end(), at_.begin() + first_[m], at_.begin() + first_[m + 1]);
+      for (std::uint32_t i = first_[m]; i < first_[m + 1]; ++i) {
+        marks_[at_[i] / kBits] |= std::uint64_t{1} << at_[i] % kBits;
+      }
     }
-    std::ranges::sort(blocks);
-    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    std::vector<std::uint32_t> blocks;
+    for (std::uint32_t word = 0; word < marks_.size(); ++word) {
+      for (; marks_[word] != 0; marks_[word] &= marks_[word] - 1) {
+        blocks.push_back(kBits * word + static_cast<std::uint32_t>(std::countr_zero(marks_[word])));
+      }
+    }
     return blocks;
   }
 
@@ -135,25 +150,17 @@ class Relaxation {
         if (m != kFrame) hot.push_back(m);
       }
     }
-    blocks_ = blocksAt(hot);
-    members_.clear();
-    for (const std::uint32_t i : blocks_) {
-      for (const std::uint32_t m : ends_[i]) {
-        if (m != kFrame) members_.push_back(m);
-      }
-    }
-    std::ranges::sort(members_);
-    members_.erase(std::unique(members_.begin(), members_.end()), members_.end());
+    take(blocksAt(hot), [](std::uint32_t) { return true; });
     return most;
   }
 
   /// The blocks to be swept, and their members.
-  template <class Wanted>
-  void take(Wanted&& wanted) {
+  template <class Blocks, class Wanted>
+  void take(const Blocks& of, Wanted&& wanted) {
     blocks_.clear();
     members_.clear();
     taken_.assign(c_.members.size(), 0);
-    for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) {
+    for (const std::uint32_t i : of) {
       if (!wanted(i)) continue;
       blocks_.push_back(i);
       for (const std::uint32_t m : ends_[i]) {
@@ -165,7 +172,7 @@ class Relaxation {
   }
 
   void sweepAll(int most) {
-    take([](std::uint32_t) { return true; });
+    take(allBlocks(), [](std::uint32_t) { return true; });
     sweep(most);
   }
 
@@ -257,6 +264,7 @@ class Relaxation {
   std::vector<std::uint32_t> blocks_, members_;     ///< that are swept
   std::vector<std::uint8_t> hot_, taken_;           ///< per member
   std::vector<std::uint32_t> first_, at_;           ///< per member: its run of blocks
+  std::vector<std::uint64_t> marks_;                ///< per block, as bits
 };
 
 }  // namespace
