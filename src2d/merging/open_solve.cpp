@@ -38,7 +38,6 @@ std::vector<OpenRegion> open(State& state, Scratch& scratch) {
     }
     regions.emplace_back(state, scratch, c);
   }
-  std::ranges::sort(scratch.opened);
   return regions;
 }
 

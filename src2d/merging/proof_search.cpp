@@ -70,7 +70,7 @@ void relaxOpen(const State& state, Scratch& scratch, Collection& c) {
     scratch.trial_u[index(b)] = memberAt(state, b, {v.x(), v.y(), u.omega - one.omega});
   }
   c.residual = static_cast<float>(residualInside(c, scratch.trial_u));
-  const double tolerance = kDecided.tolerance * cutSpeed(state, c);
+  const double tolerance = toleratedResidual(state);
   if (c.residual <= tolerance) return;
   ProofSearch& search = c.certificate.front().search;
   ProofSearch waiting = std::exchange(search, {});

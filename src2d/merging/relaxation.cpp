@@ -57,8 +57,8 @@ class Relaxation {
   /// that it may have changed.
   double runLocally() {
     double residual = choose();
-    left_ = std::max(kDecided.row_sweeps,
-                     kDecided.full_sweeps * static_cast<double>(blocks_.size()));
+    left_ =
+        std::max(kDecided.row_sweeps, kDecided.full_sweeps * static_cast<double>(blocks_.size()));
     listBlocksAtMembers();
     while (residual > tolerance_ && mayGoOn()) {
       sweep(kRound);
@@ -66,7 +66,7 @@ class Relaxation {
     }
     return residual;
   }
-  bool isLocal() { return !isSearch() && isHit(state_, c_); }
+  bool isLocal() { return !isSearch() && isHit(state_, c_) && isLarge(c_); }
 
   static constexpr int kRound = 10, kLookEvery = 5;  // sweeps
   static constexpr int kLocalRounds = 3;
