@@ -28,25 +28,15 @@ void listSources(const State& state, const BodyPair& pair, Scratch& scratch) {
   }
 }
 
-/// The contacts inside the collections that are open.
-void listInnerSources(const State& state, Scratch& scratch) {
-  if (scratch.open.empty()) return;
-  for (std::uint32_t slot = 0; slot < state.collections.size(); ++slot) {
-    const Collection& c = state.collections[slot];
-    if (c.id == kNoCollection || !scratch.open[index(c.members.front())]) continue;
-    for (std::uint32_t block = 0; block < c.blocks.size(); ++block) {
-      scratch.row_sources.push_back(RowSource::inside(slot, block));
-    }
-  }
-}
-
 }  // namespace
 
 void listRowSources(const State& state, Scratch& scratch) {
   scratch.row_sources.clear();
   reserveTightly(scratch.row_sources, scratch.pairs.size());
   for (const BodyPair& pair : scratch.pairs) listSources(state, pair, scratch);
-  listInnerSources(state, scratch);
+  if (scratch.open.empty()) return;
+  const auto& inner = scratch.open_rows;
+  scratch.row_sources.insert(scratch.row_sources.end(), inner.begin(), inner.end());
 }
 
 RowEnds endsOf(const State& state, const Scratch& scratch, const RowSource& source) {

@@ -245,12 +245,14 @@ struct Scratch {
   std::vector<std::uint32_t> load_place;  ///< per body: one more than its place there, or 0
   std::vector<Doubt> doubts;              ///< per collection slot, where welds are decided
 
-  // SingleIterationPGS, where collections are opened: the full solve, with their members on their
-  // own
-  std::vector<BodyId> open_members;
-  std::vector<Twist> open_start;   ///< per body: the velocity with which it began, if open
-  std::vector<std::uint8_t> open;  ///< per body: it is one of them; empty where there are none
-  bool solved = false;             ///< SolveLCP has nothing left to do
+  // SingleIterationPGS, where collections are opened: the full solve, with members on their own
+  std::vector<BodyId> opened;        ///< members of the collections that are open
+  std::vector<BodyId> open_members;  ///< those that the solve takes on their own
+  std::vector<RowSource> open_rows;  ///< the contacts between them
+  std::vector<Twist> open_start;     ///< per body: the velocity with which it began, if open
+  std::vector<std::uint8_t>
+      open;             ///< per body: it is one of open_members; empty where there are none
+  bool solved = false;  ///< SolveLCP has nothing left to do
 
   // SingleIterationPGS
   bool sweeping = false;                ///< some collection is swept

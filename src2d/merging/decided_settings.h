@@ -66,6 +66,12 @@ inline bool isHit(const State& state, const Collection& c) {
   return state.step - c.last_blow < kDecided.hit_steps;
 }
 
+/// Ten sweeps over all its rows are more than those of a step: a hit is followed only as far as it
+/// reaches.
+inline bool isLarge(const Collection& c) {
+  return kDecided.full_sweeps * static_cast<double>(c.block_contact.size()) > kDecided.row_sweeps;
+}
+
 /// The speed at which bodies of a collection part [m/s].
 inline double cutSpeed(const State& state) { return kDecided.cut_acceleration * state.h; }
 

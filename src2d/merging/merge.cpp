@@ -140,7 +140,9 @@ bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
   const auto release = [](auto& v) { std::remove_reference_t<decltype(v)>().swap(v); };
   release(scratch.sweep_u);
   release(scratch.open_start);
+  release(scratch.opened);
   release(scratch.open_members);
+  release(scratch.open_rows);
   release(scratch.open);
   release(scratch.outer_loads);
   if (!scratch.sweeping) release(scratch.trial_u);

@@ -4,6 +4,7 @@
 
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/momentum.h"
+#include "src2d/merging/open_region.h"
 #include "src2d/merging/proof_search.h"
 #include "src2d/merging/sweep.h"
 
@@ -21,9 +22,10 @@ void startMember(State& state, const Rigid& whole, BodyId b) {
   r.omega = whole.omega;
 }
 
-void open(State& state, Scratch& scratch) {
-  scratch.open_members.clear();
-  scratch.open.assign(state.bodies.size(), 0);
+/// Notes the members of the collections that are open, and the regions that the solve begins with.
+std::vector<OpenRegion> open(State& state, Scratch& scratch) {
+  std::vector<OpenRegion> regions;
+  scratch.opened.clear();
   scratch.open_start.resize(state.bodies.size());
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) != Doubt::Open) continue;
@@ -32,10 +34,18 @@ void open(State& state, Scratch& scratch) {
       startMember(state, state[c.rigid], b);
       const Rigid& r = state[rigidOf(b)];
       scratch.open_start[index(b)] = {r.v.x(), r.v.y(), r.omega};
-      scratch.open[index(b)] = 1;
-      scratch.open_members.push_back(b);
+      scratch.opened.push_back(b);
     }
+    regions.emplace_back(state, scratch, c);
   }
+  return regions;
+}
+
+void listRegions(State& state, Scratch& scratch, const std::vector<OpenRegion>& regions) {
+  scratch.open.assign(state.bodies.size(), 0);
+  scratch.open_members.clear();
+  scratch.open_rows.clear();
+  for (const OpenRegion& region : regions) region.list(state, scratch);
   std::ranges::sort(scratch.open_members);
 }
 
@@ -44,15 +54,7 @@ void showVelocities(const State& state, Scratch& scratch) {
   scratch.sweep_u.resize(state.bodies.size() + 1);
   scratch.sweep_u.back() = {};
   for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
-    const BodyId b{i};
-    if (!state[b].alive) continue;
-    const RigidId mover = moverOf(state, scratch, b);
-    SolverVelocity& u = scratch.sweep_u[i];
-    u = scratch.u[index(mover)];
-    if (mover == rigidOf(b)) continue;
-    const Vec2 arm = state.pose(b).position - state[mover].x;
-    u.vx -= u.omega * arm.y();
-    u.vy += u.omega * arm.x();
+    if (state.bodies[i].alive) scratch.sweep_u[i] = solvedVelocity(state, scratch, BodyId{i});
   }
 }
 
@@ -68,10 +70,15 @@ Doubt doubtAbout(const State& state, const Scratch& scratch, const Collection& c
 }
 
 void solveOpened(State& state, Scratch& scratch) {
-  open(state, scratch);
+  std::vector<OpenRegion> regions = open(state, scratch);
   scratch.last_sweep = state.step;
-  scratch.solved = false;
-  solveContacts(state, scratch);
+  for (bool wider = true; wider;) {
+    listRegions(state, scratch, regions);
+    scratch.solved = false;
+    solveContacts(state, scratch);
+    wider = false;
+    for (OpenRegion& region : regions) wider |= region.widen(state, scratch);
+  }
   scratch.solved = true;
   showVelocities(state, scratch);
   for (Collection& c : state.collections) {
@@ -110,10 +117,10 @@ void closeCollection(const State& state, Scratch& scratch, const Collection& c) 
 }  // namespace
 
 void closeOpened(State& state, Scratch& scratch) {
-  if (scratch.open_members.empty()) return;
+  if (scratch.opened.empty()) return;
   scratch.u.resize(state.rigids.size() + 1);
   scratch.u.back() = {};
-  for (const BodyId b : scratch.open_members) {
+  for (const BodyId b : scratch.opened) {
     const RigidId id = state[b].rigid;
     if (id == rigidOf(b)) {
       const Rigid& r = state[id];
@@ -123,6 +130,7 @@ void closeOpened(State& state, Scratch& scratch) {
       closeCollection(state, scratch, state.collection(id));
     }
   }
+  scratch.opened.clear();
   scratch.open_members.clear();
   scratch.open.clear();
 }

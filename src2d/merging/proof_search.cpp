@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "src2d/dynamics/newton.h"
 #include "src2d/merging/collection.h"
@@ -71,7 +72,10 @@ void relaxOpen(const State& state, Scratch& scratch, Collection& c) {
   c.residual = static_cast<float>(residualInside(c, scratch.trial_u));
   const double tolerance = toleratedResidual(state);
   if (c.residual <= tolerance) return;
+  ProofSearch& search = c.certificate.front().search;
+  ProofSearch waiting = std::exchange(search, {});
   c.residual = static_cast<float>(relax(state, scratch, c, tolerance));
+  search = std::move(waiting);
   for (const BodyId b : c.members) {
     const SolverVelocity& u = scratch.trial_u[index(b)];
     const Vec2 v = one.at(armOf(state, c, b)) + turn * Vec2(u.vx, u.vy);

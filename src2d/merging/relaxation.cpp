@@ -1,7 +1,10 @@
 #include "src2d/merging/relaxation.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
+#include <ranges>
 
 #include "src2d/dynamics/joint_system.h"
 #include "src2d/dynamics/nncg.h"
@@ -30,7 +33,10 @@ class Relaxation {
     for (const ContactBlock& k : c.blocks) ends_.push_back({memberOf(k.a), memberOf(k.b)});
   }
 
-  double run() {
+  double run() { return isLocal() ? runLocally() : runWidely(); }
+
+ private:
+  double runWidely() {
     bool whole = isUnderWay();
     if (whole) sweepAll(affordable(c_.blocks.size()));
     double residual = choose();
@@ -47,7 +53,21 @@ class Relaxation {
     return residual;
   }
 
- private:
+  /// A hit is followed as far as it moves anything: after each round only the rows are looked at
+  /// that it may have changed.
+  double runLocally() {
+    double residual = choose();
+    left_ =
+        std::max(kDecided.row_sweeps, kDecided.full_sweeps * static_cast<double>(blocks_.size()));
+    listBlocksAtMembers();
+    while (residual > tolerance_ && mayGoOn()) {
+      sweep(kRound);
+      residual = chooseBeside();
+    }
+    return residual;
+  }
+  bool isLocal() { return !isSearch() && isHit(state_, c_) && isLarge(c_); }
+
   static constexpr int kRound = 10, kLookEvery = 5;  // sweeps
   static constexpr int kLocalRounds = 3;
   static constexpr std::size_t kLeastWide = 8;  // blocks
@@ -63,6 +83,10 @@ class Relaxation {
     return residualOf(k, k.nx, k.ny, u_[k.a], u_[k.b]);
   }
 
+  auto allBlocks() const {
+    return std::views::iota(0u, static_cast<std::uint32_t>(c_.blocks.size()));
+  }
+
   /// Chooses the rows at members at which some row has a residual; returns the largest [m/s].
   double choose() {
     double most = 0.0;
@@ -75,19 +99,68 @@ class Relaxation {
         if (m != kFrame) hot_[m] = 1;
       }
     }
-    take([&](std::uint32_t i) {
+    take(allBlocks(), [&](std::uint32_t i) {
       return std::ranges::any_of(ends_[i], [&](auto m) { return m != kFrame && hot_[m]; });
     });
     return most;
   }
 
+  void listBlocksAtMembers() {
+    first_.assign(c_.members.size() + 2, 0);
+    const auto forEachEnd = [&](auto&& visit) {
+      for (std::uint32_t i = 0; i < ends_.size(); ++i) {
+        for (const std::uint32_t m : ends_[i]) {
+          if (m != kFrame) visit(m, i);
+        }
+      }
+    };
+    forEachEnd([&](std::uint32_t m, std::uint32_t) { ++first_[m + 2]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    at_.resize(first_.back());
+    forEachEnd([&](std::uint32_t m, std::uint32_t i) { at_[first_[m + 1]++] = i; });
+  }
+
+  /// Ascending.
+  std::vector<std::uint32_t> blocksAt(const std::vector<std::uint32_t>& members) {
+    constexpr std::uint32_t kBits = 64;
+    marks_.resize(c_.blocks.size() / kBits + 1, 0);
+    for (const std::uint32_t m : members) {
+      for (std::uint32_t i = first_[m]; i < first_[m + 1]; ++i) {
+        marks_[at_[i] / kBits] |= std::uint64_t{1} << at_[i] % kBits;
+      }
+    }
+    std::vector<std::uint32_t> blocks;
+    for (std::uint32_t word = 0; word < marks_.size(); ++word) {
+      for (; marks_[word] != 0; marks_[word] &= marks_[word] - 1) {
+        blocks.push_back(kBits * word + static_cast<std::uint32_t>(std::countr_zero(marks_[word])));
+      }
+    }
+    return blocks;
+  }
+
+  /// The same as `choose` where nothing has changed but at the members that were swept.
+  double chooseBeside() {
+    double most = 0.0;
+    std::vector<std::uint32_t> hot;
+    for (const std::uint32_t i : blocksAt(members_)) {
+      const double residual = residualOfBlock(i);
+      most = std::max(most, residual);
+      if (residual <= tolerance_) continue;
+      for (const std::uint32_t m : ends_[i]) {
+        if (m != kFrame) hot.push_back(m);
+      }
+    }
+    take(blocksAt(hot), [](std::uint32_t) { return true; });
+    return most;
+  }
+
   /// The blocks to be swept, and their members.
-  template <class Wanted>
-  void take(Wanted&& wanted) {
+  template <class Blocks, class Wanted>
+  void take(const Blocks& of, Wanted&& wanted) {
     blocks_.clear();
     members_.clear();
     taken_.assign(c_.members.size(), 0);
-    for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) {
+    for (const std::uint32_t i : of) {
       if (!wanted(i)) continue;
       blocks_.push_back(i);
       for (const std::uint32_t m : ends_[i]) {
@@ -99,7 +172,7 @@ class Relaxation {
   }
 
   void sweepAll(int most) {
-    take([](std::uint32_t) { return true; });
+    take(allBlocks(), [](std::uint32_t) { return true; });
     sweep(most);
   }
 
@@ -190,6 +263,8 @@ class Relaxation {
   std::vector<std::array<std::uint32_t, 2>> ends_;  ///< per block: its members, or the frame
   std::vector<std::uint32_t> blocks_, members_;     ///< that are swept
   std::vector<std::uint8_t> hot_, taken_;           ///< per member
+  std::vector<std::uint32_t> first_, at_;           ///< per member: its run of blocks
+  std::vector<std::uint64_t> marks_;                ///< per block, as bits
 };
 
 }  // namespace

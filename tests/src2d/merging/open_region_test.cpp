@@ -1,0 +1,97 @@
+#include "src2d/merging/open_region.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/src2d/merging/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+/// Boxes of 1 kg in a row on the ground, on which they slide almost freely.
+std::string longRow(int count) {
+  return kGround + fmt::format(R"(
+[material]
+friction = 0.05
+[[body]]
+name = "box"
+at = [0, 0.5]
+box = [1, 1]
+repeat = {{ count = [{}, 1], spacing = [1, 1] }}
+)",
+                               count);
+}
+
+/// No box of the row stands on a fixed foot: the impulse goes through all of them within one step.
+TEST(OpenRegion, ABlowGoesThroughALongRow) {
+  constexpr int kCount = 40;
+  constexpr double kImpulse = 80.0;  // N s
+  Simulation run(longRow(kCount), Mode::Merge, {{"solver.iterations", "100"}});
+  run.until(2.0);
+  ASSERT_TRUE(run.anchored("box[0,0]"));
+  run.kick("box[0,0]", {kImpulse, 0.0});
+  run.steps(1);
+  const double friction = 0.05 * 9.81 * 0.01;
+  const double together = kImpulse / kCount - friction;  // a collision in which nothing bounces
+  for (const int i : {0, 1, kCount / 2, kCount - 1}) {
+    EXPECT_NEAR(run.body(fmt::format("box[{},0]", i)).v.x(), together, 0.02 * together) << i;
+  }
+}
+
+/// A wall of bricks with a second one on it that is free; a disc falls on that.
+std::string wallUnder(const std::string& above) {
+  return kGround + R"(
+[[body]]
+name = "brick"
+at = [0, 0.25]
+box = [1, 0.5]
+repeat = { count = [9, 1], spacing = [1, 1] }
+[[body]]
+name = "upper"
+at = [0.5, 0.75]
+box = [1, 0.5]
+repeat = { count = [8, 1], spacing = [1, 1] }
+)" + above;
+}
+
+TEST(OpenRegion, ABlowThroughAFreeBodyMovesWhatItMovesInTheReference) {
+  const std::string scene = wallUnder(R"(
+[[body]]
+name = "post"
+at = [4, 2]
+box = [0.2, 2]
+[[body]]
+name = "ball"
+at = [-4, 2.5]
+circle = 0.3
+velocity = [10, 2]
+)");
+  const auto farthest = [&](Mode mode) {
+    Simulation run(scene, mode, {{"solver.iterations", "60"}});
+    run.until(3.0);
+    double way = 0.0;
+    for (int i = 0; i < 8; ++i) {
+      way = std::max(way, std::abs(run.body(fmt::format("upper[{},0]", i)).x.x() - 0.5 - i));
+    }
+    return way;
+  };
+  EXPECT_NEAR(farthest(Mode::Merge), farthest(Mode::Reference), 0.01);
+}
+
+/// The blow reaches the bricks near by; those at the far end of a wide wall stay welded.
+TEST(OpenRegion, ABlowLeavesTheFarEndOfAWallInOnePiece) {
+  Simulation run(wallUnder(R"(
+[[body]]
+name = "ball"
+at = [0.5, 5]
+circle = 0.3
+)"),
+                 Mode::Merge);
+  run.until(3.0);
+  EXPECT_TRUE(run.anchored("upper[7,0]"));
+  EXPECT_NEAR((run.body("upper[7,0]").x - Vec2(7.5, 0.75)).norm(), 0.0, 5e-3);
+  EXPECT_NEAR(run.body("upper[7,0]").v.norm(), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace merge2d
