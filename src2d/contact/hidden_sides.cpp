@@ -104,6 +104,26 @@ bool bears(const Contact& contact) {
 
 bool hasSides(const State& state, std::uint32_t shape) { return !state.collider(shape).isCircle(); }
 
+/// True when two bodies touch each other in this step, as far as their motion at its start tells.
+bool closes(const State& state, const Contact& contact) {
+  const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
+  const Pose frame = state.pose(contact.key.a);
+  const Vec2 n = frame.rotation * contact.normal;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
+    const Vec2 p = frame * contact.points[k].position;
+    const double w = n.dot(b.velocityAt(p) - a.velocityAt(p));
+    if (contact.points[k].gap + state.h * w < 0.0) return true;
+  }
+  return false;
+}
+
+/// True for a contact that bears nothing yet, with a side of a body that the toucher could part
+/// from what hides it only if it comes against that side now.
+bool isLoose(const State& state, const Contact& contact, BodyId body, std::uint32_t shape) {
+  return !bears(contact) &&
+         (!state.responds(body) || hasSiblings(state, shape) || closes(state, contact));
+}
+
 /// Contacts that touch something with hidden sides, by the shape that touches; only those of shapes
 /// that touch two such things, where one of the contacts bears nothing yet.
 void listSeams(const State& state, std::vector<SeamContact>& seams) {
@@ -117,19 +137,21 @@ void listSeams(const State& state, std::vector<SeamContact>& seams) {
       const Contact& contact = state.contacts[order[i]];
       if (contact.count == 0) continue;
       const ContactKey& key = contact.key;
-      const auto side = [&](std::uint32_t toucher, std::uint32_t shape, bool of_a) {
-        if (!isAsked(contact, toucher) || !hasSides(state, shape)) return;
+      const auto side = [&](std::uint32_t toucher, BodyId body, std::uint32_t shape, bool of_a) {
+        if (!hasSides(state, shape) || !isAsked(contact, toucher, body, shape)) return;
         visit(SeamContact{toucher, 2 * i + (of_a ? 1 : 0)});
       };
-      side(key.shape_b, key.shape_a, true);
-      side(key.shape_a, key.shape_b, false);
+      side(key.shape_b, key.a, key.shape_a, true);
+      side(key.shape_a, key.b, key.shape_b, false);
     }
   };
-  forEach([](const Contact& contact, std::uint32_t) { return !bears(contact); },
+  forEach([&](const Contact& contact, std::uint32_t, BodyId body,
+              std::uint32_t shape) { return isLoose(state, contact, body, shape); },
           [&](const SeamContact& loose) { found[loose.toucher] = kLoose, seams.push_back(loose); });
   if (seams.empty()) return;
   seams.clear();
-  forEach([&](const Contact&, std::uint32_t toucher) { return found[toucher] != 0; },
+  forEach([&](const Contact&, std::uint32_t toucher, BodyId,
+              std::uint32_t) { return found[toucher] != 0; },
           [&](const SeamContact& seam) {
             std::uint8_t& of = found[seam.toucher];
             of |= (of & kOne) != 0 ? kTwo : kOne;
@@ -284,7 +306,8 @@ void dropHiddenSides(State& state, Scratch& scratch) {
         first, seams.end(), [&](const SeamContact& s) { return s.toucher != first->toucher; });
     for (auto s = first; s != last; ++s) {
       Contact& contact = contactOf(state, *s);
-      if (contact.count == 0 || bears(contact)) continue;
+      const std::uint32_t shape = shapeOf(contact, *s);
+      if (contact.count == 0 || !isLoose(state, contact, state.shape_body[shape], shape)) continue;
       const std::span all(&*first, static_cast<std::size_t>(last - first));
       const bool hidden = isHiddenByAny(state, scratch, all, *s);
       if (hidden) contact.count = 0, contact.quiet_steps = 0;
