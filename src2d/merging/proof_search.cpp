@@ -73,9 +73,10 @@ void relaxOpen(const State& state, Scratch& scratch, Collection& c) {
   const double tolerance = toleratedResidual(state);
   if (c.residual <= tolerance) return;
   ProofSearch& search = c.certificate.front().search;
-  ProofSearch waiting = std::exchange(search, {});
+  ProofSearch waiting;
+  if (isLarge(c)) std::swap(waiting, search);
   c.residual = static_cast<float>(relax(state, scratch, c, tolerance));
-  search = std::move(waiting);
+  if (isLarge(c)) std::swap(waiting, search);
   for (const BodyId b : c.members) {
     const SolverVelocity& u = scratch.trial_u[index(b)];
     const Vec2 v = one.at(armOf(state, c, b)) + turn * Vec2(u.vx, u.vy);
