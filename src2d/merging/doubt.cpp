@@ -29,6 +29,7 @@ void notePerturbations(State& state, const Scratch& scratch) {
     if (!state.isCollection(state[b].rigid)) continue;
     for (LoadCertificate& proof : state.collection(state[b].rigid).certificate) {
       proof.witnesses.clear();
+      proof.gram.clear();
       proof.in_doubt = true;
       proof.search = {};
     }
