@@ -257,6 +257,7 @@ struct Scratch {
   // SingleIterationPGS
   bool sweeping = false;                ///< some collection is swept
   std::int64_t last_sweep = -1;         ///< step whose velocities are in sweep_u
+  std::int64_t last_doubt = -1;         ///< step in which forces inside were sought last
   std::vector<SolverVelocity> sweep_u;  ///< per body
   std::vector<SweepContact> sweep_contacts;
   std::vector<JointBlock> sweep_joints;       ///< outside collections

@@ -146,6 +146,7 @@ void findDoubts(State& state, Scratch& scratch) {
   }
   scratch.sweeping = any;
   if (!any) return;
+  scratch.last_doubt = state.step;
   spreadDoubts(state, scratch);
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) == Doubt::None) continue;

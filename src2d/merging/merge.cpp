@@ -136,7 +136,8 @@ void releaseRows(State& state, Scratch& scratch) {
 }
 
 bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
-  if (scratch.sweep_u.empty() || state.step - scratch.last_sweep <= kept) return false;
+  if (scratch.sweep_u.empty() && scratch.trial_u.empty()) return false;
+  if (state.step - std::max(scratch.last_sweep, scratch.last_doubt) <= kept) return false;
   const auto release = [](auto& v) { std::remove_reference_t<decltype(v)>().swap(v); };
   release(scratch.sweep_u);
   release(scratch.open_start);
@@ -145,7 +146,7 @@ bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
   release(scratch.open_rows);
   release(scratch.open);
   release(scratch.outer_loads);
-  if (!scratch.sweeping) release(scratch.trial_u);
+  release(scratch.trial_u);
   return true;
 }
 
