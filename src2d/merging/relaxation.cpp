@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
-#include <ranges>
 
 #include "src2d/dynamics/joint_system.h"
 #include "src2d/dynamics/nncg.h"
@@ -31,6 +30,8 @@ class Relaxation {
     }
     if (!isSearch() && !isHit(state, c)) left_ *= kDecided.when_open;
     for (const ContactBlock& k : c.blocks) ends_.push_back({memberOf(k.a), memberOf(k.b)});
+    all_.resize(c.blocks.size());
+    std::iota(all_.begin(), all_.end(), 0u);
   }
 
   double run() { return isLocal() ? runLocally() : runWidely(); }
@@ -83,10 +84,6 @@ class Relaxation {
     return residualOf(k, k.nx, k.ny, u_[k.a], u_[k.b]);
   }
 
-  auto allBlocks() const {
-    return std::views::iota(0u, static_cast<std::uint32_t>(c_.blocks.size()));
-  }
-
   /// Chooses the rows at members at which some row has a residual; returns the largest [m/s].
   double choose() {
     double most = 0.0;
@@ -99,7 +96,7 @@ class Relaxation {
         if (m != kFrame) hot_[m] = 1;
       }
     }
-    take(allBlocks(), [&](std::uint32_t i) {
+    take(all_, [&](std::uint32_t i) {
       return std::ranges::any_of(ends_[i], [&](auto m) { return m != kFrame && hot_[m]; });
     });
     return most;
@@ -155,8 +152,8 @@ class Relaxation {
   }
 
   /// The blocks to be swept, and their members.
-  template <class Blocks, class Wanted>
-  void take(const Blocks& of, Wanted&& wanted) {
+  template <class Wanted>
+  void take(const std::vector<std::uint32_t>& of, Wanted&& wanted) {
     blocks_.clear();
     members_.clear();
     taken_.assign(c_.members.size(), 0);
@@ -172,7 +169,7 @@ class Relaxation {
   }
 
   void sweepAll(int most) {
-    take(allBlocks(), [](std::uint32_t) { return true; });
+    take(all_, [](std::uint32_t) { return true; });
     sweep(most);
   }
 
@@ -261,6 +258,7 @@ class Relaxation {
   double left_;  ///< row sweeps that may still be spent
   int sweeps_ = 0;
   std::vector<std::array<std::uint32_t, 2>> ends_;  ///< per block: its members, or the frame
+  std::vector<std::uint32_t> all_;                  ///< blocks
   std::vector<std::uint32_t> blocks_, members_;     ///< that are swept
   std::vector<std::uint8_t> hot_, taken_;           ///< per member
   std::vector<std::uint32_t> first_, at_;           ///< per member: its run of blocks

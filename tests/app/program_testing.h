@@ -190,7 +190,7 @@ box = [1, 1]
 repeat = { count = [1, 3], spacing = [1, 1] }
 )";
 
-/// Two hinges at one place, about which a body turns 10⁹ times in a step: their rows are solved
+/// Two hinges at one place, about which a body turns 10⁸ times in a step: their rows are solved
 /// where they have long ceased to be.
 inline constexpr const char* kDiverging = R"(
 format = 1
@@ -201,7 +201,7 @@ name = "flea"
 mass = 1
 box = [0.1, 0.1]
 at = [0, 0]
-velocity = [0, 1e11]
+velocity = [0, 5e10]
 [[body]]
 name = "dog"
 mass = 10
