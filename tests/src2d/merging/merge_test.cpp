@@ -1,6 +1,5 @@
 #include "src2d/merging/merge.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/src2d/merging/merging_testing.h"
@@ -135,8 +134,8 @@ TEST(Merge, APairOnTheEdgeOfItsConeMergesUnderThePapersRule) {
   EXPECT_GT(mergeStep(kSteep, "box", {{"merging.rule", "\"paper\""}}), 0);
 }
 
-/// A box lands beside another, along which it slid, and comes to rest on the same ground: between
-/// what is fixed to one frame nothing slides, whatever the two did before.
+/// A box lands beside another, along which it slid, and comes to rest on the same ground: bodies
+/// that are fixed to one frame do not slide, whatever they did before.
 TEST(Merge, TwoThatSlidAlongEachOtherMergeOnceBothRestOnOneFrame) {
   for (const double aside : {-1.0, -2.0, -4.0}) {
     Simulation run(kGround + R"(
@@ -159,32 +158,6 @@ box = [1, 1]
     run.until(2.0);
     EXPECT_TRUE(run.merged("right"));
     EXPECT_EQ(run.collectionOf("left"), run.collectionOf("right")) << aside;
-  }
-}
-
-/// Friction bears 5.886 N. A push that is a little stronger parts the box from the ground, which
-/// does not yet show in its speed; it ends, and the box is at rest again.
-TEST(Merge, APairThatPartedSlowlyAndStoppedWaitsNoLonger) {
-  for (const double lasts : {0.05, 0.2}) {
-    Simulation run(kGround + fmt::format(R"(
-[[body]]
-name = "box"
-at = [0, 0.5]
-box = [1, 1]
-mass = 1
-[[force]]
-body = "box"
-force = [5.896, 0]
-from = 1
-until = {}
-)",
-                                         1.0 + lasts),
-                   Mode::Merge);
-    run.until(1.0 + lasts);
-    EXPECT_EQ(run.count(EventType::Unmerge), 1);
-    EXPECT_FALSE(run.merged("box")) << "it still gains speed";
-    run.until(1.0 + lasts + 0.3);
-    EXPECT_TRUE(run.merged("box"));
   }
 }
 
