@@ -181,8 +181,8 @@ struct Side {
   }
 };
 
-/// Something that comes against a contact bounces off it first, and meets what lies behind
-/// elsewhere.
+/// True when the two shapes of a contact have not met yet and will bounce: a side behind the first
+/// is then met elsewhere.
 bool bouncesOff(const State& state, const Contact& contact) {
   return smallestGap(contact) > touchingGap(state, contact.key) &&
          restitutionOf(state, contact.key.a, contact.key.b) > 0.0;
