@@ -17,6 +17,7 @@ struct SeamScale {
   double ahead = 1.5e-3;  ///< how far before a side we look, and the widest gap of a seam
   double beside = 3e-3;   ///< how far along the side
   double skin = 5e-5;     ///< the highest step that counts as flush
+  double sag = 5e-5;      ///< the same where one of the two may have sunk in
 };
 
 SeamScale seamScale(const State& state, std::uint32_t s, std::uint32_t t, std::uint32_t x) {
@@ -27,7 +28,7 @@ SeamScale seamScale(const State& state, std::uint32_t s, std::uint32_t t, std::u
   SeamScale scale;
   scale.ahead = std::min(scale.ahead, size / 20.0);
   scale.beside = std::min(scale.beside, size / 10.0);
-  scale.skin = std::min(scale.skin, size / 1000.0);
+  scale.sag = scale.skin = std::min(scale.skin, size / 1000.0);
   return scale;
 }
 
@@ -37,7 +38,9 @@ struct Cover {
   Pose frame;  ///< of the body of the other one, in that of this one
   SeamScale scale;
 
-  bool contains(const Vec2& p) const { return signedDistance(shape, frame * p) <= scale.skin; }
+  bool contains(const Vec2& p) const { return distance(p) <= scale.skin; }
+  /// The same, also where the two have sunk in differently.
+  bool covers(const Vec2& p) const { return distance(p) <= scale.sag; }
   bool risesAbove(const Vec2& p, const Vec2& n) const {
     const Vec2 at = frame * p, up = frame.rotation * n;
     for (int i = 0; i < shape.count(); ++i) {
@@ -45,6 +48,9 @@ struct Cover {
     }
     return false;
   }
+
+ private:
+  double distance(const Vec2& p) const { return signedDistance(shape, frame * p); }
 };
 
 /// True when a shape with these bounds may hide sides at `p`, which is in the bounds' frame.
@@ -69,8 +75,8 @@ bool isHidden(const Collider& shape, const Vec2& p, const Vec2& normal, const Co
     if (at < -skin || at > length + skin) continue;
     const auto covered = [&](double place) {
       const Vec2 on = begin + std::clamp(place, 0.0, length) * along;
-      return cover.contains(on + cover.scale.ahead * outward) ||
-             (cover.contains(on) && cover.risesAbove(on, outward));
+      return cover.covers(on + cover.scale.ahead * outward) ||
+             (cover.covers(on) && cover.risesAbove(on, outward));
     };
     if (covered(at - cover.scale.beside) && covered(at + cover.scale.beside)) return true;
   }
@@ -96,8 +102,27 @@ bool bears(const Contact& contact) {
          (contact.count == 2 && contact.points[1].lambda_n > 0.0);
 }
 
-bool mayBeHidden(const State& state, BodyId body, std::uint32_t shape) {
-  return !state.collider(shape).isCircle() && (!state.responds(body) || hasSiblings(state, shape));
+bool hasSides(const State& state, std::uint32_t shape) { return !state.collider(shape).isCircle(); }
+
+/// True when the two bodies touch each other in this step, as far as their motion at its start
+/// tells.
+bool closes(const State& state, const Contact& contact) {
+  const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
+  const Pose frame = state.pose(contact.key.a);
+  const Vec2 n = frame.rotation * contact.normal;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
+    const Vec2 p = frame * contact.points[k].position;
+    const double w = n.dot(b.velocityAt(p) - a.velocityAt(p));
+    if (contact.points[k].gap + state.h * w < 0.0) return true;
+  }
+  return false;
+}
+
+/// True for a contact that bears nothing yet, with a side of a body that the toucher could part
+/// from what hides it only if it comes against that side now.
+bool isLoose(const State& state, const Contact& contact, BodyId body, std::uint32_t shape) {
+  return !bears(contact) &&
+         (!state.responds(body) || hasSiblings(state, shape) || closes(state, contact));
 }
 
 /// Contacts that touch something with hidden sides, by the shape that touches; only those of shapes
@@ -114,18 +139,20 @@ void listSeams(const State& state, std::vector<SeamContact>& seams) {
       if (contact.count == 0) continue;
       const ContactKey& key = contact.key;
       const auto side = [&](std::uint32_t toucher, BodyId body, std::uint32_t shape, bool of_a) {
-        if (!isAsked(contact, toucher) || !mayBeHidden(state, body, shape)) return;
+        if (!hasSides(state, shape) || !isAsked(contact, toucher, body, shape)) return;
         visit(SeamContact{toucher, 2 * i + (of_a ? 1 : 0)});
       };
       side(key.shape_b, key.a, key.shape_a, true);
       side(key.shape_a, key.b, key.shape_b, false);
     }
   };
-  forEach([](const Contact& contact, std::uint32_t) { return !bears(contact); },
+  forEach([&](const Contact& contact, std::uint32_t, BodyId body,
+              std::uint32_t shape) { return isLoose(state, contact, body, shape); },
           [&](const SeamContact& loose) { found[loose.toucher] = kLoose, seams.push_back(loose); });
   if (seams.empty()) return;
   seams.clear();
-  forEach([&](const Contact&, std::uint32_t toucher) { return found[toucher] != 0; },
+  forEach([&](const Contact&, std::uint32_t toucher, BodyId,
+              std::uint32_t) { return found[toucher] != 0; },
           [&](const SeamContact& seam) {
             std::uint8_t& of = found[seam.toucher];
             of |= (of & kOne) != 0 ? kTwo : kOne;
@@ -188,16 +215,82 @@ bool bouncesOff(const State& state, const Contact& contact) {
          restitutionOf(state, contact.key.a, contact.key.b) > 0.0;
 }
 
-/// True when the shape of `t` may hide sides of the shape of `s`: it is about as near, and the two
-/// do not move against each other.
-bool mayHide(const State& state, const SeamContact& t, const SeamContact& s,
+/// True when the shape of `t` may hide sides of the shape of `s`: it is about as near; and where a
+/// blow of the toucher could part the two, it rests on `t` already.
+bool mayHide(const State& state, const SeamContact& t, const SeamContact& s, bool may_part,
              const SeamScale& scale) {
-  const Contact &other = contactOf(state, t), &contact = contactOf(state, s);
-  if (smallestGap(other) > smallestGap(contact) + scale.ahead) return false;
-  if (bouncesOff(state, other)) return false;
-  const BodyId body = state.shape_body[shapeOf(contact, s)];
-  const BodyId cover_body = state.shape_body[shapeOf(other, t)];
-  return body == cover_body || !(state.responds(body) || state.responds(cover_body));
+  const Contact& other = contactOf(state, t);
+  if (smallestGap(other) > smallestGap(contactOf(state, s)) + scale.ahead) return false;
+  return !bouncesOff(state, other) && (!may_part || bears(other));
+}
+
+/// The velocity at `p` of a body as seen from another one.
+Vec2 velocitySeenFrom(const State& state, BodyId other, BodyId body, const Vec2& p) {
+  return state.rigid(body).velocityAt(p) - state.rigid(other).velocityAt(p);
+}
+
+/// The bodies of a side and of a shape that may hide it.
+struct SeamBodies {
+  BodyId of_side, of_cover;
+
+  SeamBodies(const State& state, const SeamContact& t, const SeamContact& s)
+      : of_side(state.shape_body[shapeOf(contactOf(state, s), s)]),
+        of_cover(state.shape_body[shapeOf(contactOf(state, t), t)]) {}
+
+  bool mayPart(const State& state) const {
+    return of_side != of_cover && (state.responds(of_side) || state.responds(of_cover));
+  }
+  /// True when they move against each other at `p` by no more than `way` in this step.
+  bool stayTogether(const State& state, const Vec2& p, double way) const {
+    return state.h * velocitySeenFrom(state, of_cover, of_side, p).norm() <= way;
+  }
+  Pose sideInCover(const State& state) const {
+    if (of_side == of_cover) return {};
+    return state.pose(of_cover).toLocal(state.pose(of_side));
+  }
+};
+
+/// The surface of `t`, on which the toucher rests, in the world.
+struct Ground {
+  Vec2 at, up;
+
+  Ground(const State& state, const SeamContact& t) {
+    const Contact& contact = contactOf(state, t);
+    const Pose frame = state.pose(contact.key.a);
+    at = frame * contact.points[0].position;
+    up = frame.rotation * (t.ofA() ? contact.normal : Vec2(-contact.normal));
+  }
+};
+
+/// True when a shape rises at `p` by more than `scale.ahead` above the ground: it stands there.
+bool rises(const Collider& shape, const Pose& pose, const Ground& ground, const Vec2& p,
+           const SeamScale& scale) {
+  const Vec2 over = p + (scale.ahead - ground.up.dot(p - ground.at)) * ground.up;
+  const Vec2 along = scale.beside * perpendicular(ground.up);
+  return signedDistance(shape, pose.toLocal(over + along)) < 0.0 ||
+         signedDistance(shape, pose.toLocal(over - along)) < 0.0;
+}
+
+/// True when the toucher comes against a side at `p`, with this normal out of it, as it slides
+/// along the ground and not as it sinks in.
+bool isMetBySliding(const State& state, BodyId toucher, const SeamBodies& bodies,
+                    const Ground& ground, const Vec2& p, const Vec2& normal) {
+  const double nears = normal.dot(velocitySeenFrom(state, bodies.of_side, toucher, p));
+  const double sinks = normal.dot(ground.up) *
+                       ground.up.dot(velocitySeenFrom(state, bodies.of_cover, toucher, ground.at));
+  return nears - sinks < -std::abs(sinks);
+}
+
+/// True when a side of a shape whose body may part from that of `t` lies flush before the toucher,
+/// which slides towards it, and goes on with `t` in this step.
+bool isFlush(const State& state, const SeamContact& t, const SeamContact& s, const Side& side,
+             const SeamBodies& bodies, const SeamScale& scale) {
+  const Ground ground(state, t);
+  const Pose pose = state.pose(bodies.of_side);
+  const Vec2 p = pose * side.points[0], normal = pose.rotation * side.normal;
+  return bodies.stayTogether(state, p, scale.sag) &&
+         isMetBySliding(state, state.shape_body[s.toucher], bodies, ground, p, normal) &&
+         !rises(state.collider(shapeOf(contactOf(state, s), s)), pose, ground, p, scale);
 }
 
 /// True when all points of the contact of `s`, which are those of `side`, lie on sides that the
@@ -205,12 +298,16 @@ bool mayHide(const State& state, const SeamContact& t, const SeamContact& s,
 bool hides(const State& state, const SeamContact& t, const SeamContact& s, const Side& side) {
   const std::uint32_t cover_shape = shapeOf(contactOf(state, t), t);
   const std::uint32_t shape = shapeOf(contactOf(state, s), s);
-  const BodyId body = state.shape_body[shape], cover_body = state.shape_body[cover_shape];
-  const Pose to_cover =
-      body == cover_body ? Pose{} : state.pose(cover_body).toLocal(state.pose(body));
+  const SeamBodies bodies(state, t, s);
+  const Pose to_cover = bodies.sideInCover(state);
   if (!mayReach(state.bounds(cover_shape), to_cover * side.points[0])) return false;
-  const SeamScale scale = seamScale(state, shape, cover_shape, s.toucher);
-  if (!mayHide(state, t, s, scale)) return false;
+  const bool may_part = bodies.mayPart(state);
+  SeamScale scale = seamScale(state, shape, cover_shape, s.toucher);
+  if (!mayHide(state, t, s, may_part, scale)) return false;
+  if (may_part) {
+    scale.sag = std::clamp(-smallestGap(contactOf(state, t)), scale.skin, scale.ahead);
+    if (!isFlush(state, t, s, side, bodies, scale)) return false;
+  }
   const Cover cover{state.collider(cover_shape), to_cover, scale};
   for (std::size_t k = 0; k < static_cast<std::size_t>(side.count); ++k) {
     const Vec2& p = side.points[k];
@@ -228,7 +325,8 @@ bool isHiddenByAny(const State& state, const Scratch& scratch, std::span<const S
   std::optional<Side> side;
   return std::ranges::any_of(all, [&](const SeamContact& t) {
     if (t.place() == s.place() || contactOf(state, t).count == 0) return false;
-    if (!mayHide(state, t, s, SeamScale{})) return false;
+    const bool may_part = SeamBodies(state, t, s).mayPart(state);
+    if (!mayHide(state, t, s, may_part, SeamScale{})) return false;
     if (!side) side.emplace(state, scratch, s);
     return hides(state, t, s, *side);
   });
@@ -244,7 +342,8 @@ void dropHiddenSides(State& state, Scratch& scratch) {
         first, seams.end(), [&](const SeamContact& s) { return s.toucher != first->toucher; });
     for (auto s = first; s != last; ++s) {
       Contact& contact = contactOf(state, *s);
-      if (contact.count == 0 || bears(contact)) continue;
+      const std::uint32_t shape = shapeOf(contact, *s);
+      if (contact.count == 0 || !isLoose(state, contact, state.shape_body[shape], shape)) continue;
       const std::span all(&*first, static_cast<std::size_t>(last - first));
       const bool hidden = isHiddenByAny(state, scratch, all, *s);
       if (hidden) contact.count = 0, contact.quiet_steps = 0;

@@ -6,8 +6,10 @@
 ///    └───────┘          The point lies on T as well, and T covers that side.
 ///   ─────T─────┬─────S─────
 ///
-/// It holds within a body of several shapes, and between bodies that do not respond to forces (a
-/// floor of tiles, two tables). Contacts along one body's own flat sides: internal_edges.h.
+/// It holds within a body of several shapes, and between bodies (a floor of tiles, two tables).
+/// Where a body of the seam responds to forces, X may part S and T: there X must rest on T already
+/// and slide towards S, and S must lie flush and go on with T. Contacts along one body's own flat
+/// sides: internal_edges.h.
 
 #include "src2d/dynamics/state.h"
 

@@ -163,6 +163,72 @@ TEST(Seams, ASeamNeedNotBeExact) {
   }
 }
 
+void addRough(Scene& scene, BodyDesc body) {
+  body.friction = 0.3;
+  add(scene, std::move(body));
+}
+
+/// `n` tiles of 1 m as heavy as told, which lie loose on the ground, with their surface at y = 0.
+Scene looseTiles(int n, double mass) {
+  Scene scene;
+  addRough(scene, named("ground", pinned(box(200, 1, {0, -1.5}))));
+  for (int i = 0; i < n; ++i) {
+    BodyDesc tile = box(1, 1, {0.5 + i, -0.5});
+    tile.density = mass;
+    addRough(scene, tile);
+  }
+  return scene;
+}
+
+/// Hinges between all that are neighbours, in the middle of their sides.
+void joinTiles(Scene& scene) {
+  for (std::uint32_t tile = 1; tile + 1 < scene.bodies.size(); ++tile) {
+    JointDesc hinge;
+    hinge.a = tile;
+    hinge.b = tile + 1;
+    hinge.at = {tile, -0.5};
+    scene.joints.push_back(hinge);
+  }
+}
+
+/// v²/(2μg) = 4.247 m, of which the discrete friction takes up to v·h/2.
+TEST(Seams, ABoxSlidesOverLooseTilesAsFarAsCoulombSays) {
+  for (const double mass : {1.0, 10.0, 1000.0}) {
+    for (const bool hinged : {false, true}) {
+      Scene scene = looseTiles(12, mass);
+      if (hinged) joinTiles(scene);
+      BodyDesc slider = moving(box(0.6, 0.6, {1.5, 0.3}), {5, 0});
+      slider.density = 1.0 / 0.36;
+      addRough(scene, named("slider", slider));
+      SCOPED_TRACE(mass);
+      inAllModesAndSteps(scene, [](World& world) {
+        runSeconds(world, 2.0);
+        const double lost = 5.0 * world.scene().step;
+        EXPECT_NEAR(see(world, "slider").x.x(), 1.5 + 25.0 / (2.0 * 0.3 * kGravity), 0.6 * lost);
+        EXPECT_NEAR(see(world, "slider").x.y(), 0.3, 1e-3);
+      });
+    }
+  }
+}
+
+/// The tiles give way by the sag of their contacts, which takes some of the disc's energy: of a
+/// disc that weighs as much as a tile 0.07 % at 1/60 s.
+TEST(Seams, ADiscRollsOnOverLooseTiles) {
+  for (const double mass : {1.0, 10.0, 1000.0}) {
+    Scene scene = looseTiles(14, mass);
+    BodyDesc slider = moving(disc(0.3, {1.5, 0.3}), {5, 0});
+    slider.density = 1.0 / (std::numbers::pi * 0.09);
+    slider.spin = -5.0 / 0.3;
+    addRough(scene, named("slider", slider));
+    SCOPED_TRACE(mass);
+    inAllModesAndSteps(scene, [](World& world) {
+      runSeconds(world, 2.0);
+      EXPECT_NEAR(see(world, "slider").v.x(), 5.0, 0.005);
+      EXPECT_NEAR(see(world, "slider").x.x(), 11.5, 0.01);
+    });
+  }
+}
+
 /// A box of 0.6 m weighs 0.36 kg and sinks in by 0.2 mm: at a step of more it ends against it, and
 /// a drop by as much lets it go on.
 TEST(Seams, AStepStopsABoxAndADropDoesNot) {
@@ -200,6 +266,34 @@ TEST(Seams, AWallOnAFloorStopsABoxAndADisc) {
       runSeconds(world, 1.5);
       EXPECT_LT(see(world, "slider").x.x(), 1e-3);
       EXPECT_NEAR(see(world, "slider").v.norm(), 0.0, 1e-2);
+    });
+  }
+}
+
+/// A plank that can move carries a block whose side leans back, so that a box meets its lower
+/// corner, which lies on the plank. It pushes the block on and does not enter it.
+TEST(Seams, ALoosePlankHidesNothingOfTheBlocksOnIt) {
+  for (const double lean : {0.0, 0.02}) {
+    Scene scene = frictionless();
+    addSmooth(scene, pinned(box(40, 1, {0, -1.0})));
+    addSmooth(scene, box(20, 0.5, {0, -0.25}));
+    BodyDesc block;
+    block.shapes.emplace_back(Polygon{{{0, 0}, {1, 0}, {1, 0.6}, {lean, 0.6}}});
+    block.density = 1.0 / (0.6 * (1.0 - 0.5 * lean));
+    addSmooth(scene, named("block", block));
+    BodyDesc slider = moving(box(0.6, 0.6, {-1.3, 0.3}), {2, 0});
+    slider.density = 1.0 / 0.36;
+    addSmooth(scene, named("slider", slider));
+    SCOPED_TRACE(lean);
+    inAllModesAndSteps(scene, [](World& world) {
+      const double between = see(world, "block").x.x() + 0.3;
+      for (double t = 0.0; t < 1.0; t += world.scene().step) {
+        world.step();
+        const BodyState ahead = see(world, "block"), behind = see(world, "slider");
+        ASSERT_NEAR(ahead.v.x() + behind.v.x(), 2.0, 0.02);
+        ASSERT_GT(ahead.x.x() - behind.x.x(), between - 0.03) << "they tip a little";
+      }
+      EXPECT_GT(see(world, "block").v.x(), 0.99);
     });
   }
 }
