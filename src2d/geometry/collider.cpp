@@ -1,6 +1,8 @@
 /// Box2D's polygons are filled directly: its Set() would reorder vertices, so that face indices no
 /// longer agree with ours, and weld those nearer than 2.5 mm.
 
+#include <algorithm>
+
 #include "src2d/core/assert.h"
 #include "src2d/geometry/collide_pairs.h"
 
@@ -25,6 +27,10 @@ void Collider::fill(const Polygon& polygon) {
   MERGE2D_ASSERT(count >= 3 && count <= Polygon::kMaxVertices, "{} vertices", count);
   for (const Vec2& v : polygon.vertices) origin_ += v / static_cast<double>(count);
 
+  // Faces are compared by fours (reference_face.cpp). Sums of numbers left in memory, which may be
+  // subnormal, take a hundred times as long as those of zeros.
+  std::ranges::fill(polygon_.m_vertices, b2Vec2(0.0F, 0.0F));
+  std::ranges::fill(polygon_.m_normals, b2Vec2(0.0F, 0.0F));
   for (std::size_t i = 0; i < count; ++i) {
     vertices_[i] = polygon.vertices[i];
     const Vec2 edge = polygon.vertices[(i + 1) % count] - vertices_[i];
