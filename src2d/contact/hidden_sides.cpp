@@ -120,9 +120,9 @@ bool closes(const State& state, const Contact& contact) {
 
 /// True for a contact that bears nothing yet, with a side of a body that the toucher could part
 /// from what hides it only if it comes against that side now.
-bool isLoose(const State& state, const Contact& contact, BodyId body, std::uint32_t shape) {
-  return !bears(contact) &&
-         (!state.responds(body) || hasSiblings(state, shape) || closes(state, contact));
+bool isLoose(const State& state, const Contact& contact, std::uint32_t shape) {
+  return !bears(contact) && (!state.responds(state.shape_body[shape]) ||
+                             hasSiblings(state, shape) || closes(state, contact));
 }
 
 /// Contacts that touch something with hidden sides, by the shape that touches; only those of shapes
@@ -133,31 +133,32 @@ void listSeams(const State& state, std::vector<SeamContact>& seams) {
   found.resize(std::max(found.size(), state.shape_body.size()), 0);
   seams.clear();
   const auto& order = state.contacts.order;
-  const auto forEach = [&](const auto& isAsked, const auto& visit) {
+  const auto forEachSide = [&](const auto& isAsked, const auto& visit) {
     for (std::uint32_t i = 0; i < order.size(); ++i) {
       const Contact& contact = state.contacts[order[i]];
-      if (contact.count == 0) continue;
-      const ContactKey& key = contact.key;
-      const auto side = [&](std::uint32_t toucher, BodyId body, std::uint32_t shape, bool of_a) {
-        if (!hasSides(state, shape) || !isAsked(contact, toucher, body, shape)) return;
-        visit(SeamContact{toucher, 2 * i + (of_a ? 1 : 0)});
+      if (contact.count == 0 || !isAsked(contact)) continue;
+      const auto side = [&](std::uint32_t toucher, std::uint32_t shape, bool of_a) {
+        if (hasSides(state, shape)) visit(contact, shape, SeamContact{toucher, 2 * i + of_a});
       };
-      side(key.shape_b, key.a, key.shape_a, true);
-      side(key.shape_a, key.b, key.shape_b, false);
+      side(contact.key.shape_b, contact.key.shape_a, true);
+      side(contact.key.shape_a, contact.key.shape_b, false);
     }
   };
-  forEach([&](const Contact& contact, std::uint32_t, BodyId body,
-              std::uint32_t shape) { return isLoose(state, contact, body, shape); },
-          [&](const SeamContact& loose) { found[loose.toucher] = kLoose, seams.push_back(loose); });
-  if (seams.empty()) return;
-  seams.clear();
-  forEach([&](const Contact&, std::uint32_t toucher, BodyId,
-              std::uint32_t) { return found[toucher] != 0; },
-          [&](const SeamContact& seam) {
-            std::uint8_t& of = found[seam.toucher];
-            of |= (of & kOne) != 0 ? kTwo : kOne;
-            seams.push_back(seam);
-          });
+  bool any = false;
+  forEachSide([](const Contact& contact) { return !bears(contact); },
+              [&](const Contact& contact, std::uint32_t shape, const SeamContact& side) {
+                if (!isLoose(state, contact, shape)) return;
+                found[side.toucher] = kLoose;
+                any = true;
+              });
+  if (!any) return;
+  forEachSide([](const Contact&) { return true; },
+              [&](const Contact&, std::uint32_t, const SeamContact& side) {
+                std::uint8_t& of = found[side.toucher];
+                if (of == 0) return;
+                of |= (of & kOne) != 0 ? kTwo : kOne;
+                seams.push_back(side);
+              });
   const auto alone = [&](const SeamContact& seam) { return (found[seam.toucher] & kTwo) == 0; };
   const auto end = std::partition(seams.begin(), seams.end(), std::not_fn(alone));
   for (const SeamContact& seam : seams) found[seam.toucher] = 0;
@@ -342,8 +343,7 @@ void dropHiddenSides(State& state, Scratch& scratch) {
         first, seams.end(), [&](const SeamContact& s) { return s.toucher != first->toucher; });
     for (auto s = first; s != last; ++s) {
       Contact& contact = contactOf(state, *s);
-      const std::uint32_t shape = shapeOf(contact, *s);
-      if (contact.count == 0 || !isLoose(state, contact, state.shape_body[shape], shape)) continue;
+      if (contact.count == 0 || !isLoose(state, contact, shapeOf(contact, *s))) continue;
       const std::span all(&*first, static_cast<std::size_t>(last - first));
       const bool hidden = isHiddenByAny(state, scratch, all, *s);
       if (hidden) contact.count = 0, contact.quiet_steps = 0;

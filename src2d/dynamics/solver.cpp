@@ -115,7 +115,7 @@ void solveBends(const State& state, const IslandParts& island, std::vector<Solve
 }
 
 /// Islands of fewer blocks are swept one by one: packing them would cost as much.
-constexpr std::size_t kLeastWide = 8;
+constexpr std::size_t kLeastWide = 24;
 
 bool isWide(const Island& island) {
   return island.first_joint == island.last_joint && island.last - island.first >= kLeastWide;
