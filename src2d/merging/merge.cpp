@@ -5,6 +5,7 @@
 
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
+#include "src2d/contact/parking.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
 #include "src2d/cycles/held_groups.h"
@@ -105,6 +106,8 @@ void weldAll(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs)
 void merge(State& state, Scratch& scratch) {
   if (!merges(state.mode)) return;
   const std::vector<BodyPair> pairs = pairsToWeld(state, scratch);
+  // Collections that sleep on a floor may be among those that are united.
+  if (!pairs.empty() && mergingMethod(state).unites_on_floors) bringAllBack(state, scratch);
   if (!pairs.empty()) weldAll(state, scratch, pairs);
   layOutCollections(state);  // the next step starts from the layouts
   const bool released = releaseOpenRows(state, scratch, kDecided.kept_steps);

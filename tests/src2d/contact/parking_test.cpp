@@ -111,6 +111,21 @@ TEST(Parking, WhatActsOnASleeperWakesAllThatItMoves) {
   }
 }
 
+/// The paper's rule unites all that is welded to one floor: also with stacks that have slept there
+/// for seconds.
+TEST(Parking, BoxesThatFallBesideSleepersMergeWithThemByWayOfTheFloor) {
+  Scene scene = onGround();
+  for (int i = 0; i < 3; ++i) addColumn(scene, 3, {2.0 * i, 0});
+  for (int i = 0; i < 3; ++i) add(scene, box(1, 1, {-3.0 - 2.0 * i, 20.0 + 30.0 * i}));
+  scene.settings.merging.rule = MergingRule::Paper;
+  scene.settings.unmerging.rule = UnmergingRule::Paper;
+  Pair pair(scene, Mode::MergeSleep);
+  pair.run(700);
+  const Snapshot end = pair.one.capture();
+  EXPECT_LT(end.collections.size(), 6u) << "as many as there are without the floor";
+  EXPECT_EQ(end.stats.asleep, 12);
+}
+
 TEST(Parking, AFrameThatMovesAgainTakesWhatStandsOnIt) {
   for (const Mode mode : kSleeping) {
     Pair pair(manyAsleep(), mode);
