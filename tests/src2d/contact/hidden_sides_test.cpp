@@ -39,10 +39,9 @@ Scene compoundFloor() {
   return scene;
 }
 
-/// The first steps press a body into the floor as far as its softness allows; after these nothing
-/// changes its speed or lifts it.
+/// Nothing changes its speed or lifts it, from the first step on, in which the floor yields.
 void expectGlides(World& world, double seconds, double speed, double height) {
-  constexpr double kHop = 2e-3;   // m/s: of the first settling
+  constexpr double kHop = 2e-3;   // m/s: the first settling has 1.4 mm/s
   constexpr double kLift = 1e-3;  // m: the sag of the contact itself is 0.2 mm
   const BodyId body = idOf(world, "slider");
   const int steps = static_cast<int>(std::lround(seconds / world.scene().step));
@@ -51,7 +50,6 @@ void expectGlides(World& world, double seconds, double speed, double height) {
     const BodyState seen = see(world, body);
     ASSERT_NEAR(seen.v.x(), speed, 1e-6 * std::abs(speed)) << "x = " << seen.x.x();
     ASSERT_NEAR(seen.x.y(), height, kLift) << "x = " << seen.x.x();
-    if (i < 60) continue;
     ASSERT_LT(std::abs(seen.v.y()), kHop) << "x = " << seen.x.x();
   }
 }
@@ -62,7 +60,7 @@ TEST(Seams, ABoxSlidesOverTiles) {
     addSmooth(scene,
               named("slider", moving(box(0.6, 0.6, {speed > 0 ? 2.0 : 48.0, 0.3}), {speed, 0})));
     SCOPED_TRACE(speed);
-    const double seconds = std::min(2.0, 44.0 / std::abs(speed));
+    const double seconds = std::min(8.8, 44.0 / std::abs(speed));
     inAllModesAndSteps(scene, [&](World& world) { expectGlides(world, seconds, speed, 0.3); });
   }
 }
@@ -72,7 +70,7 @@ TEST(Seams, ADiscSlidesOverTiles) {
     Scene scene = tiles(50);
     addSmooth(scene, named("slider", moving(disc(0.3, {speed > 0 ? 2.0 : 48.0, 0.3}), {speed, 0})));
     SCOPED_TRACE(speed);
-    const double seconds = std::min(2.0, 44.0 / std::abs(speed));
+    const double seconds = std::min(8.8, 44.0 / std::abs(speed));
     inAllModesAndSteps(scene, [&](World& world) { expectGlides(world, seconds, speed, 0.3); });
   }
 }
@@ -131,7 +129,8 @@ TEST(Seams, ACompoundSlidesOverTiles) {
   inAllModesAndSteps(scene, [&](World& world) { expectGlides(world, 2.0, 5.0, height); });
 }
 
-/// v²/(2μg) = 4.077 m, of which the discrete friction takes up to v·h/2.
+/// v²/(2μg) = 4.077 m, of which the discrete friction takes v·h/2: its speed in a step is that at
+/// the end. The first settling costs less than 1 mm.
 TEST(Seams, ACrateGlidesFromTableToTable) {
   Scene scene;
   scene.settings.material.friction = 0.2;
@@ -143,10 +142,12 @@ TEST(Seams, ACrateGlidesFromTableToTable) {
   rough(pinned(box(10, 1, {5, -0.5})));
   rough(named("crate", moving(box(0.8, 0.8, {-3, 0.4}), {4, 0})));
   inAllModesAndSteps(scene, [](World& world) {
-    runSeconds(world, 3.0);
-    const double lost = 4.0 * world.scene().step;
-    EXPECT_NEAR(see(world, "crate").x.x(), 16.0 / (2.0 * 0.2 * kGravity) - 3.0, lost);
-    EXPECT_NEAR(see(world, "crate").x.y(), 0.4, 1e-3);
+    while (world.time() < 3.0) {
+      world.step();
+      ASSERT_NEAR(see(world, "crate").x.y(), 0.4, 1e-3) << "x = " << see(world, "crate").x.x();
+    }
+    const double lost = 0.5 * 4.0 * world.scene().step;
+    EXPECT_NEAR(see(world, "crate").x.x(), 16.0 / (2.0 * 0.2 * kGravity) - lost - 3.0, 1e-3);
   });
 }
 

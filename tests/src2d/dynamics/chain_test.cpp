@@ -211,24 +211,25 @@ TEST(Chain, ALoopThatMergesWithItsErrorsIsNotUnderStress) {
   }
 }
 
+// By so many metres per newton, whatever its kind; without the key by none. An implicit spring
+// comes to rest by itself.
 TEST(Chain, GivesWayByItsCompliance) {
-  inEachModeAndStep([](Mode mode, double h) {
-    World world = worldOf(R"(
-[[body]]
-name = "lamp"
-at = [0, -1]
-circle = 0.2
-mass = 5
-[[joint]]
-kind = "revolute"
-bodies = ["lamp"]
-at = [0, -1]
-compliance = 0.002
-)",
-                          mode, h);
-    runSeconds(world, 60.0);  // an implicit spring comes to rest by itself
-    EXPECT_NEAR(see(world, "lamp").x.y(), -1.0 - 0.002 * 5 * kGravity, 1e-4);
-  });
+  for (const char* kind :
+       {"\"revolute\"", "\"weld\"", "\"prismatic\"\naxis = [1, 0]", "\"distance\"\nto = [0, 0]"}) {
+    for (const double compliance : {0.0, 0.002}) {
+      SCOPED_TRACE(::testing::Message() << kind << ", " << compliance << " m/N");
+      const std::string key = compliance > 0.0 ? fmt::format("compliance = {}\n", compliance) : "";
+      const std::string toml = fmt::format(
+          "[[body]]\nname = \"lamp\"\nat = [0, -1]\ncircle = 0.2\nmass = 5\n"
+          "[[joint]]\nkind = {}\nbodies = [\"lamp\"]\nat = [0, -1]\n{}",
+          kind, key);
+      inEachModeAndStep([&](Mode mode, double h) {
+        World world = worldOf(toml, mode, h);
+        runSeconds(world, 60.0);
+        EXPECT_NEAR(see(world, "lamp").x.y(), -1.0 - compliance * 5 * kGravity, 1e-4);
+      });
+    }
+  }
 }
 
 // Fixed by more joints than it needs: each bears a share, and none more than the weight.

@@ -44,18 +44,22 @@ TEST(Rolling, ADiscOnALevelFloorComesToRestWhereItsResistanceSays) {
 
 TEST(Rolling, TheLargerOfTwoCounts) {
   for (const char* of_floor : {"", "rolling = 0.02"}) {
-    World world = worldOf(rollingDisc("rolling = 0.05", of_floor), Mode::Reference, 0.01);
-    World other = worldOf(rollingDisc(of_floor, "rolling = 0.05"), Mode::Reference, 0.01);
-    runSeconds(world, 1.0);
-    runSeconds(other, 1.0);
-    EXPECT_EQ(see(world, "disc").v.x(), see(other, "disc").v.x());
+    inEachModeAndStep([&](Mode mode, double h) {
+      World world = worldOf(rollingDisc("rolling = 0.05", of_floor), mode, h);
+      World other = worldOf(rollingDisc(of_floor, "rolling = 0.05"), mode, h);
+      runSeconds(world, 1.0);
+      runSeconds(other, 1.0);
+      EXPECT_EQ(see(world, "disc").v.x(), see(other, "disc").v.x());
+    });
   }
 }
 
 TEST(Rolling, WithoutItADiscRollsOn) {
-  World world = worldOf(rollingDisc("", ""), Mode::Reference, 0.01);
-  runSeconds(world, 5.0);
-  EXPECT_NEAR(see(world, "disc").v.x(), 2.0, 1e-3);
+  inEachModeAndStep([](Mode mode, double h) {
+    World world = worldOf(rollingDisc("", ""), mode, h);
+    runSeconds(world, 5.0);
+    EXPECT_NEAR(see(world, "disc").v.x(), 2.0, 1e-3);
+  });
 }
 
 // On a slope a disc stays while tan(slope) < rolling / r.

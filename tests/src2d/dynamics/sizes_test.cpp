@@ -44,6 +44,24 @@ TEST(Sizes, StacksOfAnySizeStandAsHighAsTheyAre) {
   }
 }
 
+// Grains of 0.1 mm and plates of 0.5 mm, at steps in which they fall by nine tenths of their size
+// and by less.
+TEST(Sizes, TheSmallestStandAtStepsThatAreShortEnough) {
+  for (const double size : {1e-4, 5e-4}) {
+    for (const double part : {0.9, 0.3, 0.05}) {
+      for (const Mode mode : kAllModes) {
+        const double h = std::sqrt(part * size / kGravity);
+        SCOPED_TRACE(fmt::format("{} m, {} s, {}", size, h, nameOf(mode)));
+        World world = worldOf(stackOf(size, 4.0), mode, h);
+        runSeconds(world, 3.0);
+        const BodyState top = see(world, fmt::format("plate{}", kStack - 1));
+        EXPECT_NEAR(top.x.y(), (kStack - 0.5) * size, 0.05 * size);
+        EXPECT_NEAR(top.x.x(), 0.0, 0.05 * size);
+      }
+    }
+  }
+}
+
 TEST(Sizes, DiscsOfAnySizeRestToo) {
   for (const double radius : {1e-4, 1e-3, 1e-2, 1.0, 50.0}) {
     SCOPED_TRACE(radius);
