@@ -162,13 +162,22 @@ void warnOfPress(const World& world, const Press& load, Scene& scene) {
                   bodies[index(load.a)].name, bodies[index(load.b)].name, load.force, load.depth));
 }
 
+/// When the last impulse comes, force sets in, or body is let go [s].
+double lastChange(const Scene& scene) {
+  double last = 0.0;
+  for (const ImpulseDesc& impulse : scene.impulses) last = std::max(last, impulse.time);
+  for (const ForceDesc& force : scene.forces) last = std::max(last, force.from);
+  for (const BodyDesc& body : scene.bodies) last = std::max(last, body.pinned_until);
+  return last;
+}
+
 /// How long a scene is watched: until the contact forces of a stack have settled, and most falls
-/// have ended, where that does not take long.
+/// have ended, after all that is to come, where that does not take long.
 int stepsToWatch(const Scene& scene) {
   constexpr int kLeast = 100, kWork = 200'000;  // steps, and steps times bodies
   constexpr double kLong = 3.0;                 // [s]
   const auto bodies = static_cast<int>(scene.bodies.size()) + 1;
-  const double wanted = std::min(kLong, scene.duration) / scene.step;
+  const double wanted = std::min(lastChange(scene) + kLong, scene.duration) / scene.step;
   return std::max(kLeast, std::min(static_cast<int>(wanted), kWork / bodies));
 }
 

@@ -6,8 +6,9 @@
 namespace merge2d {
 
 /// Contacts whose load, or a blow, pushes two bodies into each other by more than 2 % of the
-/// smaller one, or 2 cm, within the first 3 s (100 steps at least, less where bodies are many):
-/// with the figure to expect. Joints that loads pull open in that time (joint_watch.h).
+/// smaller one, or 2 cm, up to 3 s after the last impulse comes, force sets in, or body is let go
+/// (100 steps at least, less where bodies are many): with the figure to expect. Joints that loads
+/// pull open in that time (joint_watch.h).
 void warnOfHeavyLoads(Scene& scene);
 
 /// Bodies so small that they fall by more than their size in a step.

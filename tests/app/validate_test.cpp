@@ -170,10 +170,10 @@ TEST_F(Validate, WarnsOfALoadThatIsTooHeavyForAContact) {
   EXPECT_THAT(warnings(10), IsEmpty());
 }
 
-/// 1,000 kg on 1 kg yields by 1.6 cm at 1/240 s; with larger steps the figure of the warning is the
-/// overlap to expect, to a fifth of it: contact forces have not quite settled when it is taken.
-TEST_F(Validate, TellsTheOverlapToExpectUnderAHeavyLoad) {
-  write("heavy.toml", R"(
+/// 1,000 kg on 1 kg, which may be tipped over the edge of the light one by a blow after 3 s.
+std::string heavyOnLight(const std::string& blow) {
+  return R"(
+duration = 6
 [[body]]
 name = "ground"
 motion = "pinned"
@@ -194,27 +194,36 @@ name = "top"
 at = [0, 2.5]
 box = [1, 1]
 mass = 1
-)");
-  for (const int rate : {60, 100, 240}) {
-    const std::string step = fmt::format("step={}", 1.0 / rate);
-    const Json warnings =
-        run({"validate", "heavy.toml", "--json", "--set", step}).json()["warnings"];
-    double expected = 0.0;
-    if (!warnings.empty()) {
-      const std::string text = warnings[0].get<std::string>(), before = "pushes them ";
-      ASSERT_THAT(text, HasSubstr(before));
-      expected = std::stod(text.substr(text.find(before) + before.size()));
-    }
-    for (const std::string mode : {"reference", "sleep", "merge", "merge+sleep"}) {
-      const Json end =
-          run({"run", "heavy.toml", "--json", "--seconds", "3", "--mode", mode, "--set", step})
-              .json();
-      const double overlap = end["max_penetration"];
-      SCOPED_TRACE(mode + " at 1/" + std::to_string(rate) + " s");
-      if (warnings.empty()) {
-        EXPECT_LT(overlap, 0.02);
-      } else {
-        EXPECT_NEAR(overlap, expected, 0.2 * expected);
+)" + blow;
+}
+
+/// At 1/240 s it yields by 1.6 cm; with larger steps the figure of the warning is the overlap to
+/// expect, to a fifth of it: contact forces have not quite settled when it is taken. On an edge it
+/// yields by twice as much, at any step, and merged boxes tip over a little otherwise: a fourth.
+TEST_F(Validate, TellsTheOverlapToExpectUnderAHeavyLoad) {
+  const std::string blow =
+      "[[impulse]]\nbody = \"heavy\"\nat = [-0.5, 1.5]\nimpulse = [2000, 0]\ntime = 3\n";
+  for (const auto& [text, within] : {std::pair(std::string(), 0.2), std::pair(blow, 0.25)}) {
+    write("heavy.toml", heavyOnLight(text));
+    for (const int rate : {60, 100, 240}) {
+      const std::string step = fmt::format("step={}", 1.0 / rate);
+      const Json warnings =
+          run({"validate", "heavy.toml", "--json", "--set", step}).json()["warnings"];
+      double expected = 0.0;
+      if (!warnings.empty()) {
+        const std::string told = warnings[0].get<std::string>(), before = "pushes them ";
+        ASSERT_THAT(told, HasSubstr(before));
+        expected = std::stod(told.substr(told.find(before) + before.size()));
+      }
+      for (const std::string mode : {"reference", "sleep", "merge", "merge+sleep"}) {
+        const Json end = run({"run", "heavy.toml", "--json", "--mode", mode, "--set", step}).json();
+        const double overlap = end["max_penetration"];
+        SCOPED_TRACE(mode + " at 1/" + std::to_string(rate) + " s" + text);
+        if (warnings.empty()) {
+          EXPECT_LT(overlap, 0.02);
+        } else {
+          EXPECT_NEAR(overlap, expected, within * expected);
+        }
       }
     }
   }
@@ -271,8 +280,13 @@ TEST_F(Validate, WarnsOfBodiesThatFallByMoreThanTheirSizeInAStep) {
   EXPECT_EQ(run({"validate", "grain.toml", "--json"}).json()["warnings"],
             Json(Words{"'grain' is 0.0002 m small and falls by 0.00098 m in a step: a smaller step "
                        "shows more"}));
-  EXPECT_THAT(run({"validate", "grain.toml", "--json", "--set", "step=0.001"}).json()["warnings"],
-              IsEmpty());
+  const auto warnings = [&](double h) {
+    const std::string step = fmt::format("step={}", h);
+    return run({"validate", "grain.toml", "--json", "--set", step}).json()["warnings"].size();
+  };
+  EXPECT_EQ(warnings(0.001), 0U);
+  write("grain.toml", "[[body]]\nname = \"grain\"\nbox = [0.0001, 0.0001]\n");
+  for (const int rate : {60, 100, 240}) EXPECT_EQ(warnings(1.0 / rate), 1U) << rate;
 }
 
 TEST_F(Validate, WarnsOfJointsThatPullAtTheStart) {
