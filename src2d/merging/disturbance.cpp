@@ -9,8 +9,8 @@
 namespace merge2d {
 namespace {
 
-/// A contact that closes slower than this is no meeting [m/s].
-constexpr double kGentle = 1e-3;
+constexpr double kGentle = 1e-3;    ///< a slower approach is no meeting [m/s]
+constexpr double kRounding = 1e-9;  ///< of speeds
 
 /// An upper bound of the speeds at the points of a contact of two bodies on their own [m/s]: most
 /// contacts rest, and need no look at where their points are.
@@ -26,7 +26,6 @@ double speedBound(const Rigid& a, const Rigid& b, const Contact& contact) {
 
 /// Surely below the closing speed that `closingSpeed` asks for.
 bool isSlow(const State& state, const Contact& contact, double impact) {
-  constexpr double kRounding = 1e-9;
   if (state.isCollection(state[contact.key.a].rigid)) return false;  // its points are seen from a
   bool fresh = false;
   for (int i = 0; i < contact.count; ++i) {
@@ -36,7 +35,8 @@ bool isSlow(const State& state, const Contact& contact, double impact) {
   return bound < (1.0 - kRounding) * (fresh ? std::min(kGentle, impact) : impact);
 }
 
-/// The closing speed of a contact that was open in the last step and closes in this one, or that
+/// The closing speed of a contact that was open in the last step and closes in this one, be it at
+/// its very end, where hits are followed too (dynamics/hits.h); or of one that
 /// slowed its bodies down then and is hit with the rest of their speed now [m/s]; 0 for any other.
 double closingSpeed(const State& state, const Contact& contact, double impact) {
   if (isSlow(state, contact, impact)) return 0.0;
@@ -50,7 +50,8 @@ double closingSpeed(const State& state, const Contact& contact, double impact) {
     const Vec2 p = pose_a * point.position;
     const double w_n = n.dot(b.velocityAt(p) - a.velocityAt(p));
     const double closing = -w_n - std::max(0.0, point.gap) / state.h;
-    if (closing <= (point.fresh ? kGentle : impact)) continue;
+    const bool meets = point.fresh ? -w_n > kGentle && closing > kRounding * w_n : closing > impact;
+    if (!meets) continue;
     fastest = std::max(fastest, -w_n);
   }
   return fastest;
