@@ -19,14 +19,19 @@ void finishSplits(State& state, Scratch& scratch) {
   collectPairs(state, scratch);
 }
 
-/// The speed that passes from one body to another that it touches: e times the speed of arrival, as
-/// in a row of balls. 0 where they do not bounce, or it is too slow for that [m/s].
-double passedOn(const State& state, BodyId a, BodyId b, const std::vector<double>& arrives) {
-  const double e = restitutionOf(state, a, b);
-  if (e == 0.0) return 0.0;
-  const double speed = e * std::max(arrives[index(a)], arrives[index(b)]);
-  const ContactKey key{a, b, state[a].first_shape, state[b].first_shape};
-  return speed > leastBounce(state, key) ? speed : 0.0;
+/// Whether hits of two bodies are followed (dynamics/hits.h) of which one is as fast as this [m/s]:
+/// bounces, and what comes after them too slowly to bounce.
+bool isFollowed(const State& state, BodyId a, BodyId b, double speed) {
+  return restitutionOf(state, a, b) > 0.0 && speed > state.settings.unmerging.velocity;
+}
+
+/// The speed that a body at rest gets from one that hits it, by Newton's law, as in a row of balls
+/// [m/s].
+double passedOn(const State& state, BodyId from, BodyId to, double speed) {
+  if (!state.responds(to) || !isFollowed(state, from, to, speed)) return 0.0;
+  const ContactKey key{from, to, state[from].first_shape, state[to].first_shape};
+  const double e = speed > leastBounce(state, key) ? restitutionOf(state, from, to) : 0.0;
+  return (1.0 + e) * speed * state[from].mass / (state[from].mass + state[to].mass);
 }
 
 /// How fast the bounces of this step arrive at each body [m/s]; empty when there are none, or no
@@ -42,14 +47,17 @@ std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch) {
       if (state.responds(b)) arrives[index(b)] = std::max(arrives[index(b)], meeting.speed);
     }
   }
+  constexpr double kMore = 1.0 + 1e-9;  // or equal balls would pass on rounding errors for ever
   bool more = !arrives.empty();
+  const auto passTo = [&](BodyId to, BodyId from) {
+    const double speed = passedOn(state, from, to, arrives[index(from)]);
+    if (speed <= kMore * arrives[index(to)]) return;
+    arrives[index(to)] = speed;
+    more = true;
+  };
   const auto pass = [&](const auto& touching) {
-    const double speed = passedOn(state, touching.a, touching.b, arrives);
-    for (const BodyId b : {touching.a, touching.b}) {
-      if (!state.responds(b) || arrives[index(b)] >= speed) continue;
-      arrives[index(b)] = speed;
-      more = true;
-    }
+    passTo(touching.a, touching.b);
+    passTo(touching.b, touching.a);
   };
   while (more) {
     more = false;
@@ -65,12 +73,15 @@ std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch) {
 /// A bouncing body that was hit is followed hit by hit (dynamics/hits.h), on its own.
 void releaseBouncing(State& state, Scratch& scratch, const std::vector<double>& arrives) {
   if (arrives.empty()) return;
+  const auto fastestOf = [&](const Weld& weld) {
+    return std::max(arrives[index(weld.a)], arrives[index(weld.b)]);
+  };
   for (std::size_t slot = 0, slots = state.collections.size(); slot < slots; ++slot) {
     Collection& c = state.collections[slot];
     bool any = false;
     for (Weld& weld : c.welds) {
       if (c.id == kNoCollection || weld.joints > 0) continue;
-      if (passedOn(state, weld.a, weld.b, arrives) == 0.0) continue;
+      if (!isFollowed(state, weld.a, weld.b, fastestOf(weld))) continue;
       weld.cut = any = true;
       weld.reason = EventReason::RelativeMotion;
     }

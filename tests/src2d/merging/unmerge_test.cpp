@@ -7,6 +7,7 @@
 #include "src2d/merging/group_notes.h"
 #include "src2d/state_file.h"
 #include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/modes_and_steps.h"
 
 namespace merge2d {
 namespace {
@@ -302,6 +303,50 @@ void releaseTheRightBlock(const Overrides& rule) {
 TEST(Unmerge, ReleasingABodyBreaksNoWeldForAMarkOfAnEarlierStep) {
   releaseTheRightBlock({});
   releaseTheRightBlock(kPaper);
+}
+
+/// The speed that the last of a row gets from a box that comes at 3 m/s, when the row has merged
+/// with the ground or sleeps [m/s]. Each is `heavier` times as heavy as the one before it.
+double passedAlongARow(double restitution, double heavier, Mode mode, double h) {
+  constexpr int kRow = 5;
+  Scene scene = onGround();
+  for (int i = 0; i <= kRow; ++i) {
+    BodyDesc body = box(0.5, 0.5, {i == 0 ? -3.913 : 0.501 * i, 0.25});
+    body.mass = std::pow(heavier, i);
+    body.restitution = restitution;
+    body.friction = i == 0 ? 0.0 : 0.01;
+    body.velocity.x() = i == 0 ? 3.0 : 0.0;
+    add(scene, body);
+  }
+  scene.bodies[0].friction = 0.01;
+  scene.step = h;
+  World world(scene, inMode(mode));
+  double fastest = 0.0;
+  while (world.time() < 2.0) {
+    world.step();
+    fastest = std::max(fastest, see(world, BodyId{kRow + 1}).v.x());
+  }
+  return fastest;
+}
+
+/// Each passes on (1 + e) m₁ / (m₁ + m₂) of its speed, or more when it is hit again: as in the
+/// reference. Friction takes μ g h from each of the six in the step in which it is hit, and in the
+/// one after it.
+TEST(Unmerge, AllAreFreedThatABounceReaches) {
+  for (const double restitution : {0.3, 0.5, 0.8, 1.0}) {
+    for (const double heavier : {1.0, 0.7, 1.4}) {
+      SCOPED_TRACE(::testing::Message() << "e = " << restitution << ", masses " << heavier);
+      for (const double h : kStepSizes) {
+        const double reference = passedAlongARow(restitution, heavier, Mode::Reference, h);
+        EXPECT_GT(reference, 3.0 * std::pow((1.0 + restitution) / (1.0 + heavier), 5) - 0.1);
+        for (const Mode mode : {Mode::Sleep, Mode::Merge, Mode::MergeSleep}) {
+          EXPECT_NEAR(passedAlongARow(restitution, heavier, mode, h), reference,
+                      12.0 * 0.01 * kGravity * h)
+              << nameOf(mode) << ", h = " << h;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
