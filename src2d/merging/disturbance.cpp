@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src2d/core/memory.h"
+#include "src2d/dynamics/casts.h"
 #include "src2d/merging/kicked.h"
 
 namespace merge2d {
@@ -35,11 +36,18 @@ bool isSlow(const State& state, const Contact& contact, double impact) {
   return bound < (1.0 - kRounding) * (fresh ? std::min(kGentle, impact) : impact);
 }
 
+/// Two bodies that pass each other by (contact/cast.h).
+bool isMiss(const Scratch& scratch, const Contact& contact) {
+  const Cast* cast = castOf(scratch, contact);
+  return cast && !cast->hit;
+}
+
 /// The closing speed of a contact that was open in the last step and closes in this one, be it at
 /// its very end, where hits are followed too (dynamics/hits.h); or of one that
 /// slowed its bodies down then and is hit with the rest of their speed now [m/s]; 0 for any other.
-double closingSpeed(const State& state, const Contact& contact, double impact) {
-  if (isSlow(state, contact, impact)) return 0.0;
+double closingSpeed(const State& state, const Scratch& scratch, const Contact& contact,
+                    double impact) {
+  if (isSlow(state, contact, impact) || isMiss(scratch, contact)) return 0.0;
   const Rigid &a = state.rigid(contact.key.a), &b = state.rigid(contact.key.b);
   if (sameFrame(a, b)) return 0.0;
   const Pose pose_a = state.pose(contact.key.a);
@@ -64,7 +72,8 @@ void findMeetings(const State& state, Scratch& scratch) {
   for (std::uint32_t p = 0; p < scratch.pairs.size(); ++p) {
     const BodyPair& pair = scratch.pairs[p];
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-      const double speed = closingSpeed(state, state.contacts[state.contacts.order[i]], impact);
+      const double speed =
+          closingSpeed(state, scratch, state.contacts[state.contacts.order[i]], impact);
       if (speed > 0.0) scratch.meetings.push_back({p, i, speed});
     }
   }

@@ -59,6 +59,28 @@ TEST(NearMiss, ASpinningBoxTurnsPastAPost) {
   inAllModesAndSteps(scene, [&](World& world) { expectFliesFreely(world, 1.0, "rod"); });
 }
 
+/// Discs and boxes of any size and speed pass a post by a thousandth of their size, and by a fifth.
+TEST(NearMiss, BodiesOfAnySizePassAPost) {
+  for (const double size : {0.01, 0.1, 2.0}) {
+    for (const double speed : {3.0, 40.0, 300.0}) {
+      for (const double part : {0.001, 0.2}) {
+        for (const BodyDesc& one :
+             {disc(0.5 * size, {0, 0}), box(0.8 * size, 0.6 * size, {0, 0})}) {
+          const double seconds = 40.0 * size / speed + 0.1;
+          Scene scene = noGravity();
+          add(scene, pinned(disc(0.7 * size, {0, (1.2 + part) * size})));
+          add(scene, named("body", moving(one, {speed, 0})));
+          scene.bodies[1].at.x() = -0.47 * seconds * speed;
+          if (std::holds_alternative<Polygon>(one.shapes[0])) scene.bodies[1].spin = 7.0;
+          SCOPED_TRACE(::testing::Message() << size << " m, " << speed << " m/s, " << part);
+          inAllModesAndSteps(scene,
+                             [&](World& world) { expectFliesFreely(world, seconds, "body"); });
+        }
+      }
+    }
+  }
+}
+
 /// Both move, and come to 2 mm from each other: seen from the first, the second moves along (−1,
 /// 1), and passes at 0.402 m.
 TEST(NearMiss, TwoBallsPassEachOther) {
