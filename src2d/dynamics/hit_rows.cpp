@@ -24,7 +24,8 @@ const Cast* castToHit(const State& state, const Scratch& scratch, const Contact&
 bool isHit(const State& state, const Contact& contact, const Cast* cast, double gap, double w_start,
            double w_free) {
   const ContactKey& key = contact.key;
-  if (isBilateral(state, key.a, key.b) || gap + state.h * w_free >= 0.0) return false;
+  const double way = -state.h * w_free;
+  if (isBilateral(state, key.a, key.b) || way - gap <= kEndOfStep * way) return false;
   if (-w_start <= w_start - w_free) return false;  // loads alone bring them together
   return restitutionOf(state, key.a, key.b) == 0.0 ? cast != nullptr
                                                    : -w_free > leastBounce(state, key);

@@ -8,6 +8,10 @@ namespace merge2d {
 /// The bias of a row that takes no part in a solve [m/s].
 inline constexpr double kNeverActs = 1e12;
 
+/// A hit that comes by less than this part of its way before the end of a step belongs to the next
+/// one: rounding must not decide whether bodies meet in a step [1].
+inline constexpr double kEndOfStep = 1e-9;
+
 /// Slower approaches of a pair do not bounce [m/s]: `restitution_velocity`, or for small bodies
 /// the final speed of a fall by a part of their size.
 double leastBounce(const State& state, const ContactKey& key);

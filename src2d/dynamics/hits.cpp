@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src2d/dynamics/hit_points.h"
+#include "src2d/dynamics/hit_rows.h"
 #include "src2d/dynamics/hit_solver.h"
 #include "src2d/geometry/collide.h"
 
@@ -31,7 +32,7 @@ class HitPath {
     std::size_t hits = 0;
     for (std::size_t looks = 0; hits < most && looks < kLooks * most; ++looks) {
       const double wait = timeToNext();
-      if (time_ + wait >= h) return advance(h - time_);
+      if (time_ + wait >= (1.0 - kEndOfStep) * h) return advance(h - time_);
       advance(wait);
       if (someAreLater()) continue;
       ++hits;

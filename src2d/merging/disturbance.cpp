@@ -5,13 +5,14 @@
 
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/casts.h"
+#include "src2d/dynamics/hit_rows.h"
 #include "src2d/merging/kicked.h"
 
 namespace merge2d {
 namespace {
 
-constexpr double kGentle = 1e-3;    ///< a slower approach is no meeting [m/s]
-constexpr double kRounding = 1e-9;  ///< of speeds
+/// A slower approach is no meeting [m/s].
+constexpr double kGentle = 1e-3;
 
 /// An upper bound of the speeds at the points of a contact of two bodies on their own [m/s]: most
 /// contacts rest, and need no look at where their points are.
@@ -27,6 +28,7 @@ double speedBound(const Rigid& a, const Rigid& b, const Contact& contact) {
 
 /// Surely below the closing speed that `closingSpeed` asks for.
 bool isSlow(const State& state, const Contact& contact, double impact) {
+  constexpr double kRounding = 1e-9;
   if (state.isCollection(state[contact.key.a].rigid)) return false;  // its points are seen from a
   bool fresh = false;
   for (int i = 0; i < contact.count; ++i) {
@@ -42,9 +44,9 @@ bool isMiss(const Scratch& scratch, const Contact& contact) {
   return cast && !cast->hit;
 }
 
-/// The closing speed of a contact that was open in the last step and closes in this one, be it at
-/// its very end, where hits are followed too (dynamics/hits.h); or of one that
-/// slowed its bodies down then and is hit with the rest of their speed now [m/s]; 0 for any other.
+/// The speed of approach at a contact that was open in the last step and closes in this one,
+/// however late; or that slowed its bodies down then and is hit with the rest of their speed now
+/// [m/s]; 0 for any other.
 double closingSpeed(const State& state, const Scratch& scratch, const Contact& contact,
                     double impact) {
   if (isSlow(state, contact, impact) || isMiss(scratch, contact)) return 0.0;
@@ -58,7 +60,8 @@ double closingSpeed(const State& state, const Scratch& scratch, const Contact& c
     const Vec2 p = pose_a * point.position;
     const double w_n = n.dot(b.velocityAt(p) - a.velocityAt(p));
     const double closing = -w_n - std::max(0.0, point.gap) / state.h;
-    const bool meets = point.fresh ? -w_n > kGentle && closing > kRounding * w_n : closing > impact;
+    const bool meets =
+        point.fresh ? -w_n > kGentle && closing > kEndOfStep * -w_n : closing > impact;
     if (!meets) continue;
     fastest = std::max(fastest, -w_n);
   }

@@ -178,12 +178,15 @@ TEST(Impact, ABodyThatFallsHitsTheGroundOnceAndNotBefore) {
 /// In its last free step it comes near just as far as it gets: rounding alone gives it an impulse.
 TEST(Impact, ABodyThatGetsThereAtTheEndOfAStepHitsInTheNext) {
   for (const double speed : {1.0, 2.0, 4.0, 5.0}) {  // m/s over 1 m, in steps of 0.01 s
-    Scene scene;
-    scene.gravity = Vec2::Zero();
-    add(scene, disc(0.5, {0, 0}));
-    add(scene, disc(0.5, {2, 0}));
-    scene.bodies[0].velocity = {speed, 0.0};
-    EXPECT_THAT(impactsOf(scene, Mode::Reference, 150), SizeIs(1)) << speed;
+    for (const double restitution : {0.0, 0.5, 1.0}) {
+      Scene scene;
+      scene.gravity = Vec2::Zero();
+      add(scene, disc(0.5, {0, 0}));
+      add(scene, disc(0.5, {2, 0}));
+      scene.bodies[0].velocity = {speed, 0.0};
+      scene.bodies[0].restitution = restitution;
+      EXPECT_THAT(impactsOf(scene, Mode::Reference, 150), SizeIs(1)) << speed;
+    }
   }
 }
 
