@@ -49,14 +49,14 @@ void followHits(State& state, const Scratch& scratch) {
   }
 }
 
-/// Takes back the rest of the way of each body that is stopped.
+/// Takes back the rest of the way of each body that is stopped, and takes it along instead.
 void stopTurns(State& state, const Scratch& scratch, const std::vector<StoppedTurn>& stopped) {
   for (const StoppedTurn& stop : stopped) {
     Rigid& r = state[stop.id];
     const auto hit = std::ranges::find(scratch.hit_ways, stop.id, &HitWay::id);
     const bool was_hit = hit != scratch.hit_ways.end();
     const double left = 1.0 - stop.part;
-    r.moveBy(-left * (was_hit ? hit->way : Vec2(state.h * r.v)));
+    r.moveBy(stop.along - left * (was_hit ? hit->way : Vec2(state.h * r.v)));
     r.angle -= left * (was_hit ? hit->turn : state.h * r.omega);
     r.rotation = Rotation::of(r.angle);
   }

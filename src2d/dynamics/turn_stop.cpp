@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "src2d/geometry/collide.h"
 #include "src2d/geometry/distance.h"
@@ -30,21 +31,29 @@ struct Step {
     const Rigid& r = state[id];
     const auto hit = std::ranges::find(scratch.hit_ways, id, &HitWay::id);
     const bool was_hit = hit != scratch.hit_ways.end();
-    const double part = partOf(id);
-    if (was_hit) return {part * hit->way, part * hit->turn};
-    return {part * state.h * r.v, part * state.h * r.omega};
+    const StoppedTurn stop = stopOf(id);
+    if (was_hit) return {stop.part * hit->way + stop.along, stop.part * hit->turn};
+    return {stop.part * state.h * r.v + stop.along, stop.part * state.h * r.omega};
   }
-  double partOf(RigidId id) const {
+  StoppedTurn stopOf(RigidId id) const {
     const auto known = std::ranges::find(stopped, id, &StoppedTurn::id);
-    return known == stopped.end() ? 1.0 : known->part;
+    return known == stopped.end() ? StoppedTurn{id} : *known;
   }
-  /// After a part of the way that it would have gone.
-  void stop(RigidId id, double part) const {
+  /// After a part of the way that it would have gone; then it goes along with `leader`, if that
+  /// goes on.
+  void stop(RigidId id, double part, std::optional<RigidId> leader) const {
+    StoppedTurn now = stopOf(id);
+    now.part *= part;
+    now.along *= part;
+    if (leader) {
+      const StepMotion motion = motionOf(*leader);
+      now.along += (1.0 - part) * (motion.way + cross(motion.turn, state[id].x - state[*leader].x));
+    }
     const auto known = std::ranges::find(stopped, id, &StoppedTurn::id);
     if (known == stopped.end()) {
-      stopped.push_back({id, part});
+      stopped.push_back(now);
     } else {
-      known->part *= part;
+      *known = now;
     }
   }
 };
@@ -191,16 +200,19 @@ bool stopLaunched(const Step& step) {
     const Vec2 around = Vec2::Constant(state.extent(r).bounds.extent().norm());
     const Aabb swept{r.x.cwiseMin(end) - around, r.x.cwiseMax(end) + around};
     double part = 1.0;
+    std::optional<RigidId> leader;
     state.broadphase.tree.query(swept, [&](std::uint32_t other) {
       const RigidId o{other};
       const double until = o == id ? 1.0 : partUntil(step, id, o);
       if (until == 1.0) return;
-      part = std::min(part, until);
       // It may be the other that runs into the one that a blow has slowed down.
-      if (isFree(state, o) && !isJoined(state, o)) step.stop(o, until);
+      const bool stops = isFree(state, o) && !isJoined(state, o);
+      if (until < part) leader = stops ? std::nullopt : std::optional(o);
+      part = std::min(part, until);
+      if (stops) step.stop(o, until, std::nullopt);
     });
     if (part == 1.0) continue;
-    step.stop(id, part);
+    step.stop(id, part, leader);
     any = true;
   }
   return any;
@@ -220,8 +232,11 @@ void stopTurning(const Step& step, const ContactKey& key) {
   if (!stops_a && !stops_b) return;
   const double part = Passage(a, b, thin).end();
   if (part == 1.0) return;
-  if (stops_a) step.stop(rigid_a, part);
-  if (stops_b) step.stop(rigid_b, part);
+  const auto behind = [](bool stops, RigidId other) {
+    return stops ? std::nullopt : std::optional(other);
+  };
+  if (stops_a) step.stop(rigid_a, part, behind(stops_b, rigid_b));
+  if (stops_b) step.stop(rigid_b, part, behind(stops_a, rigid_a));
 }
 
 }  // namespace

@@ -94,6 +94,32 @@ TEST(TurnStop, ABallThatIsStruckHitsTheNextInItsWay) {
   }
 }
 
+// The plate goes on by a script, whatever meets it: it takes along what it has stopped.
+TEST(TurnStop, APlateThatComesTowardsABulletTakesItAlong) {
+  for (const char* const shape : {"circle = 0.01", "box = [0.03, 0.01]"}) {
+    for (const double speed : {10.0, 100.0, 400.0}) {
+      for (const double plate : {-1.0, -5.0, -20.0}) {
+        for (const double part : {0.0, 0.13, 0.37, 0.61, 0.83}) {
+          inEachModeAndStep([&](Mode mode, double h) {
+            SCOPED_TRACE(::testing::Message() << shape << ", " << speed << ", " << plate << " m/s");
+            World world = worldOf(
+                fmt::format("gravity = [0, 0]\n[[body]]\nname = \"plate\"\nmotion = \"scripted\"\n"
+                            "box = [0.005, 4]\nscript = {{ velocity = [{}, 0] }}\n[[body]]\n"
+                            "name = \"bullet\"\n{}\nat = [{}, 0.1]\nvelocity = [{}, 0]\n",
+                            plate, shape, -0.02 - (2.0 + part) * h * (speed - plate), speed),
+                mode, h);
+            for (int i = 0; i < 20; ++i) {
+              world.step();
+              ASSERT_LT(see(world, "bullet").x.x(), see(world, "plate").x.x()) << "step " << i;
+            }
+            EXPECT_NEAR(see(world, "bullet").v.x(), plate, 0.02 * speed);
+          });
+        }
+      }
+    }
+  }
+}
+
 // Nothing is in its way: it turns as far as it should.
 TEST(TurnStop, ABoxThatTurnsBesideAWallKeepsItsPace) {
   inEachModeAndStep([](Mode mode, double h) {
