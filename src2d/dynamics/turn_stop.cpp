@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "src2d/geometry/collide.h"
 #include "src2d/geometry/distance.h"
@@ -39,15 +38,15 @@ struct Step {
     const auto known = std::ranges::find(stopped, id, &StoppedTurn::id);
     return known == stopped.end() ? StoppedTurn{id} : *known;
   }
-  /// After a part of the way that it would have gone; then it goes along with `leader`, if that
-  /// goes on.
-  void stop(RigidId id, double part, std::optional<RigidId> leader) const {
+  /// After a part of the way that it would have gone; then it goes along with the other one, if
+  /// nothing holds that up.
+  void stop(RigidId id, double part, RigidId other) const {
     StoppedTurn now = stopOf(id);
     now.part *= part;
     now.along *= part;
-    if (leader) {
-      const StepMotion motion = motionOf(*leader);
-      now.along += (1.0 - part) * (motion.way + cross(motion.turn, state[id].x - state[*leader].x));
+    if (!state[other].floating()) {
+      const StepMotion motion = motionOf(other);
+      now.along += (1.0 - part) * (motion.way + cross(motion.turn, state[id].x - state[other].x));
     }
     const auto known = std::ranges::find(stopped, id, &StoppedTurn::id);
     if (known == stopped.end()) {
@@ -200,19 +199,17 @@ bool stopLaunched(const Step& step) {
     const Vec2 around = Vec2::Constant(state.extent(r).bounds.extent().norm());
     const Aabb swept{r.x.cwiseMin(end) - around, r.x.cwiseMax(end) + around};
     double part = 1.0;
-    std::optional<RigidId> leader;
+    RigidId met = id;
     state.broadphase.tree.query(swept, [&](std::uint32_t other) {
       const RigidId o{other};
       const double until = o == id ? 1.0 : partUntil(step, id, o);
       if (until == 1.0) return;
+      if (until < part) part = until, met = o;
       // It may be the other that runs into the one that a blow has slowed down.
-      const bool stops = isFree(state, o) && !isJoined(state, o);
-      if (until < part) leader = stops ? std::nullopt : std::optional(o);
-      part = std::min(part, until);
-      if (stops) step.stop(o, until, std::nullopt);
+      if (isFree(state, o) && !isJoined(state, o)) step.stop(o, until, id);
     });
     if (part == 1.0) continue;
-    step.stop(id, part, leader);
+    step.stop(id, part, met);
     any = true;
   }
   return any;
@@ -232,11 +229,8 @@ void stopTurning(const Step& step, const ContactKey& key) {
   if (!stops_a && !stops_b) return;
   const double part = Passage(a, b, thin).end();
   if (part == 1.0) return;
-  const auto behind = [](bool stops, RigidId other) {
-    return stops ? std::nullopt : std::optional(other);
-  };
-  if (stops_a) step.stop(rigid_a, part, behind(stops_b, rigid_b));
-  if (stops_b) step.stop(rigid_b, part, behind(stops_a, rigid_a));
+  if (stops_a) step.stop(rigid_a, part, rigid_b);
+  if (stops_b) step.stop(rigid_b, part, rigid_a);
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 /// with a corner at 100 m/s turns by radians in the rest of the step, and another corner, which was
 /// behind, comes round through the plate. So the way of such a body is followed against what it
 /// touches, in steps in which nothing passes through anything, and ends before an overlap that was
-/// not there; for the rest of the step it goes along with the body that it met, which moves on. Its
-/// velocity stays: the next step begins with the contact at which it was stopped.
+/// not there; for the rest of the step it goes along with a scripted body that it met, which
+/// nothing holds up. Its velocity stays: the next step begins with the contact at which it was
+/// stopped.
 ///
 /// The same holds for a body that a blow has given a long way in the step: contacts were looked for
 /// along the way that it had at the start.
