@@ -15,9 +15,7 @@ namespace {
 /// Lengths that tell a flush seam from a step [m]; smaller where a shape is small.
 struct SeamScale {
   double ahead = 1.5e-3;  ///< how far before a side we look, and the widest gap of a seam
-  double beside = 3e-3;   ///< how far along the side
   double skin = 5e-5;     ///< the highest step that counts as flush
-  double sag = 5e-5;      ///< the same where one of the two may have sunk in
 };
 
 SeamScale seamScale(const State& state, std::uint32_t s, std::uint32_t t, std::uint32_t x) {
@@ -27,74 +25,8 @@ SeamScale seamScale(const State& state, std::uint32_t s, std::uint32_t t, std::u
   }
   SeamScale scale;
   scale.ahead = std::min(scale.ahead, size / 20.0);
-  scale.beside = std::min(scale.beside, size / 10.0);
-  scale.sag = scale.skin = std::min(scale.skin, size / 1000.0);
+  scale.skin = std::min(scale.skin, size / 1000.0);
   return scale;
-}
-
-/// A shape that may hide sides of another one, seen from the body whose sides they are.
-struct Cover {
-  const Collider& shape;
-  Pose frame;  ///< of the body of the other one, in that of this one
-  SeamScale scale;
-
-  bool contains(const Vec2& p) const { return distance(p) <= scale.skin; }
-  /// The same, also where the two have sunk in differently.
-  bool covers(const Vec2& p) const { return distance(p) <= scale.sag; }
-  bool risesAbove(const Vec2& p, const Vec2& n) const {
-    const Vec2 at = frame * p, up = frame.rotation * n;
-    for (int i = 0; i < shape.count(); ++i) {
-      if (up.dot(shape.vertex(i) - at) > scale.skin) return true;
-    }
-    return false;
-  }
-
- private:
-  double distance(const Vec2& p) const { return signedDistance(shape, frame * p); }
-};
-
-/// True when a shape with these bounds may hide sides at `p`, which is in the bounds' frame.
-bool mayReach(const Aabb& bounds, const Vec2& p) {
-  constexpr SeamScale kWidest;
-  constexpr double kReach = kWidest.ahead + kWidest.beside + 2.0 * kWidest.skin;
-  return ((p - bounds.lower).array() >= -kReach).all() &&
-         ((bounds.upper - p).array() >= -kReach).all();
-}
-
-/// True when a face of the shape at `p` that looks along `normal` has the cover before it, as far
-/// beside `p` as the face reaches.
-bool isHidden(const Collider& shape, const Vec2& p, const Vec2& normal, const Cover& cover) {
-  constexpr double kLooks = 1e-9;
-  const double skin = cover.scale.skin;
-  for (int i = 0; i < shape.count(); ++i) {
-    const Vec2 &outward = shape.normal(i), &begin = shape.vertex(i);
-    if (outward.dot(normal) <= kLooks || std::abs(outward.dot(p - begin)) > skin) continue;
-    const Vec2 along = perpendicular(outward);
-    const double length = along.dot(shape.vertex(shape.next(i)) - begin);
-    const double at = along.dot(p - begin);
-    if (at < -skin || at > length + skin) continue;
-    const auto covered = [&](double place) {
-      const Vec2 on = begin + std::clamp(place, 0.0, length) * along;
-      return cover.covers(on + cover.scale.ahead * outward) ||
-             (cover.covers(on) && cover.risesAbove(on, outward));
-    };
-    if (covered(at - cover.scale.beside) && covered(at + cover.scale.beside)) return true;
-  }
-  return false;
-}
-
-/// True when `p` is a corner of the shape, `normal` leads between those of its sides there, and the
-/// cover, to which the corner belongs too, rises above it: both together have no such corner. So it
-/// is where two shapes meet along a slanted side.
-bool isCornerUnder(const Collider& shape, const Vec2& p, const Vec2& normal, const Cover& cover) {
-  constexpr double kAlong = 1e-9;  // a normal of a side is none of a corner
-  const double skin = cover.scale.skin;
-  bool corner = false;
-  for (int i = 0; i < shape.count(); ++i) {
-    corner |= (shape.vertex(i) - p).squaredNorm() <= skin * skin;
-    if (shape.normal(i).dot(normal) > 1.0 - kAlong) return false;
-  }
-  return corner && cover.contains(p) && cover.risesAbove(p, normal);
 }
 
 bool bears(const Contact& contact) {
@@ -245,79 +177,63 @@ struct SeamBodies {
   bool stayTogether(const State& state, const Vec2& p, double way) const {
     return state.h * velocitySeenFrom(state, of_cover, of_side, p).norm() <= way;
   }
-  Pose sideInCover(const State& state) const {
-    if (of_side == of_cover) return {};
-    return state.pose(of_cover).toLocal(state.pose(of_side));
-  }
 };
 
-/// The surface of `t`, on which the toucher rests, in the world.
+/// The surface of `t` at which it is touched, in the world.
 struct Ground {
   Vec2 at, up;
 
-  Ground(const State& state, const SeamContact& t) {
-    const Contact& contact = contactOf(state, t);
-    const Pose frame = state.pose(contact.key.a);
-    at = frame * contact.points[0].position;
-    up = frame.rotation * (t.ofA() ? contact.normal : Vec2(-contact.normal));
+  Ground(const State& state, const Scratch& scratch, const SeamContact& t) {
+    const Side side(state, scratch, t);
+    const Pose pose = state.pose(state.shape_body[shapeOf(contactOf(state, t), t)]);
+    at = pose * side.points[0];
+    up = pose.rotation * side.normal;
   }
+  double heightOf(const Vec2& p) const { return up.dot(p - at); }
 };
-
-/// True when a shape rises at `p` by more than `scale.ahead` above the ground: it stands there.
-bool rises(const Collider& shape, const Pose& pose, const Ground& ground, const Vec2& p,
-           const SeamScale& scale) {
-  const Vec2 over = p + (scale.ahead - ground.up.dot(p - ground.at)) * ground.up;
-  const Vec2 along = scale.beside * perpendicular(ground.up);
-  return signedDistance(shape, pose.toLocal(over + along)) < 0.0 ||
-         signedDistance(shape, pose.toLocal(over - along)) < 0.0;
-}
 
 /// True when the toucher comes against a side at `p`, with this normal out of it, as it slides
 /// along the ground and not as it sinks in.
-bool isMetBySliding(const State& state, BodyId toucher, const SeamBodies& bodies,
-                    const Ground& ground, const Vec2& p, const Vec2& normal) {
-  const double nears = normal.dot(velocitySeenFrom(state, bodies.of_side, toucher, p));
-  const double sinks = normal.dot(ground.up) *
-                       ground.up.dot(velocitySeenFrom(state, bodies.of_cover, toucher, ground.at));
+bool isMetBySliding(const State& state, BodyId toucher, BodyId of_side, const Ground& ground,
+                    const Vec2& p, const Vec2& normal) {
+  constexpr double kAlong = 1e-9;  // a side that lies in the ground is none to run into
+  const double upward = normal.dot(ground.up);
+  if (upward > 1.0 - kAlong) return false;
+  const double nears = normal.dot(velocitySeenFrom(state, of_side, toucher, p));
+  const double sinks = upward * ground.up.dot(velocitySeenFrom(state, of_side, toucher, ground.at));
   return nears - sinks < -std::abs(sinks);
 }
 
-/// True when a side of a shape whose body may part from that of `t` lies flush before the toucher,
-/// which slides towards it, and goes on with `t` in this step.
-bool isFlush(const State& state, const SeamContact& t, const SeamContact& s, const Side& side,
-             const SeamBodies& bodies, const SeamScale& scale) {
-  const Ground ground(state, t);
-  const Pose pose = state.pose(bodies.of_side);
-  const Vec2 p = pose * side.points[0], normal = pose.rotation * side.normal;
-  return bodies.stayTogether(state, p, scale.sag) &&
-         isMetBySliding(state, state.shape_body[s.toucher], bodies, ground, p, normal) &&
-         !rises(state.collider(shapeOf(contactOf(state, s), s)), pose, ground, p, scale);
-}
-
-/// True when all points of the contact of `s`, which are those of `side`, lie on sides that the
-/// shape of `t` hides.
-bool hides(const State& state, const SeamContact& t, const SeamContact& s, const Side& side) {
-  const std::uint32_t cover_shape = shapeOf(contactOf(state, t), t);
-  const std::uint32_t shape = shapeOf(contactOf(state, s), s);
-  const SeamBodies bodies(state, t, s);
-  const Pose to_cover = bodies.sideInCover(state);
-  if (!mayReach(state.bounds(cover_shape), to_cover * side.points[0])) return false;
-  const bool may_part = bodies.mayPart(state);
-  SeamScale scale = seamScale(state, shape, cover_shape, s.toucher);
-  if (!mayHide(state, t, s, may_part, scale)) return false;
-  if (may_part) {
-    scale.sag = std::clamp(-smallestGap(contactOf(state, t)), scale.skin, scale.ahead);
-    if (!isFlush(state, t, s, side, bodies, scale)) return false;
-  }
-  const Cover cover{state.collider(cover_shape), to_cover, scale};
-  for (std::size_t k = 0; k < static_cast<std::size_t>(side.count); ++k) {
-    const Vec2& p = side.points[k];
-    if (!isHidden(state.collider(shape), p, side.normal, cover) &&
-        !isCornerUnder(state.collider(shape), p, side.normal, cover)) {
-      return false;
-    }
+/// True when no part of a shape is higher than `step` above the ground.
+bool liesBelow(const Collider& shape, const Pose& pose, const Ground& ground, double step) {
+  for (int i = 0; i < shape.count(); ++i) {
+    if (ground.heightOf(pose * shape.vertex(i)) > step) return false;
   }
   return true;
+}
+
+/// True when the shape of `s` does not rise above the ground on which the toucher slides from the
+/// shape of `t` on, and is met at its surface.
+bool hides(const State& state, const Scratch& scratch, const SeamContact& t, const SeamContact& s,
+           const Side& side) {
+  const std::uint32_t shape = shapeOf(contactOf(state, s), s);
+  const SeamBodies bodies(state, t, s);
+  const bool may_part = bodies.mayPart(state);
+  const SeamScale scale = seamScale(state, shape, shapeOf(contactOf(state, t), t), s.toucher);
+  if (!mayHide(state, t, s, may_part, scale)) return false;
+  const Ground ground(state, scratch, t);
+  const Pose pose = state.pose(bodies.of_side);
+  const Vec2 p = pose * side.points[0];
+  if (may_part) {
+    const double way = std::clamp(-smallestGap(contactOf(state, t)), scale.skin, scale.ahead);
+    const Collider& cover = state.collider(shapeOf(contactOf(state, t), t));
+    if (signedDistance(cover, state.pose(bodies.of_cover).toLocal(p)) > scale.ahead) return false;
+    if (!bodies.stayTogether(state, p, way)) return false;
+  }
+  const BodyId toucher = state.shape_body[s.toucher];
+  const Vec2 normal = pose.rotation * side.normal;
+  if (!isMetBySliding(state, toucher, bodies.of_side, ground, p, normal)) return false;
+  return liesBelow(state.collider(shape), pose, ground, may_part ? scale.ahead : scale.skin);
 }
 
 /// True when one of the shapes that the toucher of `s` touches hides the sides at `s`.
@@ -329,7 +245,7 @@ bool isHiddenByAny(const State& state, const Scratch& scratch, std::span<const S
     const bool may_part = SeamBodies(state, t, s).mayPart(state);
     if (!mayHide(state, t, s, may_part, SeamScale{})) return false;
     if (!side) side.emplace(state, scratch, s);
-    return hides(state, t, s, *side);
+    return hides(state, scratch, t, s, *side);
   });
 }
 

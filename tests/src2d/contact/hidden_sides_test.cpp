@@ -129,6 +129,81 @@ TEST(Seams, ACompoundSlidesOverTiles) {
   inAllModesAndSteps(scene, [&](World& world) { expectGlides(world, 2.0, 5.0, height); });
 }
 
+/// As above, where another tile carries it in each step and has to find its force anew.
+void expectKeepsItsSpeed(World& world, double seconds, double speed, double height) {
+  constexpr double kSinks = 1e-2;  // m: four steps of free fall at 1/60 s
+  const BodyId body = idOf(world, "slider");
+  const int steps = static_cast<int>(std::lround(seconds / world.scene().step));
+  for (int i = 0; i < steps; ++i) {
+    world.step();
+    const BodyState seen = see(world, body);
+    ASSERT_NEAR(seen.v.x(), speed, 1e-3 * speed) << "x = " << seen.x.x();
+    ASSERT_NEAR(seen.x.y(), height, kSinks) << "x = " << seen.x.x();
+  }
+}
+
+/// Several tiles lie within the way of one step, and the front may stand on any place of one.
+TEST(Seams, NothingTripsOnTilesShorterThanTheWayOfAStep) {
+  for (const double tile : {0.15, 0.5, 1.0}) {
+    for (const double speed : {16.0, 62.0, 150.0}) {
+      for (const double start : {1.7, 1.93}) {
+        Scene scene = frictionless();
+        const double seconds = 0.2;
+        const int n = static_cast<int>((start + 1.0 + speed * seconds) / tile) + 2;
+        for (int i = 0; i < n; ++i) {
+          addSmooth(scene, pinned(box(tile, 1, {(0.5 + i) * tile, -0.5})));
+        }
+        for (const BodyDesc& body : {disc(0.3, {start, 0.3}), box(0.6, 0.6, {start, 0.3})}) {
+          Scene with = scene;
+          addSmooth(with, named("slider", moving(body, {speed, 0})));
+          SCOPED_TRACE(::testing::Message() << tile << " m, " << speed << " m/s from " << start);
+          inAllModesAndSteps(
+              with, [&](World& world) { expectKeepsItsSpeed(world, seconds, speed, 0.3); });
+        }
+      }
+    }
+  }
+}
+
+/// Every other triangle has but a corner at the surface.
+TEST(Seams, NothingTripsOnAFloorOfTriangles) {
+  for (const double speed : {0.5, 5.0, 40.0}) {
+    for (const BodyDesc& body : {disc(0.3, {2, 0.3}), box(0.6, 0.6, {2, 0.3})}) {
+      Scene scene = frictionless();
+      for (int i = 0; i < 30; ++i) {
+        BodyDesc floor;
+        const double x = i;
+        floor.shapes.emplace_back(Polygon{{{x, 0}, {x + 0.5, -1}, {x + 1, 0}}});
+        floor.shapes.emplace_back(Polygon{{{x + 1, 0}, {x + 0.5, -1}, {x + 1.5, -1}}});
+        addSmooth(scene, pinned(floor));
+      }
+      addSmooth(scene, named("slider", moving(body, {speed, 0})));
+      SCOPED_TRACE(speed);
+      const double seconds = std::min(2.0, 26.0 / speed);
+      inAllModesAndSteps(scene,
+                         [&](World& world) { expectKeepsItsSpeed(world, seconds, speed, 0.3); });
+    }
+  }
+}
+
+/// A body hangs with one leg over the edge of a table, on which it slides, and meets a block that
+/// does not reach up to the table: plastic, so both go on at half the speed.
+TEST(Seams, ATableHidesNothingOfWhatItIsHigherThan) {
+  Scene scene = frictionless();
+  addSmooth(scene, pinned(box(10, 1, {-5, -0.5})));
+  addSmooth(scene, pinned(box(10, 1, {5.5, -2.0})));
+  addSmooth(scene, named("block", box(1, 1, {2.5, -1.0})));
+  BodyDesc hook = moving(box(2, 0.2, {-0.7, 0.1}), {2, 0});
+  hook.shapes.emplace_back(makeBox(0.2, 1, Pose::at({0.9, -0.5}, 0.0)));
+  hook.density = 1.0 / 0.58;
+  addSmooth(scene, named("hook", hook));
+  inAllModesAndSteps(scene, [](World& world) {
+    runSeconds(world, 1.2);
+    EXPECT_GT(see(world, "block").v.x(), 0.8);
+    EXPECT_LT(see(world, "hook").v.x(), 1.2);
+  });
+}
+
 /// v²/(2μg) = 4.077 m, of which the discrete friction takes v·h/2: its speed in a step is that at
 /// the end. The first settling costs less than 1 mm.
 TEST(Seams, ACrateGlidesFromTableToTable) {
