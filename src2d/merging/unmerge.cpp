@@ -20,7 +20,7 @@ void finishSplits(State& state, Scratch& scratch) {
 }
 
 /// Whether hits of two bodies are followed (dynamics/hits.h) of which one is as fast as this [m/s]:
-/// bounces, and what comes after them too slowly to bounce.
+/// bounces, and later hits in their chain that are too slow to bounce.
 bool isFollowed(const State& state, BodyId a, BodyId b, double speed) {
   return restitutionOf(state, a, b) > 0.0 && speed > state.settings.unmerging.velocity;
 }

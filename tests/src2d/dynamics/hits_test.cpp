@@ -270,7 +270,24 @@ TEST(Hits, ABallMetByAFastBatGetsItsSpeed) {
   }
 }
 
-/// A thin bat turns by up to 75° a step: it finds what lies anywhere beside it, and gives it
+/// A thin bat sweeps a half disc in its first steps: it finds a ball far beside it.
+TEST(Hits, ABatFindsABallAQuarterTurnAway) {
+  for (const double at : {1.0, 1.7, 1.95}) {
+    Scene scene = noGravity();
+    SteadyMotion turn;
+    turn.spin = 6000 * kDegree;
+    add(scene, scripted(box(4, 0.02, {0, 0}), turn));
+    BodyDesc ball = named("ball", disc(0.02, {0, at}));
+    ball.friction = 0.0;
+    add(scene, ball);
+    inAllModesAndSteps(scene, [&](World& world) {
+      runSeconds(world, 0.035);  // 210 degrees
+      EXPECT_GE(see(world, "ball").v.norm(), 0.999 * turn.spin * at) << at << " m";
+    });
+  }
+}
+
+/// A thin bat turns by up to 75° a step: it finds a ball anywhere beside it, and gives it
 /// (1 + e) times its own speed there.
 TEST(Hits, ABatFindsABallAnywhereInItsSweep) {
   for (const double restitution : {0.0, 0.7, 1.0}) {

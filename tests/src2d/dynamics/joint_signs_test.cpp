@@ -79,7 +79,7 @@ TEST(JointSigns, LimitsAreAnglesAndWaysOfTheBody) {
   }
 }
 
-// The tolerance is what a soft limit yields.
+// A soft limit yields by a few millimetres.
 TEST(JointSigns, ADistanceIsTheSameFromBothEnds) {
   const std::string bob = R"(
 [[body]]

@@ -94,7 +94,7 @@ TEST(TurnStop, ABallThatIsStruckHitsTheNextInItsWay) {
   }
 }
 
-// The plate goes on by a script, whatever meets it: it takes along what it has stopped.
+// The plate follows its script after a hit as well, and takes the bullet along.
 TEST(TurnStop, APlateThatComesTowardsABulletTakesItAlong) {
   for (const char* const shape : {"circle = 0.01", "box = [0.03, 0.01]"}) {
     for (const double speed : {10.0, 100.0, 400.0}) {

@@ -67,7 +67,7 @@ Scene rowThatIsHit(double restitution, double speed, double seconds) {
 }
 
 /// A whole number of steps after the start, to rounding. The last box has the speed of the hitter,
-/// or all four together have its momentum; friction takes what it takes in two steps.
+/// or all four together have its momentum, less the friction of two steps.
 TEST(Disturbance, AHitAtTheVeryEndOfAStepIsPassedOn) {
   for (const double restitution : {1.0, 0.0}) {
     for (const double speed : {0.7, 1.2, 3.0}) {
