@@ -172,8 +172,14 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
     return cycle(d, d.group < 0 ? "its own" : name(BodyId{static_cast<std::uint32_t>(d.group)}));
   }
   if (c == "patience") {
-    return fmt::format("their last weld broke too early, or turned slowly: {} to wait",
-                       counted(static_cast<std::size_t>(d.value), "step", "steps"));
+    return fmt::format(
+        "their last weld broke too early, turned slowly, or was hit for long: {} to wait",
+        counted(static_cast<std::size_t>(d.value), "step", "steps"));
+  }
+  if (c == "hits") {
+    return fmt::format(
+        "hits have gone on for {:.3g} s (from {} s on bodies are simulated one by one; {})",
+        d.value, d.threshold, equationName(d.equation));
   }
   if (c == "pressed") return "no contact between them carries a force (Section 5.3)";
   if (c == "broken") return "a contact of the weld carries no force any more (Section 6.3)";

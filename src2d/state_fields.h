@@ -175,11 +175,16 @@ void fields(Ar& ar, Some<LoadCertificate> auto& c) {
      search);
 }
 template <class Ar>
+void fields(Ar& ar, Some<HitRun> auto& run) {
+  auto& [first, last] = run;
+  ar(first, last);
+}
+template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, active_blocks, points, stale,
-         welds, joints, push, residual, settled, last_blow, certificate] = c;
+         welds, joints, push, residual, settled, last_blow, hits, certificate] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, active_blocks, points, stale,
-     welds, joints, push, residual, settled, last_blow, certificate);
+     welds, joints, push, residual, settled, last_blow, hits, certificate);
 }
 
 template <class Ar>

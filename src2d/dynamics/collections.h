@@ -150,6 +150,11 @@ struct LoadCertificate {
   ProofSearch search;
 };
 
+/// The steps without a break in which hits opened a collection.
+struct HitRun {
+  std::int64_t first = kNever, last = kNever;
+};
+
 /// Bodies simulated as one (Section 4).
 struct Collection {
   CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
@@ -171,6 +176,7 @@ struct Collection {
   float residual = 0.0F;            ///< largest of its rows, when last solved [m/s]
   bool settled = false;             ///< the forces inside are known
   std::int64_t last_blow = kNever;  ///< step in which something hit it last
+  HitRun hits;                      ///< that opened it last
   std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
 };
 

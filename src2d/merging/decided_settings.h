@@ -47,6 +47,10 @@ struct DecidedSettings {
   double left_of_rest = 2e-6;  ///< and where so little is left over of any load [m/s]
   /// Steps from a hit or an impulse on in which the collection is open.
   int hit_steps = 3;
+  /// A collection that hits have opened for so long without a break [s] steps back: what is hit all
+  /// the time costs less as single bodies. A tower of 20,000 that buckles takes two thirds of the
+  /// time, and a struck one loses as many bricks as the reference. With 20 steps as many as 3% less.
+  double hit_time = 0.1;
   /// Steps after a hit in which it is looked at once in as many steps as a pair must be quiet for
   /// before it merges: a heap into which bodies fall changes before a search could end. The filling
   /// funnel and the collapsing tower-platform take three quarters of the time.

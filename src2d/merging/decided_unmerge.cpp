@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "src2d/dynamics/contact_limits.h"
@@ -145,6 +146,36 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofS
   return any;
 }
 
+/// For how long hits have opened it without a break [s].
+double hitTime(const State& state, const Collection& c) {
+  return static_cast<double>(c.hits.last - c.hits.first + 1) * state.h;
+}
+
+/// It is hit all the time: so it steps back. Of a large one a hit opens but a part.
+bool isHitForLong(const State& state, const Collection& c) {
+  constexpr double kRounding = 1.0 - 1e-9;
+  return c.hits.last == state.step && hitTime(state, c) >= kRounding * kDecided.hit_time &&
+         !isLarge(c);
+}
+
+/// Cuts all welds but those of joints: its bodies are simulated one by one, and a pair of them
+/// waits as one does that parted slowly. Guarded by
+/// Unmerge.BodiesThatAreShakenForLongAreSimulatedOneByOne.
+void stepBack(const State& state, Scratch& scratch, Collection& c) {
+  for (Weld& weld : c.welds) {
+    if (weld.expected || weld.joints > 0) continue;
+    if (scratch.notes) {
+      Decision decision = decide(weld, hitTime(state, c), kDecided.hit_time);
+      decision.criterion = "hits";
+      decision.verdict = "unmerge";
+      scratch.notes->decisions.push_back(decision);
+    }
+    if (!weld.cut) weld.reason = reasonOf(c, weld);
+    weld.cut = true;
+    weld.motion = std::numeric_limits<float>::min();  // the longest wait
+  }
+}
+
 /// Where no part comes off.
 void forgetCuts(Collection& c) {
   for (Weld& weld : c.welds) weld.cut = false;
@@ -204,7 +235,11 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   if (breakJointsInside(state, scratch, c)) return;
   if (!c.joints.empty()) loosenJoints(state, c, scratch.sweep_u);
   Noted noted(scratch.notes);
-  const bool moves = cutMovers(state, scratch, c, before);
+  bool moves = cutMovers(state, scratch, c, before);
+  if (isHitForLong(state, c)) {
+    stepBack(state, scratch, c);
+    moves = true;
+  }
   noted.close();
   if (isHit(state, c)) swapImpulses(c, before.load);  // those of a hit are not those of a load
   const Parts parts = moves ? componentsOf(c) : Parts();

@@ -80,8 +80,13 @@ bool isLongQuiet(const State& state, const Collection& c) {
   return state.step - std::max(proof.last_doubt, proof.since) == kDecided.kept_steps;
 }
 
+void lengthen(HitRun& run, std::int64_t step) {
+  if (run.last + 1 < step) run.first = step;
+  run.last = step;
+}
+
 /// A hit passes through all collections that touch each other.
-void spreadDoubts(const State& state, Scratch& scratch) {
+void spreadDoubts(State& state, Scratch& scratch) {
   auto& sets = scratch.sets;
   sets.reset(state.collections.size());
   const auto slotOf = [&](BodyId b) -> std::ptrdiff_t {
@@ -104,7 +109,9 @@ void spreadDoubts(const State& state, Scratch& scratch) {
       hit[sets.find(i)] = 1;
   }
   for (std::uint32_t i = 0; i < slots; ++i) {
-    if (isSwept(state, state.collections[i]) && hit[sets.find(i)]) scratch.doubts[i] = Doubt::Open;
+    if (!isSwept(state, state.collections[i]) || !hit[sets.find(i)]) continue;
+    scratch.doubts[i] = Doubt::Open;
+    lengthen(state.collections[i].hits, state.step);
   }
 }
 

@@ -76,7 +76,8 @@ TEST(Explain, SaysForHowLongAPairWaitsWhoseWeldBrokeEarly) {
   const World world(column(1));
   const std::vector<Explanation> all = explainStep(Words(world.bodies()), after);
   EXPECT_EQ(textOf(all, Outcome::Waiting),
-            "ground and body1 wait at step 20: their last weld broke too early, or turned slowly: "
+            "ground and body1 wait at step 20: their last weld broke too early, turned slowly, or "
+            "was hit for long: "
             "7 steps to wait.");
   EXPECT_EQ(conditionOf(all.at(0)).steps, 7);
 }

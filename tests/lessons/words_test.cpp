@@ -83,9 +83,19 @@ TEST_F(WordsTest, TellsOfAContactThatCarriesNothingAnyMore) {
             "a contact of the weld carries no force any more (Section 6.3)");
 }
 
+TEST_F(WordsTest, TellsHowLongHitsHaveGoneOn) {
+  EXPECT_EQ(said({.stage = "Unmerge",
+                  .criterion = "hits",
+                  .equation = kOwnDecided,
+                  .value = 0.12,
+                  .threshold = 0.1}),
+            "hits have gone on for 0.12 s (from 0.1 s on bodies are simulated one by one; "
+            "docs/decisions/decided.md#decision)");
+}
+
 TEST_F(WordsTest, TellsHowLongAPairThatPartedMustWait) {
   EXPECT_EQ(said({.stage = "AccumulateRelativeMotion", .criterion = "patience", .value = 7.0}),
-            "their last weld broke too early, or turned slowly: 7 steps to wait");
+            "their last weld broke too early, turned slowly, or was hit for long: 7 steps to wait");
 }
 
 TEST(WordsOfGroups, AreAllTheBodiesOrSomeOfMany) {

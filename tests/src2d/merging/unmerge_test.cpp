@@ -208,6 +208,37 @@ TEST(Unmerge, AProjectileMovesAsManyBodiesAsInTheReference) {
   }
 }
 
+/// Two boxes on a third that are knocked on in every step, so softly that nothing moves, are
+/// simulated one by one after ten of them, and merge again two seconds after the last one.
+TEST(Unmerge, BodiesThatAreShakenForLongAreSimulatedOneByOne) {
+  for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+    Scene scene = onGround();
+    addColumn(scene, 3, {0, 0});
+    Simulation run(scene, mode);
+    run.until(1.0);
+    const auto together = [&] {
+      const std::vector<BodyState> bodies = run.now().bodies;
+      return bodies[2].collection != kNoCollection && bodies[2].collection == bodies[3].collection;
+    };
+    const auto knock = [&](int steps) {
+      for (int i = 0; i < steps; ++i) {
+        run.world().applyImpulse(BodyId{2}, {0.0, 1.5}, {1e-6, 0.0});
+        run.steps(1);
+      }
+    };
+    SCOPED_TRACE(name(mode));
+    EXPECT_TRUE(together());
+    knock(7);
+    EXPECT_TRUE(together());
+    knock(23);
+    EXPECT_FALSE(together());
+    run.steps(150);
+    EXPECT_FALSE(together());
+    run.steps(100);
+    EXPECT_TRUE(together());
+  }
+}
+
 // ---- no flicker ----
 
 TEST(Unmerge, AWeldThatBrokeAtOnceDoesNotFormAtOnce) {
