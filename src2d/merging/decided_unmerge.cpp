@@ -187,12 +187,12 @@ void prove(const State& state, Collection& c, Witness&& witness) {
   LoadCertificate& proof = c.certificate.front();
   proof.in_doubt = false;
   const bool goes_on =
-      !proof.witnesses.empty() && state.step - proof.since >= kDecided.lasting_steps;
+      !proof.witnesses.empty() && state.step - proof.since >= state.settings.merging.steps;
   Witness load = goes_on ? witness : Witness();
   remember(c, std::move(witness));
   if (!goes_on) return;
   double way = 0.0;
-  Witness next = beyond(proof, load, kDecided.overshoot, kDecided.least_overshoot, way);
+  Witness next = beyond(proof, load, kDecided.overshoot, way);
   beginSearchAhead(state, c, std::move(next), way);
 }
 

@@ -299,13 +299,11 @@ Witness meanOf(const LoadCertificate& proof) {
 
 }  // namespace
 
-Witness beyond(const LoadCertificate& proof, const Witness& load, double part, double least,
-               double& way) {
+Witness beyond(const LoadCertificate& proof, const Witness& load, double part, double& way) {
   const Witness mean = meanOf(proof);
   const double square = product(load, load) - 2.0 * product(load, mean) + product(mean, mean);
-  const double distance = std::sqrt(std::max(square, 1e-300));
-  way = std::max(part * distance, least * std::sqrt(product(load, load)));
-  return extrapolated(load, mean, way / distance);
+  way = part * std::sqrt(std::max(square, 0.0));
+  return extrapolated(load, mean, part);
 }
 
 Twist loadOnMember(const State& state, const Collection& c, const Witness& load,

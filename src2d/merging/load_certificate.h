@@ -21,10 +21,8 @@ bool leadsTo(const State& state, const Collection& c, const CollectionLoad& load
 Witness asWitness(const State& state, Collection& c, const CollectionLoad& load);
 
 /// A load as far beyond this one, seen from the mean of the witnesses, as `part` of its distance,
-/// and at least as `least` of its size; with the impulses of this one. `way`: how far
-/// that is [m/s].
-Witness beyond(const LoadCertificate& proof, const Witness& load, double part, double least,
-               double& way);
+/// with the impulses of this one. `way`: how far that is [m/s].
+Witness beyond(const LoadCertificate& proof, const Witness& load, double part, double& way);
 
 /// The velocity that the load gives one member, in the collection's frame.
 Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
