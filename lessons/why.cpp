@@ -17,7 +17,7 @@ struct Measure {
 constexpr Measure kMeasures[] = {
     {"relative-motion", "relative motion", "m/s"}, {"sliding", "slip", "m/s"},
     {"breathing", "change of overlap", "m"},       {"motion", "relative motion", "m/s"},
-    {"rest", "motion in the world", "m/s"},
+    {"rest", "motion in the world", "m/s"},        {"hits", "time of hits", "s"},
 };
 
 const Measure* measureOf(std::string_view criterion) {

@@ -178,8 +178,8 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
   }
   if (c == "hits") {
     return fmt::format(
-        "hits have gone on for {:.3g} s (from {} s on bodies are simulated one by one; {})",
-        d.value, d.threshold, equationName(d.equation));
+        "hits have gone on for {:.3g} s (bodies are simulated one by one after {} s; {})", d.value,
+        d.threshold, equationName(d.equation));
   }
   if (c == "pressed") return "no contact between them carries a force (Section 5.3)";
   if (c == "broken") return "a contact of the weld carries no force any more (Section 6.3)";

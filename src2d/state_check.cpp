@@ -141,6 +141,9 @@ class StateCheck {
       const bool known = value(c.id) > 0 && value(c.id) < state_.next_collection;
       require(known && ids.insert(value(c.id)).second, "collections");
       require(index(c.rigid) == n_ + slot && !c.members.empty(), "collections");
+      const HitRun& run = c.hits;
+      require(kNever <= run.first && run.first <= run.last && run.last <= state_.step,
+              "collections");
       for (const BodyId body : c.members) {
         require(isBody(body) && !listed[index(body)] && state_[body].rigid == c.rigid, "members");
         listed[index(body)] = true;

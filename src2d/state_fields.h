@@ -176,8 +176,8 @@ void fields(Ar& ar, Some<LoadCertificate> auto& c) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<HitRun> auto& run) {
-  auto& [first, last] = run;
-  ar(first, last);
+  auto& [met, first, last] = run;
+  ar(met, first, last);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {

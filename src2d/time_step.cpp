@@ -47,7 +47,9 @@ void setTimeStep(Setup& setup, double h) {
   state.paced_step = state.step;
   state.paced_time = state.time;
   for (Collection& c : state.collections) {
-    if (c.id != kNoCollection) dropRows(state, c, ratio);
+    if (c.id == kNoCollection) continue;
+    dropRows(state, c, ratio);
+    c.hits = {};  // it counts steps
   }
   scaleImpulses(state, ratio);
   layOutCollections(state);

@@ -90,7 +90,7 @@ struct Weld {
   std::uint32_t first = 0, count = 0;
   std::uint32_t node_a = 0,
                 node_b = 0;  ///< each body's place among the members; the frame's is last
-  float motion = 0.0F;       ///< with which it was cut, by relative motion [m/s]
+  float motion = 0.0F;       ///< with which it was cut [m/s]; the least float: it waits longest
   std::uint16_t moving = 0;  ///< steps in a row for which the paper's rule has seen it move
   std::uint8_t joints = 0;   ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
   bool expected = false;     ///< only contacts that may close in this step: no weld yet
@@ -150,8 +150,9 @@ struct LoadCertificate {
   ProofSearch search;
 };
 
-/// The steps without a break in which hits opened a collection.
+/// The steps without a break in which hits of other bodies opened a collection.
 struct HitRun {
+  std::int64_t met = kNever;  ///< step in which a body hit it last
   std::int64_t first = kNever, last = kNever;
 };
 
@@ -176,7 +177,7 @@ struct Collection {
   float residual = 0.0F;            ///< largest of its rows, when last solved [m/s]
   bool settled = false;             ///< the forces inside are known
   std::int64_t last_blow = kNever;  ///< step in which something hit it last
-  HitRun hits;                      ///< that opened it last
+  HitRun hits;                      ///< the last run of them
   std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
 };
 

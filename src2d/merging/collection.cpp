@@ -42,6 +42,14 @@ RigidId asCollection(State& state, RigidId id) {
   return state.isCollection(id) ? id : collectionOf(state, BodyId{static_cast<std::uint32_t>(id)});
 }
 
+/// The longer of two runs that go on, or the later one.
+HitRun united(const HitRun& x, const HitRun& y) {
+  HitRun run = x.last < y.last ? y : x;
+  if (x.last == y.last) run.first = std::min(x.first, y.first);
+  run.met = std::max(x.met, y.met);
+  return run;
+}
+
 /// Moves the members of `from` into `to`, whose frame stays.
 void absorbMembers(State& state, RigidId to, RigidId from) {
   Collection &target = state.collection(to), &source = state.collection(from);
@@ -61,6 +69,7 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   state.extents[state[to].extent].bounds.include(placed(relative, state.extent(from).bounds));
   state[to].resized = true;
   target.last_blow = std::max(target.last_blow, source.last_blow);
+  target.hits = united(target.hits, source.hits);
   target.stale = true;
   removeRigid(state, from);
   freeCollection(state, from);

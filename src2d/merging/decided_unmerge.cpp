@@ -146,34 +146,46 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofS
   return any;
 }
 
-/// For how long hits have opened it without a break [s].
+/// For how long it has been hit without a break: it stays open for some steps after the last hit
+/// [s].
 double hitTime(const State& state, const Collection& c) {
-  return static_cast<double>(c.hits.last - c.hits.first + 1) * state.h;
+  return static_cast<double>(c.hits.last - c.hits.first + 2 - kDecided.hit_steps) * state.h;
 }
 
-/// It is hit all the time: so it steps back. Of a large one a hit opens but a part.
+/// What is hit for long costs less as single bodies.
 bool isHitForLong(const State& state, const Collection& c) {
   constexpr double kRounding = 1.0 - 1e-9;
   return c.hits.last == state.step && hitTime(state, c) >= kRounding * kDecided.hit_time &&
-         !isLarge(c);
+         !opensInPart(state, c);
 }
 
-/// Cuts all welds but those of joints: its bodies are simulated one by one, and a pair of them
-/// waits as one does that parted slowly. Guarded by
-/// Unmerge.BodiesThatAreShakenForLongAreSimulatedOneByOne.
+/// The decision to step back, about one weld.
+Decision stepsBack(const Weld& weld, double time) {
+  return {.a = weld.a,
+          .b = weld.b,
+          .stage = "Unmerge",
+          .criterion = "hits",
+          .equation = kOwnDecided,
+          .value = time,
+          .threshold = kDecided.hit_time,
+          .count = 1,
+          .verdict = "unmerge"};
+}
+
+/// Cuts all welds but those that joints alone hold rigid: the bodies are simulated one by one, and
+/// a pair of them waits as one does that parted slowly. Guarded by
+/// Unmerge.BodiesThatAreHitForLongAreSimulatedOneByOne.
 void stepBack(const State& state, Scratch& scratch, Collection& c) {
+  const double time = hitTime(state, c);
+  constexpr int kRigid = 2;
   for (Weld& weld : c.welds) {
-    if (weld.expected || weld.joints > 0) continue;
-    if (scratch.notes) {
-      Decision decision = decide(weld, hitTime(state, c), kDecided.hit_time);
-      decision.criterion = "hits";
-      decision.verdict = "unmerge";
-      scratch.notes->decisions.push_back(decision);
-    }
+    if (weld.expected || weld.joints >= kRigid) continue;
+    if (scratch.notes) scratch.notes->decisions.push_back(stepsBack(weld, time));
     if (!weld.cut) weld.reason = reasonOf(c, weld);
     weld.cut = true;
-    weld.motion = std::numeric_limits<float>::min();  // the longest wait
+    weld.motion = std::numeric_limits<float>::min();
   }
+  c.hits = {};
 }
 
 /// Where no part comes off.
@@ -182,7 +194,8 @@ void forgetCuts(Collection& c) {
 }
 
 /// Keeps a proof, and looks whether a load beyond it is carried too: one that swings then finds its
-/// proof before it gets there.
+/// proof before it gets there. Not just after a layout, as most of a heap that still forms are laid
+/// out anew soon.
 void prove(const State& state, Collection& c, Witness&& witness) {
   LoadCertificate& proof = c.certificate.front();
   proof.in_doubt = false;

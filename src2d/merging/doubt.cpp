@@ -16,15 +16,18 @@ namespace {
 
 /// Notes hits, impulses, and forces that begin or end.
 void notePerturbations(State& state, const Scratch& scratch) {
-  const auto hit = [&](BodyId b) {
-    if (state.isCollection(state[b].rigid)) state.collection(state[b].rigid).last_blow = state.step;
+  const auto hit = [&](BodyId b, bool met) {
+    if (!state.isCollection(state[b].rigid)) return;
+    Collection& c = state.collection(state[b].rigid);
+    c.last_blow = state.step;
+    if (met) c.hits.met = state.step;
   };
   for (const Meeting& m : scratch.meetings) {
     if (m.speed <= impactSpeed(state)) continue;
-    hit(scratch.pairs[m.pair].a);
-    hit(scratch.pairs[m.pair].b);
+    hit(scratch.pairs[m.pair].a, true);
+    hit(scratch.pairs[m.pair].b, true);
   }
-  for (const Kick& kick : scratch.kicks) hit(kick.body);
+  for (const Kick& kick : scratch.kicks) hit(kick.body, false);
   for (const BodyId b : scratch.stirred) {
     if (!state.isCollection(state[b].rigid)) continue;
     for (LoadCertificate& proof : state.collection(state[b].rigid).certificate) {
@@ -103,15 +106,17 @@ void spreadDoubts(State& state, Scratch& scratch) {
     if (!joint.to_world && holds(state, joint)) unite(joint.a, joint.b);
   }
   const auto slots = static_cast<std::uint32_t>(state.collections.size());
-  std::vector<std::uint8_t> hit(slots, 0);
+  std::vector<std::uint8_t> hit(slots, 0), met(slots, 0);
   for (std::uint32_t i = 0; i < slots; ++i) {
-    if (isSwept(state, state.collections[i]) && isHit(state, state.collections[i]))
-      hit[sets.find(i)] = 1;
+    const Collection& c = state.collections[i];
+    if (!isSwept(state, c) || !isHit(state, c)) continue;
+    hit[sets.find(i)] = 1;
+    if (state.step - c.hits.met < kDecided.hit_steps) met[sets.find(i)] = 1;
   }
   for (std::uint32_t i = 0; i < slots; ++i) {
     if (!isSwept(state, state.collections[i]) || !hit[sets.find(i)]) continue;
     scratch.doubts[i] = Doubt::Open;
-    lengthen(state.collections[i].hits, state.step);
+    if (met[sets.find(i)]) lengthen(state.collections[i].hits, state.step);
   }
 }
 

@@ -43,7 +43,7 @@ SolverVelocity solvedVelocity(const State& state, const Scratch& scratch, BodyId
 
 OpenRegion::OpenRegion(const State& state, const Scratch& scratch, Collection& c)
     : c_(&c), inside_(c.members.size() + 1, 1) {
-  if (!isLarge(c) || state[c.rigid].floating() || !c.joints.empty() || wasSearched(c)) return;
+  if (!opensInPart(state, c) || wasSearched(c)) return;
   std::fill(inside_.begin(), inside_.end() - 1, std::uint8_t{0});
   noise_ = slowestCut(state, c);
   findNeighbours();

@@ -211,7 +211,8 @@ class Split {
     if (isFreeBody(p)) return freeBody(state_, members_[p].front(), whole_);
     const RigidId id =
         newPart(state_, members_[p], std::move(kept_[p]), whole_, anchor_, anchored_[p] != 0);
-    // The hit has cut its movers already: the part is shaken, but no longer hit.
+    // The hit has cut its movers already: the part is shaken, but no longer hit, and its run of
+    // hits begins anew.
     state_.collection(id).last_blow = std::min(last_blow_, state_.step - kDecided.hit_steps);
     return id;
   }

@@ -87,9 +87,9 @@ TEST_F(WordsTest, TellsHowLongHitsHaveGoneOn) {
   EXPECT_EQ(said({.stage = "Unmerge",
                   .criterion = "hits",
                   .equation = kOwnDecided,
-                  .value = 0.12,
-                  .threshold = 0.1}),
-            "hits have gone on for 0.12 s (from 0.1 s on bodies are simulated one by one; "
+                  .value = 0.09,
+                  .threshold = 0.08}),
+            "hits have gone on for 0.09 s (bodies are simulated one by one after 0.08 s; "
             "docs/decisions/decided.md#decision)");
 }
 

@@ -14,6 +14,7 @@ const kNames: Record<string, [string, string]> = {
   broken: ['Normal impulse', 'N s'],
   count: ['Calm steps', ''],
   rest: ['Speed in the world', 'm/s'],
+  hits: ['Time of hits', 's'],
 };
 
 export function criterionName(criterion: string): string {
