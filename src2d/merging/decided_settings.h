@@ -28,6 +28,9 @@ struct DecidedSettings {
   /// tower-platform then takes half as many.
   double row_sweeps = 1e4, first_row_sweeps = 500.0;
   int most_sweeps = 200, full_sweeps = 10;  ///< and at last as many, of however many rows
+  /// Times as many where a search has found motion: without, a wall of 5,000 that swings takes
+  /// three times as long on average.
+  double when_open = 4.0;
   /// After so many steps of a search, a power of two, and after each twice as many, the direct
   /// solver takes part, with the load of that step. With 64 a wall of 1,000 bricks on a swinging
   /// platform costs more than its reference; with 8 `bench/tilts` falls a little later.

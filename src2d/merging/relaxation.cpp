@@ -28,6 +28,7 @@ class Relaxation {
     if (isSearch()) {
       left_ = std::min(left_, std::ldexp(kDecided.first_row_sweeps, search().steps));
     }
+    if (!isSearch() && !isHit(state, c)) left_ *= kDecided.when_open;
     for (const ContactBlock& k : c.blocks) ends_.push_back({memberOf(k.a), memberOf(k.b)});
     all_.resize(c.blocks.size());
     std::iota(all_.begin(), all_.end(), 0u);
