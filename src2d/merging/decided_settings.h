@@ -45,9 +45,9 @@ struct DecidedSettings {
   double left_of_rest = 2e-6;  ///< and where so little is left over of any load [m/s]
   /// Steps from a hit or an impulse on in which the collection is open.
   int hit_steps = 3;
-  /// A collection that is hit for so long without a break of `hit_steps` [s] steps back: what is
-  /// hit all the time costs less as single bodies. A tower of 20,000 that buckles takes two thirds
-  /// of the time, and a struck one loses as many bricks as the reference; with 0.2 s 3% fewer.
+  /// A collection that is hit for so long without a break of `hit_steps` [s] steps back: its bodies
+  /// cost less one by one. A tower of 20,000 that buckles takes two thirds of the time, and a
+  /// struck one loses as many bricks as the reference; with 0.2 s 3% fewer.
   double hit_time = 0.08;
   /// Steps after a hit in which it is looked at once in as many steps as a pair must be quiet for
   /// before it merges: a heap into which bodies fall changes before a search could end. The filling

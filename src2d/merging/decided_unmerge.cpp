@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "src2d/dynamics/contact_limits.h"
@@ -96,16 +97,17 @@ EventReason reasonOf(const Collection& c, const Weld& weld) {
 }
 
 /// The decision about one weld, as a value.
-Decision decide(const Weld& weld, double speed, double threshold) {
+Decision decide(const Weld& weld, std::string_view criterion, double value, double threshold,
+                bool ends) {
   return {.a = weld.a,
           .b = weld.b,
           .stage = "Unmerge",
-          .criterion = "motion",
+          .criterion = criterion,
           .equation = kOwnDecided,
-          .value = speed,
+          .value = value,
           .threshold = threshold,
-          .count = speed > threshold ? 1 : 0,
-          .verdict = speed > threshold ? "unmerge" : "keep"};
+          .count = ends ? 1 : 0,
+          .verdict = ends ? "unmerge" : "keep"};
 }
 
 /// The bodies of some weld move against each other, at their corners, by more than `noise`: a beam
@@ -134,8 +136,9 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofS
     const double limit = motions.limitOf(weld);
     const WeldMotion motion = motions.of(weld, scratch.notes ? 0.0 : limit);
     const double speed = moves && motion.least > residual ? motion.most : 0.0;
-    const Decision decision = decide(weld, speed, limit);
-    if (scratch.notes) scratch.notes->decisions.push_back(decision);
+    if (scratch.notes) {
+      scratch.notes->decisions.push_back(decide(weld, "motion", speed, limit, speed > limit));
+    }
     if (speed <= limit) continue;
     if (!search.movers.empty() && search.movers[i] == 0) continue;
     weld.cut = true;
@@ -152,35 +155,25 @@ double hitTime(const State& state, const Collection& c) {
   return static_cast<double>(c.hits.last - c.hits.first + 2 - kDecided.hit_steps) * state.h;
 }
 
-/// What is hit for long costs less as single bodies.
+/// A collection that steps back (DecidedSettings::hit_time); one of which a hit opens but a part
+/// stays.
 bool isHitForLong(const State& state, const Collection& c) {
   constexpr double kRounding = 1.0 - 1e-9;
   return c.hits.last == state.step && hitTime(state, c) >= kRounding * kDecided.hit_time &&
          !opensInPart(state, c);
 }
 
-/// The decision to step back, about one weld.
-Decision stepsBack(const Weld& weld, double time) {
-  return {.a = weld.a,
-          .b = weld.b,
-          .stage = "Unmerge",
-          .criterion = "hits",
-          .equation = kOwnDecided,
-          .value = time,
-          .threshold = kDecided.hit_time,
-          .count = 1,
-          .verdict = "unmerge"};
-}
-
 /// Cuts all welds but those that joints alone hold rigid: the bodies are simulated one by one, and
 /// a pair of them waits as one does that parted slowly. Guarded by
-/// Unmerge.BodiesThatAreHitForLongAreSimulatedOneByOne.
+/// StepBack.BodiesThatAreHitForLongAreSimulatedOneByOne.
 void stepBack(const State& state, Scratch& scratch, Collection& c) {
   const double time = hitTime(state, c);
   constexpr int kRigid = 2;
   for (Weld& weld : c.welds) {
     if (weld.expected || weld.joints >= kRigid) continue;
-    if (scratch.notes) scratch.notes->decisions.push_back(stepsBack(weld, time));
+    if (scratch.notes) {
+      scratch.notes->decisions.push_back(decide(weld, "hits", time, kDecided.hit_time, true));
+    }
     if (!weld.cut) weld.reason = reasonOf(c, weld);
     weld.cut = true;
     weld.motion = std::numeric_limits<float>::min();
