@@ -7,8 +7,10 @@ namespace {
 
 /// By how much a fat box is larger than the given one on each side [m].
 constexpr float kRoom = 0.1F;
-/// The room ahead, in displacements.
+/// The room ahead, in displacements …
 constexpr float kAhead = 4.0F;
+/// … and at most [m]: what is faster leaves its box at once, and a long box meets many others.
+constexpr float kFarthestAhead = 4.0F * kRoom;
 /// A fat box that is larger than a new one would be by more than this on any side is too large [m].
 constexpr float kTooMuch = 4.0F * kRoom;
 /// Where at least one leaf of so many has moved, all boxes are made anew …
@@ -50,6 +52,10 @@ Box grown(const Box& box, float by) {
   return {box.lower_x - by, box.lower_y - by, box.upper_x + by, box.upper_y + by};
 }
 
+float roomAhead(double displacement) {
+  return std::clamp(kAhead * static_cast<float>(displacement), -kFarthestAhead, kFarthestAhead);
+}
+
 }  // namespace
 
 // Leaves
@@ -77,8 +83,7 @@ void AabbTree::remove(int leaf_index) {
 bool AabbTree::move(int leaf_index, const Aabb& box, const Vec2& displacement) {
   const Box tight = toFloats(box);
   Box fat = grown(tight, kRoom);
-  const float ahead_x = kAhead * static_cast<float>(displacement.x());
-  const float ahead_y = kAhead * static_cast<float>(displacement.y());
+  const float ahead_x = roomAhead(displacement.x()), ahead_y = roomAhead(displacement.y());
   (ahead_x < 0.0F ? fat.lower_x : fat.upper_x) += ahead_x;
   (ahead_y < 0.0F ? fat.lower_y : fat.upper_y) += ahead_y;
   Box& now = leaves_[static_cast<std::size_t>(leaf_index)].box;

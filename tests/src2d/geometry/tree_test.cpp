@@ -126,12 +126,20 @@ TEST(AabbTree, AFatBoxHasRoomAllAroundAndAhead) {
   AabbTree tree;
   const int leaf = tree.insert(boxAt({0, 0}), 0);
   EXPECT_TRUE(tree.fatBox(leaf).contains(boxAt({0, 0}).grown(0.0999)));
-  EXPECT_TRUE(tree.move(leaf, boxAt({1, 0}), {0.5, 0.0}));
+  EXPECT_TRUE(tree.move(leaf, boxAt({1, 0}), {0.05, 0.0}));
   const Aabb fat = tree.fatBox(leaf);
   EXPECT_NEAR(fat.lower.x(), 0.4, 1e-6);
-  EXPECT_NEAR(fat.upper.x(), 1.6 + 4 * 0.5, 1e-6);
+  EXPECT_NEAR(fat.upper.x(), 1.6 + 4 * 0.05, 1e-6);
   EXPECT_NEAR(fat.lower.y(), -0.6, 1e-6);
   EXPECT_NEAR(fat.upper.y(), 0.6, 1e-6);
+}
+
+TEST(AabbTree, AFastLeafGetsNoLongBox) {
+  AabbTree tree;
+  const int leaf = tree.insert(boxAt({0, 0}), 0);
+  tree.move(leaf, boxAt({1, 0}), {5.0, -5.0});
+  EXPECT_NEAR(tree.fatBox(leaf).upper.x(), 1.6 + 0.4, 1e-6);
+  EXPECT_NEAR(tree.fatBox(leaf).lower.y(), -0.6 - 0.4, 1e-6);
 }
 
 TEST(AabbTree, ALeafKeepsItsBoxUntilItsContentLeavesIt) {
