@@ -4,6 +4,7 @@
 
 #include "src2d/contact/parking.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/load_certificate.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/unmerge.h"
 #include "src2d/setup.h"
@@ -72,10 +73,12 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
       const bool concerned = std::any_of(c.welds.begin(), c.welds.end(),
                                          [&](const Weld& w) { return w.a == id || w.b == id; });
       if (c.id == kNoCollection || !concerned) continue;
+      writeImpulses(c);
       for (InternalContact& inner : c.contacts) {
         if (inner.key.a == id || inner.key.b == id) dropBlock(c, inner);
       }
       c.stale = true;
+      c.certificate.clear();
     }
     layOutCollections(state);
   }

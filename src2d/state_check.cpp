@@ -283,12 +283,14 @@ class StateCheck {
     require(c.certificate.size() <= 1, "proofs");
     for (const LoadCertificate& proof : c.certificate) {
       for (std::size_t i = 0; i < proof.columns.size(); ++i) {
-        require(proof.columns[i] < c.members.size(), "proofs");
+        require(std::ranges::binary_search(c.members, proof.columns[i]), "proofs");
         require(i == 0 || proof.columns[i - 1] < proof.columns[i], "proofs");
       }
       const std::size_t witnesses = proof.witnesses.size();
       require(witnesses <= LoadCertificate::kMost, "proofs");
-      require(proof.heaviest == ~0u || proof.heaviest < c.members.size(), "proofs");
+      require(proof.heaviest == LoadCertificate{}.heaviest ||
+                  std::ranges::binary_search(c.members, proof.heaviest),
+              "proofs");
       const std::size_t movers = proof.search.movers.size();
       require(movers == 0 || movers == c.welds.size(), "proofs");
       for (const Witness& witness : proof.witnesses) {

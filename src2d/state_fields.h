@@ -169,10 +169,10 @@ void fields(Ar& ar, Some<ProofSearch> auto& s) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<LoadCertificate> auto& c) {
-  auto& [columns, witnesses, gram, weights, heaviest, lambda_stale, in_doubt, since, last_doubt,
-         search] = c;
-  ar(columns, witnesses, gram, weights, heaviest, lambda_stale, in_doubt, since, last_doubt,
-     search);
+  auto& [columns, witnesses, inherited, gram, weights, heaviest, lambda_stale, in_doubt, since,
+         last_doubt, search] = c;
+  ar(columns, witnesses, inherited, gram, weights, heaviest, lambda_stale, in_doubt, since,
+     last_doubt, search);
 }
 template <class Ar>
 void fields(Ar& ar, Some<HitRun> auto& run) {

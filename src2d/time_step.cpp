@@ -5,6 +5,7 @@
 
 #include "src2d/edit.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/load_certificate.h"
 
 namespace merge2d {
 namespace {
@@ -23,6 +24,7 @@ void scaleImpulses(State& state, double ratio) {
 
 /// Hands the impulses of all rows over to contacts and joints, and has the rows made anew.
 void dropRows(State& state, Collection& c, double ratio) {
+  writeImpulses(c);
   for (const JointBlock& k : c.joints) state.joints[k.joint].lambda = k.lambda;
   for (InternalContact& inner : c.contacts) {
     dropBlock(c, inner);
@@ -32,6 +34,7 @@ void dropRows(State& state, Collection& c, double ratio) {
     }
   }
   c.stale = true;
+  c.certificate.clear();
 }
 
 }  // namespace

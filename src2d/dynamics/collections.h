@@ -66,6 +66,10 @@ struct InternalContact {
     }
   }
 
+  Impulses impulses() const {
+    return {points[0].lambda_n, points[1].lambda_n, points[0].lambda_t, points[1].lambda_t};
+  }
+
   /// As a contact of the table.
   Contact released() const {
     Contact contact;
@@ -90,7 +94,7 @@ struct Weld {
   std::uint32_t first = 0, count = 0;
   std::uint32_t node_a = 0,
                 node_b = 0;  ///< each body's place among the members; the frame's is last
-  float motion = 0.0F;       ///< with which it was cut [m/s]; the least float: it waits longest
+  float motion = 0.0F;       ///< with which it was cut [m/s]
   std::uint16_t moving = 0;  ///< steps in a row for which the paper's rule has seen it move
   std::uint8_t joints = 0;   ///< what its joints hold, in contacts: 1 is a pivot, 2 are rigid
   bool expected = false;     ///< only contacts that may close in this step: no weld yet
@@ -137,17 +141,32 @@ struct LoadCertificate {
   static constexpr std::size_t kMost = 8;  ///< witnesses
   using Weights = std::array<double, kMost>;
 
-  std::vector<std::uint32_t> columns;  ///< members on which something outside acts, in any witness
+  std::vector<BodyId> columns;  ///< members on which something outside acts, in any witness
   std::vector<Witness> witnesses;
-  std::vector<double> gram;  ///< products of their n loads: that of i and j at n i + j
-  Weights weights{};         ///< of the load that was carried last
+  std::size_t inherited = 0;  ///< the first ones: found before the layout
+  std::vector<double> gram;   ///< products of their n loads: that of i and j at n i + j
+  Weights weights{};          ///< of the load that was carried last
   /// Of a floating collection: the member whose rows follow from those of the others.
-  std::uint32_t heaviest = ~0u;
+  BodyId heaviest{~0u};
   bool lambda_stale = false;         ///< blocks and joints hold other impulses than the weights say
   bool in_doubt = true;              ///< a proof must be sought for any load
   std::int64_t since = 0;            ///< step in which the collection was laid out
   std::int64_t last_doubt = kNever;  ///< step in which its blocks were needed last
   ProofSearch search;
+
+  /// Blocks and joints hold other impulses than `impulses` gives.
+  bool isAhead() const { return lambda_stale && !witnesses.empty(); }
+
+  /// Of the block or joint at a place, by the weights.
+  Impulses impulses(std::size_t at) const {
+    Impulses lambda{};
+    for (std::size_t i = 0; i < witnesses.size(); ++i) {
+      if (weights[i] == 0.0) continue;
+      const Impulses& of = witnesses[i].lambda[at];
+      for (std::size_t r = 0; r < lambda.size(); ++r) lambda[r] += weights[i] * of[r];
+    }
+    return lambda;
+  }
 };
 
 /// The steps without a break in which hits of other bodies opened a collection.
@@ -179,6 +198,14 @@ struct Collection {
   std::int64_t last_blow = kNever;  ///< step in which something hit it last
   HitRun hits;                      ///< the last run of them
   std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
+
+  /// Of a block, wherever they stand.
+  Impulses impulsesOf(std::size_t block) const {
+    if (!certificate.empty() && certificate.front().isAhead()) {
+      return certificate.front().impulses(block);
+    }
+    return blocks.empty() ? contacts[block_contact[block]].impulses() : blocks[block].lambda;
+  }
 };
 
 /// Its blocks were put away (merging/collection.h).

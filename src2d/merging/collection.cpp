@@ -6,6 +6,7 @@
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
+#include "src2d/merging/proof_transfer.h"
 #include "src2d/merging/rule.h"
 
 namespace merge2d {
@@ -55,6 +56,7 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   Collection &target = state.collection(to), &source = state.collection(from);
   const Pose relative = state[to].frame().toLocal(state[from].frame());
   for (const BodyId b : source.members) enlist(state, to, b, state.pose(b), state.angle(b));
+  writeImpulses(source);
   reserveTightly(target.contacts, target.contacts.size() + source.contacts.size());
   for (InternalContact& inner : source.contacts) {
     dropBlock(source, inner);
@@ -62,6 +64,7 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
     for (InternalPoint& p : inner.points) p.position = relative * p.position;
     target.contacts.push_back(inner);
   }
+  admitToProofs(state, target, source.members);
   addShapes(state, to, source.members);
   const auto middle = static_cast<std::ptrdiff_t>(target.members.size());
   target.members.insert(target.members.end(), source.members.begin(), source.members.end());
@@ -93,6 +96,7 @@ void fix(State& state, RigidId id, FrameId frame, const Rigid& anchor) {
 
   // Re-express members, contacts and shapes in the new frame.
   Collection& c = state.collection(id);
+  writeImpulses(c);
   const Pose relative = r.frame().toLocal(old);
   removeShapes(state, id, c.members);
   for (const BodyId b : c.members) {
@@ -107,6 +111,7 @@ void fix(State& state, RigidId id, FrameId frame, const Rigid& anchor) {
   addShapes(state, id, c.members);
   r.resized = true;
   c.stale = true;
+  c.certificate.clear();  // proofs are for loads in the frame
 }
 
 }  // namespace

@@ -166,7 +166,7 @@ CollectionLoad loadOn(const State& state, const Scratch& scratch, const Collecti
   load.norm = std::sqrt(square);
   double outer = 0.0;
   for (const OuterLoad& o : load.outer) {
-    if (o.member == c.certificate.front().heaviest) continue;
+    if (c.members[o.member] == c.certificate.front().heaviest) continue;
     const Twist gain = gainOf(state, c, load, o);
     outer += gain.vx * gain.vx + gain.vy * gain.vy + gain.omega * gain.omega;
   }
@@ -178,11 +178,11 @@ double sizeOf(const State& state, const Collection& c) {
   return static_cast<double>(static_cast<float>(state.extent(c.rigid).box.half.norm()));
 }
 
-Twist memberVelocity(const State& state, const Collection& c, const FrameLoad& load,
-                     std::uint32_t member) {
+Twist velocityAt(const State& state, const Collection& c, const FrameLoad& load,
+                 const Vec2& local) {
   const OrientedBox& box = state.extent(c.rigid).box;
   const double size = sizeOf(state, c), along = load[2] / size, across = load[3] / size;
-  const Vec2 arm = state[c.members[member]].local - box.frame.position;
+  const Vec2 arm = local - box.frame.position;
   return {load[0] + along * arm.x() - across * arm.y(),
           load[1] + along * arm.y() + across * arm.x(), load[4] / size};
 }
@@ -191,7 +191,7 @@ void loadMembers(const State& state, const Collection& c, const CollectionLoad& 
                  std::vector<Twist>& out) {
   out.resize(c.members.size());
   for (std::uint32_t m = 0; m < out.size(); ++m) {
-    out[m] = memberVelocity(state, c, load.frame, m);
+    out[m] = velocityAt(state, c, load.frame, state[c.members[m]].local);
   }
   for (const OuterLoad& o : load.outer) {
     const Twist gain = gainOf(state, c, load, o);

@@ -34,9 +34,8 @@ double sizeOf(const State& state, const Collection& c);
 Twist gainOf(const State& state, const Collection& c, const CollectionLoad& load,
              const OuterLoad& outer);
 
-/// The velocity that the motion of the frame gives a member, in the frame.
-Twist memberVelocity(const State& state, const Collection& c, const FrameLoad& load,
-                     std::uint32_t member);
+/// The velocity that the motion of the frame gives a member at a place in the frame.
+Twist velocityAt(const State& state, const Collection& c, const FrameLoad& load, const Vec2& local);
 
 /// The velocities that a load gives all members, in the collection's frame, before contacts and
 /// joints inside act: momentum and angular momentum of a floating collection are zero.

@@ -176,7 +176,7 @@ void stepBack(const State& state, Scratch& scratch, Collection& c) {
     }
     if (!weld.cut) weld.reason = reasonOf(c, weld);
     weld.cut = true;
-    weld.motion = std::numeric_limits<float>::min();
+    weld.motion = static_cast<float>(state.settings.merging.velocity / kDecided.longest_wait);
   }
   c.hits = {};
 }
@@ -192,8 +192,8 @@ void forgetCuts(Collection& c) {
 void prove(const State& state, Collection& c, Witness&& witness) {
   LoadCertificate& proof = c.certificate.front();
   proof.in_doubt = false;
-  const bool goes_on =
-      !proof.witnesses.empty() && state.step - proof.since >= state.settings.merging.steps;
+  const bool goes_on = proof.inherited < proof.witnesses.size() &&
+                       state.step - proof.since >= state.settings.merging.steps;
   Witness load = goes_on ? witness : Witness();
   remember(c, std::move(witness));
   if (!goes_on) return;

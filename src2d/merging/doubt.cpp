@@ -30,12 +30,7 @@ void notePerturbations(State& state, const Scratch& scratch) {
   for (const Kick& kick : scratch.kicks) hit(kick.body, false);
   for (const BodyId b : scratch.stirred) {
     if (!state.isCollection(state[b].rigid)) continue;
-    for (LoadCertificate& proof : state.collection(state[b].rigid).certificate) {
-      proof.witnesses.clear();
-      proof.gram.clear();
-      proof.in_doubt = true;
-      proof.search = {};
-    }
+    forgetProofs(state.collection(state[b].rigid));
   }
 }
 
@@ -44,10 +39,7 @@ void openCertificate(const State& state, Collection& c) {
   if (!c.certificate.empty()) return;
   LoadCertificate& proof = c.certificate.emplace_back();
   proof.since = state.step;
-  if (!state[c.rigid].floating()) return;
-  const auto lighter = [&](BodyId a, BodyId b) { return state[a].mass < state[b].mass; };
-  proof.heaviest =
-      static_cast<std::uint32_t>(std::ranges::max_element(c.members, lighter) - c.members.begin());
+  proof.heaviest = heaviestOf(state, c);
 }
 
 /// A load that is covered by the witnesses leaves the collection quiet; for another one impulses
@@ -65,8 +57,10 @@ Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
     return Doubt::Search;
   }
   if (!proof.in_doubt && covers(state, c, load)) {
-    writeImpulses(c);
-    if (overloadsJoints(state, c)) return Doubt::Open;
+    if (!c.joints.empty()) {
+      writeImpulses(c);
+      if (overloadsJoints(state, c)) return Doubt::Open;
+    }
     c.settled = true;
     return searches ? Doubt::Search : Doubt::None;
   }

@@ -5,6 +5,7 @@
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/proof_transfer.h"
 
 namespace merge2d {
 namespace {
@@ -92,6 +93,7 @@ void forgetExpectedContacts(State& state, const Scratch& scratch) {
     c.stale = true;
     c.block_contact.clear();
     std::erase_if(c.contacts, expected);
+    releaseFromProofs(state, c, std::vector<std::uint8_t>(c.members.size(), 1));
   }
   layOutFloating(state);
 }

@@ -10,6 +10,7 @@
 #include "src2d/merging/collection.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/joint_welds.h"
+#include "src2d/merging/proof_transfer.h"
 #include "src2d/merging/rule.h"
 
 namespace merge2d {
@@ -279,7 +280,9 @@ void sortContacts(std::vector<InternalContact>& contacts) {
 }
 
 void layOut(State& state, Collection& c) {
+  if (!c.certificate.empty()) bringBlocksBack(state, c), writeImpulses(c);
   sortContacts(c.contacts);
+  ProofTransfer proofs(state, c);
   tighten(c.contacts);
   tighten(c.members);
   for (std::uint32_t i = 0; i < c.members.size(); ++i) state[rigidOf(c.members[i])].member = i;
@@ -288,8 +291,8 @@ void layOut(State& state, Collection& c) {
   layOutJoints(state, c);
   layOutWelds(state, c);
   layOutBlocks(state, c);
-  c.certificate.clear();  // proofs are for the members and contacts of a layout
-  c.push.clear();         // made for whoever sweeps it next
+  proofs.finish();
+  c.push.clear();  // made for whoever sweeps it next
   c.stale = false;
   c.settled = false;
 }

@@ -29,9 +29,10 @@ double product(const State& state, const Collection& c, const CollectionLoad& lo
   const auto& columns = c.certificate.front().columns;
   std::size_t k = 0;
   for (const OuterLoad& o : load.outer) {
-    while (k < columns.size() && columns[k] < o.member) ++k;
+    const BodyId b = c.members[o.member];
+    while (k < columns.size() && columns[k] < b) ++k;
     if (k == columns.size()) break;
-    if (columns[k] != o.member) continue;
+    if (columns[k] != b) continue;
     sum += kOuterWeight * kOuterWeight * dot(gainOf(state, c, load, o), witness.outer[k]);
   }
   return sum;
@@ -147,12 +148,13 @@ double worthOf(const LoadCertificate& proof, std::size_t which) {
   return project(gram, b, n, xx).left / xx;
 }
 
-/// Drops the witness without which the others lose least.
+/// Drops the witness without which the others lose least; inherited ones first.
 void makePlace(LoadCertificate& proof) {
   if (proof.witnesses.size() < kWitnesses) return;
   std::size_t least = 0;
   double worth = 1e300;
-  for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
+  const std::size_t end = proof.inherited > 0 ? proof.inherited : proof.witnesses.size();
+  for (std::size_t i = 0; i < end; ++i) {
     const double of = worthOf(proof, i);
     if (of < worth) {
       worth = of;
@@ -160,14 +162,16 @@ void makePlace(LoadCertificate& proof) {
     }
   }
   proof.witnesses.erase(proof.witnesses.begin() + static_cast<std::ptrdiff_t>(least));
+  if (proof.inherited > 0) --proof.inherited;
   fillGram(proof);
 }
 
 /// The columns of the certificate, and those of this load too.
-void addColumns(LoadCertificate& proof, const CollectionLoad& load) {
-  std::vector<std::uint32_t> columns = proof.columns;
+void addColumns(Collection& c, const CollectionLoad& load) {
+  LoadCertificate& proof = c.certificate.front();
+  std::vector<BodyId> columns = proof.columns;
   for (const OuterLoad& o : load.outer) {
-    if (o.member != proof.heaviest) columns.push_back(o.member);
+    if (c.members[o.member] != proof.heaviest) columns.push_back(c.members[o.member]);
   }
   std::ranges::sort(columns);
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
@@ -184,6 +188,21 @@ void addColumns(LoadCertificate& proof, const CollectionLoad& load) {
 }
 
 }  // namespace
+
+BodyId heaviestOf(const State& state, const Collection& c) {
+  if (!state[c.rigid].floating()) return LoadCertificate{}.heaviest;
+  return *std::ranges::max_element(c.members, {}, [&](BodyId b) { return state[b].mass; });
+}
+
+void restart(const State& state, LoadCertificate& proof) {
+  fillGram(proof);
+  proof.weights = {};
+  proof.lambda_stale = false;
+  proof.in_doubt = false;
+  proof.since = state.step;
+  proof.search = {};
+  proof.inherited = proof.witnesses.size();
+}
 
 void readImpulses(const Collection& c, Witness& to) {
   to.lambda.clear();
@@ -204,13 +223,14 @@ namespace {
 /// loads that hardly differ tell little.
 LoadCertificate::Weights combinationFor(const LoadCertificate& proof, const Witness& load) {
   constexpr double kDamping = 1e-8;  // of the largest square
-  const std::size_t n = proof.witnesses.size();
+  const std::size_t all = proof.witnesses.size(), n = all - proof.inherited;
   std::array<LoadCertificate::Weights, kWitnesses> gram{};
   LoadCertificate::Weights b{};
   double largest = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) gram[i][j] = proof.gram[i * n + j];
-    b[i] = product(proof.witnesses[i], load);
+    const std::size_t at = proof.inherited + i;
+    for (std::size_t j = 0; j < n; ++j) gram[i][j] = proof.gram[at * all + proof.inherited + j];
+    b[i] = product(proof.witnesses[at], load);
     largest = std::max(largest, gram[i][i]);
   }
   for (std::size_t i = 0; i < n; ++i) gram[i][i] += kDamping * largest;
@@ -235,11 +255,11 @@ void limitImpulses(const Collection& c, Witness& load) {
 
 void predictImpulses(const Collection& c, Witness& load) {
   const LoadCertificate& proof = c.certificate.front();
-  if (proof.witnesses.empty()) return;
+  if (proof.witnesses.size() == proof.inherited) return;
   const LoadCertificate::Weights w = combinationFor(proof, load);
   load.lambda.assign(c.blocks.size() + c.joints.size(), {});
-  for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
-    const double part = w[i];
+  for (std::size_t i = proof.inherited; i < proof.witnesses.size(); ++i) {
+    const double part = w[i - proof.inherited];
     for (std::size_t k = 0; k < load.lambda.size(); ++k) {
       for (std::size_t r = 0; r < 4; ++r) {
         load.lambda[k][r] += part * proof.witnesses[i].lambda[k][r];
@@ -250,24 +270,35 @@ void predictImpulses(const Collection& c, Witness& load) {
 }
 
 void remember(Collection& c, Witness&& witness) {
+  writeImpulses(c);
   LoadCertificate& proof = c.certificate.front();
   makePlace(proof);
   proof.witnesses.push_back(std::move(witness));
   fillGram(proof);
   proof.weights = {};
-  proof.weights[proof.witnesses.size() - 1] = 1.0;
-  proof.lambda_stale = true;
+}
+
+void forgetProofs(Collection& c) {
+  writeImpulses(c);
+  for (LoadCertificate& proof : c.certificate) {
+    proof.witnesses.clear();
+    proof.inherited = 0;
+    proof.gram.clear();
+    proof.in_doubt = true;
+    proof.search = {};
+  }
 }
 
 Witness asWitness(const State& state, Collection& c, const CollectionLoad& load) {
   LoadCertificate& proof = c.certificate.front();
-  addColumns(proof, load);
+  addColumns(c, load);
   Witness witness;
   witness.frame = load.frame;
   witness.outer.assign(proof.columns.size(), {});
   for (const OuterLoad& o : load.outer) {
-    if (o.member == proof.heaviest) continue;
-    const auto at = std::ranges::lower_bound(proof.columns, o.member) - proof.columns.begin();
+    const BodyId b = c.members[o.member];
+    if (b == proof.heaviest) continue;
+    const auto at = std::ranges::lower_bound(proof.columns, b) - proof.columns.begin();
     witness.outer[static_cast<std::size_t>(at)] = gainOf(state, c, load, o);
   }
   return witness;
@@ -287,12 +318,12 @@ Witness extrapolated(const Witness& x, const Witness& y, double s) {
   return next;
 }
 
-/// Without impulses.
+/// Of those found since the layout; without impulses.
 Witness meanOf(const LoadCertificate& proof) {
-  const Witness& first = proof.witnesses.front();
-  Witness mean{first.frame, first.outer, {}};
-  for (std::size_t n = 1; n < proof.witnesses.size(); ++n) {
-    mean = extrapolated(mean, proof.witnesses[n], -1.0 / static_cast<double>(n + 1));
+  const auto found = std::span(proof.witnesses).subspan(proof.inherited);
+  Witness mean{found.front().frame, found.front().outer, {}};
+  for (std::size_t n = 1; n < found.size(); ++n) {
+    mean = extrapolated(mean, found[n], -1.0 / static_cast<double>(n + 1));
   }
   return mean;
 }
@@ -308,10 +339,11 @@ Witness beyond(const LoadCertificate& proof, const Witness& load, double part, d
 
 Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
                    std::uint32_t member) {
-  Twist u = memberVelocity(state, c, load.frame, member);
+  const BodyId b = c.members[member];
+  Twist u = velocityAt(state, c, load.frame, state[b].local);
   const auto& columns = c.certificate.front().columns;
-  const auto at = std::ranges::lower_bound(columns, member);
-  if (at == columns.end() || *at != member) return u;
+  const auto at = std::ranges::lower_bound(columns, b);
+  if (at == columns.end() || *at != b) return u;
   const Twist& e = load.outer[static_cast<std::size_t>(at - columns.begin())];
   u.vx += e.vx;
   u.vy += e.vy;
@@ -320,25 +352,15 @@ Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
 }
 
 void writeImpulses(Collection& c) {
+  if (c.certificate.empty() || !c.certificate.front().isAhead()) return;
   LoadCertificate& proof = c.certificate.front();
-  if (!proof.lambda_stale || proof.witnesses.empty()) return;
   proof.lambda_stale = false;
-  const auto combined = [&](std::size_t at) {
-    Impulses lambda{};
-    for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
-      const double w = proof.weights[i];
-      if (w == 0.0) continue;
-      const Impulses& of = proof.witnesses[i].lambda[at];
-      for (std::size_t r = 0; r < lambda.size(); ++r) lambda[r] += w * of[r];
-    }
-    return lambda;
-  };
   std::size_t at = 0;
   if (areBlocksAway(c)) {
-    for (const std::uint32_t i : c.block_contact) c.contacts[i].setImpulses(combined(at++));
+    for (const std::uint32_t i : c.block_contact) c.contacts[i].setImpulses(proof.impulses(at++));
   }
-  for (ContactBlock& k : c.blocks) k.lambda = combined(at++);
-  for (JointBlock& k : c.joints) k.lambda = combined(at++);
+  for (ContactBlock& k : c.blocks) k.lambda = proof.impulses(at++);
+  for (JointBlock& k : c.joints) k.lambda = proof.impulses(at++);
 }
 
 }  // namespace merge2d

@@ -10,6 +10,12 @@
 
 namespace merge2d {
 
+/// Of a floating collection: the member whose rows follow from those of the others.
+BodyId heaviestOf(const State& state, const Collection& c);
+
+/// Has the proofs speak for a new layout, from this step on.
+void restart(const State& state, LoadCertificate& proof);
+
 /// True when the collection's witnesses cover the load: its weights are then those of the
 /// combination.
 bool covers(const State& state, Collection& c, const CollectionLoad& load);
@@ -36,10 +42,14 @@ void swapImpulses(Collection& c, Witness& with);
 /// witnesses, and brought back to their limits. None without witnesses.
 void predictImpulses(const Collection& c, Witness& load);
 
-/// Keeps a witness; today's load is taken to be its.
+/// Keeps a witness.
 void remember(Collection& c, Witness&& witness);
 
+/// Drops all proofs, and has others sought for any load.
+void forgetProofs(Collection& c);
+
 /// Writes the impulses that belong to the weights into blocks, or contacts without one, and joints.
+/// To be called before anything reads them there: in a steady step nothing does.
 void writeImpulses(Collection& c);
 
 }  // namespace merge2d

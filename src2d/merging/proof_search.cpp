@@ -107,7 +107,7 @@ void startMembers(const State& state, Scratch& scratch, Collection& c, bool push
   if (pushed) layOutPush(state, c);
   startFrame(state, scratch, c);
   for (std::uint32_t m = 0; m < c.members.size(); ++m) {
-    if (proof.search.ahead && m == proof.heaviest) continue;
+    if (proof.search.ahead && c.members[m] == proof.heaviest) continue;
     const Twist& d = proof.search.start[m];
     const Twist push = pushed ? c.push[m] : Twist{};
     scratch.trial_u[index(c.members[m])] =

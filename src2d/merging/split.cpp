@@ -7,6 +7,7 @@
 #include "src2d/contact/table.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/decided_settings.h"
+#include "src2d/merging/proof_transfer.h"
 #include "src2d/merging/rule.h"
 
 namespace merge2d {
@@ -47,6 +48,7 @@ void leaveWorldFrame(State& state, RigidId id) {
   const Vec2 offset = state[c.members.front()].local;
   state[id].x += offset;
   for (const BodyId b : c.members) state[b].local -= offset;
+  c.certificate.clear();  // proofs are for loads in the frame
   for (InternalContact& inner : c.contacts) {
     dropBlock(c, inner);
     for (InternalPoint& point : inner.points) point.position -= offset;
@@ -187,6 +189,7 @@ class Split {
   /// Which contacts stay, go with a part, or come free: while membership can still be asked.
   void sortContacts() {
     Collection& c = state_.collection(id_);
+    if (!c.certificate.empty()) bringBlocksBack(state_, c), writeImpulses(c);
     std::size_t staying = 0;
     for (InternalContact& inner : c.contacts) {
       const std::size_t p = partOf(inner.key);
@@ -204,6 +207,9 @@ class Split {
                            cut ? cut->motion : 0.0F});
     }
     c.contacts.resize(staying);
+    std::vector<std::uint8_t> stays(c.members.size());
+    for (std::size_t m = 0; m < stays.size(); ++m) stays[m] = part_[m] == largest_;
+    releaseFromProofs(state_, c, stays);
   }
 
   RigidId leave(std::size_t p) {

@@ -97,11 +97,10 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
       for (int i = 0; i < contact.count; ++i) {
         ContactPoint p = contact.points[static_cast<std::size_t>(i)];
         p.fresh = false;
-        if (has_blocks) {
-          p.lambda_n = c.blocks[b].lambda_n(i);
-          p.lambda_t = c.blocks[b].lambda_t(i);
-          showInternalVelocity(state, scratch, c, b, i, p);
-        }
+        const Impulses lambda = c.impulsesOf(b);
+        p.lambda_n = lambda[static_cast<std::size_t>(i)];
+        p.lambda_t = lambda[static_cast<std::size_t>(i) + 2];
+        if (has_blocks) showInternalVelocity(state, scratch, c, b, i, p);
         out.contacts.push_back(view(state, contact, p, frame));
         out.contacts.back().internal = true;
       }

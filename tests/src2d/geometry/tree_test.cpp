@@ -152,7 +152,7 @@ TEST(AabbTree, ALeafKeepsItsBoxUntilItsContentLeavesIt) {
 TEST(AabbTree, ABoxThatIsMuchTooLargeShrinks) {
   AabbTree tree;
   const int leaf = tree.insert(boxAt({0, 0}), 0);
-  tree.move(leaf, boxAt({1, 0}), {5.0, 0.0});
+  tree.move(leaf, boxAt({1, 0}).grown(1.0), Vec2::Zero());
   EXPECT_TRUE(tree.move(leaf, boxAt({1, 0}), Vec2::Zero()));
   EXPECT_NEAR(tree.fatBox(leaf).upper.x(), 1.6, 1e-6);
 }

@@ -1,0 +1,45 @@
+#pragma once
+/// Proofs outlive a layout: the impulses of a witness go on to carry what they carried when a body
+/// joins a collection or leaves it. Those between the body and the others become loads from
+/// outside, or no longer are.
+
+#include "src2d/merging/load_certificate.h"
+
+namespace merge2d {
+
+/// Contacts have left a collection, and their blocks leave it now: in all proofs their impulses
+/// become loads from outside on the members that stay.
+/// stays: per member.
+void releaseFromProofs(const State& state, Collection& collection,
+                       const std::vector<std::uint8_t>& stays);
+
+/// Bodies join a collection that has not been laid out anew yet: in the proofs they are held by
+/// forces from outside.
+void admitToProofs(const State& state, Collection& collection, std::span<const BodyId> bodies);
+
+/// Carries the proofs of a collection over to its new layout, or drops them where much has changed.
+class ProofTransfer {
+ public:
+  /// Before the layout, with the contacts in order.
+  ProofTransfer(const State& state, Collection& collection);
+  /// Afterwards.
+  void finish();
+
+ private:
+  static constexpr std::uint32_t kNew = InternalContact::kNoBlock;
+
+  bool survives() const;
+  void dropColumns();
+  void express(Witness& witness) const;
+  void holdNewContacts();
+  double motionOf(const Witness& witness) const;
+
+  const State& state_;
+  Collection& c_;
+  std::vector<std::uint32_t> before_;  ///< per contact: its block, or kNew
+  std::vector<std::uint32_t> fresh_;   ///< blocks that are new
+  Vec2 middle_;                        ///< of the members' box, before
+  double size_;                        ///< before
+};
+
+}  // namespace merge2d
