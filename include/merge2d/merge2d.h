@@ -255,7 +255,8 @@ M2_API m2_status m2_scene_add_impulse(m2_scene* scene, m2_body body, m2_vec at, 
 /** A force [N] at a point of the body's frame [m], from `from` until `until` [s]. */
 M2_API m2_status m2_scene_add_force(m2_scene* scene, m2_body body, m2_vec at, m2_vec force,
                                     double from, double until);
-/** Makes a body a magnet from `from` until `until` [s]: its contacts pull too and do not slide. */
+/** Makes a body a magnet from `from` until `until` [s]: its contacts, with all that comes within
+ * solver.margin of it, pull too and do not slide, and draw a face flat that they touch. */
 M2_API m2_status m2_scene_add_magnet(m2_scene* scene, m2_body body, double from, double until);
 
 /** Adds copies of a body while the world runs: `count` of them, one every `every` seconds from

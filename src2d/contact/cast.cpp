@@ -256,7 +256,7 @@ Cast carryBack(const State& state, const Flights& f, const Encounter& at, Contac
 void castContact(const State& state, Scratch& scratch, Contact& contact, double ahead,
                  std::vector<SoftHit>& soft) {
   const ContactKey& key = contact.key;
-  if (!isPredicted(state, contact, ahead) || isBilateral(state, key.a, key.b)) return;
+  if (!isPredicted(state, contact, ahead) || isHeld(state, contact)) return;
   if (scratch.load_order.size() != scratch.loads.size()) orderLoads(state, scratch);
   const Vec2 origin = state.pose(key.a).position;
   const Flights f{Flight(state, scratch, key.a, origin), Flight(state, scratch, key.b, origin),

@@ -188,6 +188,15 @@ void findTouching(State& state, Scratch& scratch, const Approaches& approaches,
   releaseMany(scratch.touching);
 }
 
+constexpr double kWholeFace = 1e9;  ///< both ends of a face, wherever the farther one is [m]
+
+/// A magnet that touches one end of a face draws all of it: by one end alone the body would hang as
+/// from a pivot. Guarded by Magnet.DrawsAFaceFlatThatItTouchesAtOneEnd.
+bool isHeldAtOneEnd(const State& state, const ContactKey& key, const Manifold& manifold) {
+  return manifold.count == 1 && manifold.points[0].gap <= state.settings.solver.margin &&
+         isBilateral(state, key.a, key.b);
+}
+
 }  // namespace
 
 void updateManifold(const State& state, Contact& contact, double ahead) {
@@ -197,7 +206,8 @@ void updateManifold(const State& state, Contact& contact, double ahead) {
   if (contact.apart > margin) return loseTouch(contact);
   const Collider& a = state.collider(contact.key.shape_a);
   const Collider& b = state.collider(contact.key.shape_b);
-  const Manifold manifold = collide(a, b, b_in_a, margin);
+  Manifold manifold = collide(a, b, b_in_a, margin);
+  if (isHeldAtOneEnd(state, contact.key, manifold)) manifold = collide(a, b, b_in_a, kWholeFace);
   const Contact old = contact;
   const double inv_mass =
       std::max(state.rigid(contact.key.a).inv_mass, state.rigid(contact.key.b).inv_mass);

@@ -49,15 +49,19 @@ bool aimRow(const State& state, const Scratch& scratch, const Contact& contact, 
   point.struck = 0.0F;
   const CastEnd* end = cast ? castOf(scratch, contact, point) : nullptr;
   const double gap = end ? end->carried : point.gap;
-  k.bias[i] = contactBias(state.settings.solver, state.h, gap, k.bilateral);
+  const auto velocity = [&](const SolverVelocity& a, const SolverVelocity& b) {
+    return contactVelocity(k, i, k.nx, k.ny, a, b).n;
+  };
+  const auto atStart = [&] {
+    return velocity(velocityAtStart(state, scratch, k.a), velocityAtStart(state, scratch, k.b));
+  };
+  const SolverSettings& settings = state.settings.solver;
+  k.bias[i] = k.bilateral ? bilateralBias(settings, state.h, gap, -atStart())
+                          : contactBias(settings, state.h, gap);
   const bool elastic = restitutionOf(state, contact.key.a, contact.key.b) > 0.0;
   if (elastic || end) {
-    const auto velocity = [&](const SolverVelocity& a, const SolverVelocity& b) {
-      return contactVelocity(k, i, k.nx, k.ny, a, b).n;
-    };
     const double w_free = velocity(scratch.u[k.a], scratch.u[k.b]);
-    const double w_start =
-        velocity(velocityAtStart(state, scratch, k.a), velocityAtStart(state, scratch, k.b));
+    const double w_start = atStart();
     if (isHit(state, contact, cast, gap, w_start, w_free)) {
       k.bias[i] = kNeverActs;
       k.hits = static_cast<std::uint8_t>(k.hits | 1U << i);
@@ -125,7 +129,8 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
   k.a = static_cast<std::uint32_t>(ends.a);
   k.b = static_cast<std::uint32_t>(ends.b);
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
-  k.bilateral = isBilateral(state, contact.key.a, contact.key.b);
+  const Contact& last = state.contacts.contactOf(source.points[source.count() == 2 ? 1 : 0]);
+  k.bilateral = isHeld(state, contact) || isHeld(state, last);
   const Cast* cast = scratch.casts.empty() ? nullptr : castToHit(state, scratch, contact);
   bool rests = aimBlock(state, scratch, source, cast, g, k);
   if (cast && k.hits == 0) rests = aimBlock(state, scratch, source, nullptr, g, k);
@@ -165,10 +170,16 @@ void buildBlocks(State& state, Scratch& scratch) {
 
 }  // namespace
 
-double contactBias(const SolverSettings& settings, double h, double gap, bool bilateral) {
-  if (gap > 0.0) return bilateral ? std::min(gap / h, settings.max_correction) : gap / h;
+double contactBias(const SolverSettings& settings, double h, double gap) {
+  if (gap > 0.0) return gap / h;
   if (settings.stabilisation == Stabilisation::Post) return 0.0;
   return std::max(settings.erp * gap / h, -settings.max_correction);
+}
+
+double bilateralBias(const SolverSettings& settings, double h, double gap, double closing) {
+  if (gap <= 0.0) return contactBias(settings, h, gap);
+  const double drawing = std::min(settings.erp * gap / h, settings.max_correction);
+  return std::clamp(closing, drawing, gap / h);
 }
 
 double contactSize(const State& state, BodyId a, BodyId b) {

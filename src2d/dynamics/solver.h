@@ -12,11 +12,15 @@
 
 namespace merge2d {
 
-/// The velocity [m/s] with which a gap is to be closed or an overlap removed, at a contact with
-/// `gap` [m].
-/// A `bilateral` one closes its gap no faster than an overlap is removed, or a magnet would answer
-/// a gap that opens with a blow. Guarded by Magnet.AddsNoEnergyToWhatSpinsPast.
-double contactBias(const SolverSettings& settings, double h, double gap, bool bilateral);
+/// The velocity [m/s] with which a gap is to be closed at most, or an overlap removed, at a contact
+/// with `gap` [m].
+double contactBias(const SolverSettings& settings, double h, double gap);
+
+/// The same for a magnet's contact, which shall have just this velocity. A gap is closed at the
+/// speed `closing` [m/s] with which it closes already, but no slower than an overlap is removed,
+/// and no faster than the gap allows: a magnet neither takes hold with a blow, nor stops what has
+/// not reached it. Guarded by Magnet.TakesHoldWithoutABlow and Magnet.AddsNoEnergyToWhatSpinsPast.
+double bilateralBias(const SolverSettings& settings, double h, double gap, double closing);
 
 /// The smaller side of the smaller of two bodies, of those that respond to forces [m].
 double contactSize(const State& state, BodyId a, BodyId b);

@@ -144,5 +144,14 @@ inline bool hasBelt(const State& state, BodyId a, BodyId b) {
 inline bool isBilateral(const State& state, BodyId a, BodyId b) {
   return state[a].magnet_on || state[b].magnet_on;
 }
+/// Only those with a point within the margin do so: contacts of fast bodies are found farther away,
+/// where a magnet does not act. Guarded by Magnet.LeavesWhatFliesPastAlone.
+inline bool isHeld(const State& state, const Contact& contact) {
+  if (!isBilateral(state, contact.key.a, contact.key.b)) return false;
+  const auto last = contact.points.begin() + contact.count;
+  return std::any_of(contact.points.begin(), last, [&](const ContactPoint& point) {
+    return point.gap <= state.settings.solver.margin;
+  });
+}
 
 }  // namespace merge2d

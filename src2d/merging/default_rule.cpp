@@ -42,7 +42,9 @@ InnerRows rigidRows(const State& state, const InternalContact& contact, const So
   InnerRows rows;
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
     if (contact.watch[i].active || contact.gap[i] <= 0.0) continue;
-    rows.bias[i] = contactBias(state.settings.solver, state.h, contact.gap[i], bilateral);
+    const SolverSettings& settings = state.settings.solver;
+    rows.bias[i] = bilateral ? bilateralBias(settings, state.h, contact.gap[i], 0.0)
+                             : contactBias(settings, state.h, contact.gap[i]);
   }
   return rows;
 }

@@ -14,7 +14,23 @@
 namespace merge2d {
 namespace {
 
-/// Notes hits, impulses, and forces that begin or end.
+/// Whether a magnet takes hold in this step: it did not act in the last one. It holds a member
+/// alone, not the whole collection. Guarded by Magnet.TakesAMemberOutOfItsCollectionAtOnce.
+bool takesHoldAnew(const State& state, const BodyPair& pair) {
+  if (!isBilateral(state, pair.a, pair.b)) return false;
+  bool held = false;
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& contact = state.contacts[state.contacts.order[i]];
+    held |= isHeld(state, contact);
+    for (int k = 0; k < contact.count; ++k) {
+      const ContactPoint& point = contact.points[static_cast<std::size_t>(k)];
+      if (point.lambda_n != 0.0 || point.lambda_t != 0.0) return false;
+    }
+  }
+  return held;
+}
+
+/// Notes hits, magnets that take hold, impulses, and forces that begin or end.
 void notePerturbations(State& state, const Scratch& scratch) {
   const auto hit = [&](BodyId b, bool met) {
     if (!state.isCollection(state[b].rigid)) return;
@@ -26,6 +42,11 @@ void notePerturbations(State& state, const Scratch& scratch) {
     if (m.speed <= impactSpeed(state)) continue;
     hit(scratch.pairs[m.pair].a, true);
     hit(scratch.pairs[m.pair].b, true);
+  }
+  for (const BodyPair& pair : scratch.pairs) {
+    if (!takesHoldAnew(state, pair)) continue;
+    hit(pair.a, false);
+    hit(pair.b, false);
   }
   for (const Kick& kick : scratch.kicks) hit(kick.body, false);
   for (const BodyId b : scratch.stirred) {

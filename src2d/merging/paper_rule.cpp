@@ -23,7 +23,8 @@ InnerRows softRows(const State& state, const InternalContact& contact, const Sol
   const bool bilateral = isBilateral(state, key.a, key.b);
   InnerRows rows{.softness = contactSoftness(state, key.a, key.b, a.inv_mass, b.inv_mass)};
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
-    rows.bias[i] = contactBias(settings, state.h, contact.gap[i], bilateral);
+    rows.bias[i] = bilateral ? bilateralBias(settings, state.h, contact.gap[i], 0.0)
+                             : contactBias(settings, state.h, contact.gap[i]);
   }
   return rows;
 }

@@ -83,7 +83,7 @@ void addOuterContact(const State& state, ContactTable::Slot slot, Scratch& scrat
   g.softness = contactSoftness(state, a, b, ua.inv_mass, ub.inv_mass);
   SweepContact outer{.slot = slot, .block = {}};
   ContactBlock& k = outer.block;
-  k.bilateral = isBilateral(state, a, b);
+  k.bilateral = isHeld(state, contact);
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
     const Vec2 p = pose_a * point.position;
@@ -91,10 +91,11 @@ void addOuterContact(const State& state, ContactTable::Slot slot, Scratch& scrat
     g.arm_b[i] = p - x_b;
     k.lambda_n(i) = point.lambda_n;
     k.lambda_t(i) = point.lambda_t;
-    k.bias[i] = contactBias(settings, state.h, point.gap, k.bilateral);
-    const double e = k.bilateral ? 0.0 : restitutionOf(state, a, b);
-    if (e == 0.0) continue;
     const double w = g.normal.dot(velocityAt(ub, g.arm_b[i]) - velocityAt(ua, g.arm_a[i]));
+    k.bias[i] = k.bilateral ? bilateralBias(settings, state.h, point.gap, -w)
+                            : contactBias(settings, state.h, point.gap);
+    const double e = isBilateral(state, a, b) ? 0.0 : restitutionOf(state, a, b);
+    if (e == 0.0) continue;
     const bool bounces = -w > leastBounce(state, contact.key) && point.gap + state.h * w < 0.0;
     if (bounces) k.bias[i] = e * w;  // all of it comes in this step
   }

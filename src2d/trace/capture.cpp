@@ -53,8 +53,7 @@ ContactView view(const State& state, const Contact& contact, const ContactPoint&
   seen.w_n = p.w_n;
   seen.w_t = p.w_t;
   seen.mu = frictionOf(state, contact.key.a, contact.key.b);
-  seen.state =
-      stateOf(seen.lambda_n, p.lambda_t, seen.mu, isBilateral(state, contact.key.a, contact.key.b));
+  seen.state = stateOf(seen.lambda_n, p.lambda_t, seen.mu, isHeld(state, contact));
   seen.fresh = p.fresh;
   return seen;
 }

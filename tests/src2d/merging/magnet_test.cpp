@@ -80,11 +80,155 @@ body = "magnet"
   }
 }
 
+/// Two boxes without weight: one comes to rest at the other, a magnet, at its own speed.
+TEST(Magnet, TakesHoldWithoutABlow) {
+  for (const double speed : {0.0, 0.02, 0.14, 0.3}) {  // m/s
+    Simulation run(fmt::format(R"(
+format = 1
+gravity = [0, 0]
+[[body]]
+name = "magnet"
+motion = "pinned"
+at = [0, 0]
+box = [1, 1]
+[[body]]
+name = "box"
+at = [1.0045, 0]
+box = [1, 1]
+velocity = [-{}, 0]
+[[magnet]]
+body = "magnet"
+)",
+                               speed),
+                   Mode::Reference);
+    double fastest = 0.0, slowest_ahead = speed;
+    for (int step = 0; step < 200; ++step) {
+      const double gap = run.body("box").x.x() - 1.0;
+      run.steps(1);
+      const double v = -run.body("box").v.x();
+      fastest = std::max(fastest, v);
+      if (gap > speed * 0.01) slowest_ahead = std::min(slowest_ahead, v);
+    }
+    // 5% of 4.5 mm in a step, as an overlap is removed.
+    EXPECT_LT(fastest, std::max(speed, 0.0225) + 1e-9) << speed;
+    EXPECT_GT(slowest_ahead, speed - 1e-9) << speed << ": nothing stops it before it touches";
+    EXPECT_NEAR(run.body("box").x.x(), 1.0, 1e-5) << speed;
+  }
+}
+
+/// A ball that passes by at 20 m/s has contacts 20 cm ahead of it.
+TEST(Magnet, LeavesWhatFliesPastAlone) {
+  for (const double distance : {0.01, 0.05, 0.15}) {  // m
+    Simulation run(fmt::format(R"(
+format = 1
+gravity = [0, 0]
+[[body]]
+name = "magnet"
+motion = "pinned"
+box = [1, 1]
+[[body]]
+name = "ball"
+at = [-3, {}]
+circle = 0.2
+velocity = [20, 0]
+[[magnet]]
+body = "magnet"
+)",
+                               0.7 + distance),
+                   Mode::Reference);
+    run.until(0.3);
+    EXPECT_NEAR(run.body("ball").x.x(), 3.0, 1e-9) << distance;
+  }
+}
+
+/// A container stands on a slope, and a level magnet comes down to 1 mm above its higher end.
+TEST(Magnet, DrawsAFaceFlatThatItTouchesAtOneEnd) {
+  for (const double slope : {0.15, 0.3, 1.0, 3.0}) {  // degrees
+    const double angle = slope * std::numbers::pi / 180.0;
+    const Vec2 container = Pose::at(Vec2::Zero(), angle) * Vec2(0.0, 1.1);
+    const double top = 1.7 / std::cos(angle) + 1.1 * std::tan(angle) + 0.001;
+    const std::string crane = fmt::format(R"(
+format = 1
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, 0]
+angle = {0}
+box = [4, 1]
+[[body]]
+name = "container"
+at = [{1}, {2}]
+angle = {0}
+box = [2.4, 1.2]
+[[body]]
+name = "magnet"
+motion = "scripted"
+box = [2.2, 0.4]
+script = {{ keyframes = [[0, 0, 4, 0], [2, 0, {3}, 0], [3, 0, {3}, 0], [6, 0, 6, 0]] }}
+[[magnet]]
+body = "magnet"
+)",
+                                          slope, container.x(), container.y(), top + 0.2);
+    for (const Mode mode : {Mode::Reference, Mode::MergeSleep}) {
+      Simulation run(crane, mode);
+      run.until(6.5);
+      EXPECT_NEAR(run.body("container").angle, 0.0, 1e-4) << slope << " degrees, " << name(mode);
+      EXPECT_NEAR(run.body("container").x.y(), 5.2, 1e-3) << slope << " degrees, " << name(mode);
+    }
+  }
+}
+
 TEST(Magnet, MergesWithWhatHangsFromIt) {
   Simulation run(kCrane, Mode::Merge);
   run.until(1.0);
   EXPECT_TRUE(run.merged("container"));
   EXPECT_EQ(run.now().stats.contacts, 0);
+}
+
+/// A sled glides on ice with two merged boxes on it, and a magnet comes down to the upper one.
+TEST(Magnet, TakesAMemberOutOfItsCollectionAtOnce) {
+  Simulation run(R"(
+format = 1
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [40, 1]
+friction = 0
+[[body]]
+name = "sled"
+at = [-0.4, 0.25]
+box = [6, 0.5]
+mass = 500
+velocity = [0.2, 0]
+[[body]]
+name = "box"
+at = [-0.4, 1]
+box = [2, 1]
+velocity = [0.2, 0]
+repeat = { count = [1, 2], spacing = [0, 1] }
+[[body]]
+name = "magnet"
+motion = "scripted"
+box = [1, 0.2]
+script = { keyframes = [[0, 0, 4, 0], [2, 0, 2.602, 0], [2.2, 0, 2.602, 0], [4, 0, 5, 0]] }
+[[magnet]]
+body = "magnet"
+)",
+                 Mode::MergeSleep);
+  const auto rides = [&](const std::string& name) {
+    return run.merged(name) && run.body(name).collection == run.body("sled").collection;
+  };
+  run.until(1.5);
+  EXPECT_TRUE(rides("box[0,1]"));
+  double slowest = 1.0;
+  run.steps(150, [&] {
+    slowest = std::min(slowest, run.body("sled").v.x());
+    EXPECT_TRUE(rides("box[0,0]"));
+  });
+  EXPECT_GT(slowest, 0.18) << "m/s: the upper box rubs on the lower one, and no more";
+  EXPECT_NEAR(run.body("box[0,1]").x.x(), run.body("magnet").x.x() - 0.035, 0.05);
+  EXPECT_GT(run.body("box[0,1]").x.y(), 2.2);
 }
 
 TEST(Magnet, LetsGoOfWhatItHasMergedWith) {
