@@ -11,13 +11,13 @@ namespace {
 /// Where more than one member in so many is loaded from outside, proofs are dropped.
 constexpr std::size_t kFewest = 8;
 
-constexpr std::uint32_t kLeft = ~0u;
+constexpr std::uint32_t kLeft = ~0u;  ///< no contact refers to the block any more
 
 SolverVelocity atRest(const State& state, BodyId b) {
   return {.inv_mass = 1.0 / state[b].mass, .inv_inertia = 1.0 / state[b].inertia};
 }
 
-/// What the impulses of a block give its two bodies.
+/// The velocities that the impulses of a block give its two bodies.
 struct Gains {
   SolverVelocity a, b;
 };
@@ -50,7 +50,7 @@ void add(Twist& to, const SolverVelocity& gain, double sign, double size) {
   to.omega += sign * gain.omega * size;
 }
 
-/// Adds the impulses of a block to the load from outside, of one of its bodies.
+/// Adds the impulses of a block to the load from outside on one of its bodies, in all proofs.
 void addToColumn(const State& state, LoadCertificate& proof, const ContactBlock& k, BodyId b,
                  double sign, double size, auto&& lambdaOf) {
   const std::size_t column = columnOf(proof, b);
@@ -128,6 +128,10 @@ ProofTransfer::ProofTransfer(const State& state, Collection& c)
   for (const InternalContact& inner : c.contacts) before_.push_back(inner.block);
 }
 
+bool ProofTransfer::changedMuch() const {
+  return kFewest * c_.certificate.front().columns.size() > c_.members.size();
+}
+
 bool ProofTransfer::survives() const {
   if (!hasProofs(c_) || !c_.joints.empty()) return false;
   const LoadCertificate& proof = c_.certificate.front();
@@ -136,12 +140,16 @@ bool ProofTransfer::survives() const {
   return proof.heaviest == heaviestOf(state_, c_);
 }
 
-/// Those of bodies that have left.
+/// Those of bodies that have left, and those that are zero in all proofs.
 void ProofTransfer::dropColumns() {
   LoadCertificate& proof = c_.certificate.front();
+  const auto isZero = [](const Twist& u) { return u.vx == 0.0 && u.vy == 0.0 && u.omega == 0.0; };
   std::size_t kept = 0;
   for (std::size_t k = 0; k < proof.columns.size(); ++k) {
     if (state_[proof.columns[k]].rigid != c_.rigid) continue;
+    if (std::ranges::all_of(proof.witnesses, [&](const auto& w) { return isZero(w.outer[k]); })) {
+      continue;
+    }
     proof.columns[kept] = proof.columns[k];
     for (Witness& witness : proof.witnesses) witness.outer[kept] = witness.outer[k];
     ++kept;
@@ -328,12 +336,19 @@ void ProofTransfer::finish() {
   for (Witness& witness : proof.witnesses) express(witness);
   holdNewContacts();
   for (Witness& witness : proof.witnesses) witness.motion = motionOf(witness);
-  std::erase_if(proof.witnesses, [&](const Witness& w) { return !(w.motion <= cutSpeed(state_)); });
-  if (proof.witnesses.empty() || kFewest * proof.columns.size() > c_.members.size()) {
-    c_.certificate.clear();
-    return;
+  const auto isProof = [&](const Witness& w) { return w.motion <= cutSpeed(state_); };
+  const auto found = proof.witnesses.begin() + static_cast<std::ptrdiff_t>(proof.inherited);
+  const auto old = std::count_if(proof.witnesses.begin(), found, isProof);
+  std::erase_if(proof.witnesses, [&](const Witness& w) { return !isProof(w); });
+  if (changedMuch()) {  // perhaps long ago
+    proof.witnesses.erase(proof.witnesses.begin(), proof.witnesses.begin() + old);
+    dropColumns();
   }
-  restart(state_, proof);
+  if (proof.witnesses.empty() || changedMuch()) {
+    c_.certificate.clear();
+  } else {
+    restart(state_, proof);
+  }
 }
 
 }  // namespace merge2d

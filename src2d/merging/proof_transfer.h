@@ -29,6 +29,7 @@ class ProofTransfer {
   static constexpr std::uint32_t kNew = InternalContact::kNoBlock;
 
   bool survives() const;
+  bool changedMuch() const;
   void dropColumns();
   void express(Witness& witness) const;
   void holdNewContacts();

@@ -61,10 +61,10 @@ TEST(StepBack, BodiesThatAreHitForLongAreSimulatedOneByOne) {
       EXPECT_TRUE(planks.areOne());
       planks.rain(0.06);
       EXPECT_TRUE(planks.areSingle());
-      planks.run().steps(150);
+      planks.run().steps(5);
       EXPECT_TRUE(planks.areSingle());
-      planks.run().steps(100);
-      EXPECT_TRUE(planks.areOne());
+      planks.run().steps(30);
+      EXPECT_TRUE(planks.areOne()) << "they rest";
     }
   }
 }
