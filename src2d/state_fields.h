@@ -163,9 +163,24 @@ void fields(Ar& ar, Some<NncgBuffers> auto& m) {
   ar(before, direction, u_before, u_direction, previous);
 }
 template <class Ar>
+void fields(Ar& ar, Some<Bound> auto& b) {
+  auto& [exists, gap, slack, d_gap, d_slack] = b;
+  ar(exists, gap, slack, d_gap, d_slack);
+}
+template <class Ar>
+void fields(Ar& ar, Some<BoundedImpulse> auto& b) {
+  auto& [x, error, rhs, low, high] = b;
+  ar(x, error, rhs, low, high);
+}
+template <class Ar>
+void fields(Ar& ar, Some<NewtonIterate> auto& n) {
+  auto& [unknowns, u, exact, steps] = n;
+  ar(unknowns, u, exact, steps);
+}
+template <class Ar>
 void fields(Ar& ar, Some<ProofSearch> auto& s) {
-  auto& [load, start, nncg, movers, way, steps, ahead] = s;
-  ar(load, start, nncg, movers, way, steps, ahead);
+  auto& [load, start, nncg, newton, movers, way, steps, ahead] = s;
+  ar(load, start, nncg, newton, movers, way, steps, ahead);
 }
 template <class Ar>
 void fields(Ar& ar, Some<LoadCertificate> auto& c) {

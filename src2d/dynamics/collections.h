@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src2d/core/events.h"
+#include "src2d/dynamics/bounded_impulse.h"
 #include "src2d/dynamics/contact_block.h"
 #include "src2d/dynamics/contact_table.h"
 #include "src2d/dynamics/joint.h"
@@ -114,6 +115,14 @@ struct NncgBuffers {
   double previous = 0.0;                     ///< change of the last sweep but one, squared
 };
 
+/// Where a direct solve stands that goes on in the next step (dynamics/newton.h).
+struct NewtonIterate {
+  std::vector<BoundedImpulse> unknowns;  ///< empty: it has not begun
+  std::vector<Twist> u;                  ///< of the bodies [m/s]
+  double exact = 0.0;                    ///< velocity by which equations may miss [m/s]
+  int steps = 0;                         ///< so far
+};
+
 /// A load that the contacts inside were found to carry without relative motion, and their impulses.
 struct Witness {
   FrameLoad frame{};
@@ -127,6 +136,7 @@ struct ProofSearch {
   Witness load;              ///< with the impulses found so far
   std::vector<Twist> start;  ///< per member: the velocity that the load gives; empty: no search
   NncgBuffers nncg;          ///< of the sweeps so far
+  NewtonIterate newton;      ///< of a direct solve that is under way
   /// Per weld, where the search has found motion: whether its bodies move there. Empty: not known.
   std::vector<std::uint8_t> movers;
   double way = 0.0;        ///< from where it began, if ahead

@@ -21,6 +21,8 @@ struct PointPair {
   std::uint32_t group;  ///< of the first point
 };
 
+}  // namespace
+
 class InteriorPoint {
  public:
   InteriorPoint(std::span<const std::uint32_t> bodies, const std::vector<SolverVelocity>& u)
@@ -58,9 +60,15 @@ class InteriorPoint {
     });
   }
 
-  void run(double tolerance) {
-    start(tolerance);
-    for (int step = 0; step < kMostSteps && findErrors() > exact_; ++step) {
+  /// Takes some steps. True where that was the last one.
+  bool run(double tolerance, NewtonIterate& iterate, int most_steps) {
+    iterate.unknowns.empty() ? start(tolerance) : resume(iterate);
+    for (int step = 0;; ++step, ++iterate.steps) {
+      if (findErrors() <= exact_ || iterate.steps == kMostSteps) break;
+      if (step == most_steps) {
+        suspend(iterate);
+        return false;
+      }
       if (!factorize()) break;
       findStep(0.0, false);
       const double affine = meanProduct(longest(1.0)) / meanProduct(0.0);
@@ -69,6 +77,7 @@ class InteriorPoint {
       move(longest(kInside));
     }
     snap();
+    return true;
   }
 
   void takeImpulses(ContactBlock& k) {
@@ -89,6 +98,17 @@ class InteriorPoint {
   }
 
  private:
+  void suspend(NewtonIterate& iterate) {
+    iterate.unknowns = std::move(unknowns_);
+    iterate.u = std::move(u_now_);
+    iterate.exact = exact_;
+  }
+  void resume(NewtonIterate& iterate) {
+    unknowns_ = std::move(iterate.unknowns);
+    u_now_ = std::move(iterate.u);
+    exact_ = iterate.exact;
+  }
+
   RowGroup& addGroup(std::uint32_t row, double softness) {
     const auto unknown = static_cast<std::uint32_t>(unknowns_.size());
     const double soft = std::max(softness, kRigid * rows_[row].k);
@@ -348,19 +368,37 @@ class InteriorPoint {
   std::size_t next_ = 0;
 };
 
-}  // namespace
+NewtonWorkspace::NewtonWorkspace() = default;
+NewtonWorkspace::~NewtonWorkspace() = default;
+NewtonWorkspace::NewtonWorkspace(NewtonWorkspace&&) noexcept = default;
+NewtonWorkspace& NewtonWorkspace::operator=(NewtonWorkspace&&) noexcept = default;
 
 void solveByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
                    std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
                    double tolerance) {
-  InteriorPoint solver(bodies, u);
-  for (const ContactBlock& k : blocks) solver.addBlock(k);
-  for (const JointBlock& k : joints) solver.addJoint(k);
-  solver.run(tolerance);
+  NewtonIterate iterate;
+  NewtonWorkspace workspace;
+  continueByNewton(blocks, joints, bodies, u, tolerance, iterate, kMostSteps, workspace);
+}
+
+bool continueByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
+                      std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
+                      double tolerance, NewtonIterate& iterate, int most_steps,
+                      NewtonWorkspace& workspace) {
+  if (iterate.unknowns.empty() || !workspace.point) {
+    workspace.point = std::make_unique<InteriorPoint>(bodies, u);
+    for (const ContactBlock& k : blocks) workspace.point->addBlock(k);
+    for (const JointBlock& k : joints) workspace.point->addJoint(k);
+  }
+  InteriorPoint& solver = *workspace.point;
+  if (!solver.run(tolerance, iterate, most_steps)) return false;
+  iterate = {};
   for (ContactBlock& k : blocks) solver.takeImpulses(k);
   for (JointBlock& k : joints) solver.takeImpulses(k);
   for (const ContactBlock& k : blocks) applyImpulses(k, u[k.a], u[k.b]);
   for (const JointBlock& k : joints) applyJointImpulses(k, {}, u[k.a], u[k.b]);
+  workspace = {};
+  return true;
 }
 
 }  // namespace merge2d

@@ -15,6 +15,7 @@
 #include "src2d/dynamics/collections.h"
 #include "src2d/dynamics/contact_block.h"
 #include "src2d/dynamics/joint_block.h"
+#include "src2d/dynamics/newton_workspace.h"
 
 namespace merge2d {
 
@@ -24,5 +25,13 @@ namespace merge2d {
 void solveByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
                    std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
                    double tolerance = 0.0);
+
+/// The same in parts, of at most so many steps each, with the same blocks, joints and velocities:
+/// false where the solve goes on, and has changed nothing but the iterate. The workspace is that of
+/// the part before, or empty.
+bool continueByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
+                      std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
+                      double tolerance, NewtonIterate& iterate, int most_steps,
+                      NewtonWorkspace& workspace);
 
 }  // namespace merge2d

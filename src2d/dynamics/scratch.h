@@ -15,6 +15,7 @@
 #include "src2d/core/sweep_path.h"
 #include "src2d/dynamics/collections.h"
 #include "src2d/dynamics/joint_solver.h"
+#include "src2d/dynamics/newton_workspace.h"
 #include "src2d/dynamics/wide_blocks.h"
 
 namespace merge2d {
@@ -265,6 +266,7 @@ struct Scratch {
 
   // Unmerge
   std::vector<SolverVelocity> trial_u;           ///< per body
+  NewtonWorkspace newton;                        ///< of a direct solve that is under way
   bool split = false;                            ///< some collection was taken apart
   std::vector<std::uint32_t> overloaded_joints;  ///< break after the full solve
 

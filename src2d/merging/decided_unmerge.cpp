@@ -295,6 +295,7 @@ bool overloadsJoints(State& state, const Collection& c) {
 
 bool endSearch(State& state, Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
+  if (isSuspended(proof.search)) return true;
   const bool rests = restsIn(state, scratch, c);
   if (rests && c.residual > toleratedResidual(state)) {
     c.settled = proof.search.ahead;

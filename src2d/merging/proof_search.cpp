@@ -115,13 +115,19 @@ void startMembers(const State& state, Scratch& scratch, Collection& c, bool push
   }
 }
 
-void solveDirectly(const State& state, Scratch& scratch, Collection& c) {
+/// False where the solve goes on in the next step: it may spend as many rows as sweeps may.
+bool solveDirectly(const State& state, Scratch& scratch, Collection& c) {
   startMembers(state, scratch, c, false);
   std::vector<std::uint32_t> bodies;
   bodies.reserve(c.members.size());
   for (const BodyId b : c.members) bodies.push_back(static_cast<std::uint32_t>(index(b)));
-  solveByNewton(c.blocks, c.joints, bodies, scratch.trial_u, toleratedResidual(state));
-  c.certificate.front().search.nncg.previous = 0.0;
+  ProofSearch& search = c.certificate.front().search;
+  search.nncg.previous = 0.0;
+  const double most = kDecided.row_sweeps / static_cast<double>(c.blocks.size() + c.joints.size());
+  if (scratch.newton.of != c.id) scratch.newton = {};
+  scratch.newton.of = c.id;
+  return continueByNewton(c.blocks, c.joints, bodies, scratch.trial_u, toleratedResidual(state),
+                          search.newton, std::max(1, static_cast<int>(most)), scratch.newton);
 }
 
 }  // namespace
@@ -132,8 +138,10 @@ void beginSearch(const State& state, Collection& c, const CollectionLoad& load) 
   swapImpulses(c, search.load);  // the progress outlives a new layout
 }
 
+bool isSuspended(const ProofSearch& search) { return !search.newton.unknowns.empty(); }
+
 bool isDirect(const ProofSearch& search) {
-  return !search.ahead && search.steps >= kDecided.direct_from &&
+  return !search.ahead && !isSuspended(search) && search.steps >= kDecided.direct_from &&
          std::has_single_bit(static_cast<std::uint16_t>(search.steps));
 }
 
@@ -157,7 +165,8 @@ void beginSearchAhead(const State& state, Collection& c, Witness&& load, double 
 void continueSearch(const State& state, Scratch& scratch, Collection& c, double tolerance) {
   ProofSearch& search = c.certificate.front().search;
   if (search.ahead) swapImpulses(c, search.load);
-  if (isDirect(search) && c.residual > toleratedResidual(state)) solveDirectly(state, scratch, c);
+  const bool begins = isDirect(search) && c.residual > toleratedResidual(state);
+  if ((begins || isSuspended(search)) && !solveDirectly(state, scratch, c)) return;
   startMembers(state, scratch, c, true);
   c.residual = static_cast<float>(relax(state, scratch, c, tolerance));
   if (search.ahead) swapImpulses(c, search.load);

@@ -24,6 +24,9 @@ void beginSearch(const State& state, Collection& collection, const CollectionLoa
 /// Whether Newton's method takes part in this step, as sweeps have not ended the search.
 bool isDirect(const ProofSearch& search);
 
+/// Whether Newton's method has more to do than one step may spend, and goes on in the next.
+bool isSuspended(const ProofSearch& search);
+
 /// Replaces the load of a search by that of this step; the impulses found so far stay.
 void renewLoad(const State& state, Collection& collection, const CollectionLoad& load);
 

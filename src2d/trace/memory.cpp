@@ -22,7 +22,7 @@ std::size_t bytesOfProofs(const Collection& c) {
     const ProofSearch& search = proof.search;
     total += bytesOf(search.start, search.load.outer, search.load.lambda, search.nncg.before,
                      search.nncg.direction, search.nncg.u_before, search.nncg.u_direction,
-                     search.movers);
+                     search.newton.unknowns, search.newton.u, search.movers);
     total += bytesOf(proof.columns, proof.witnesses, proof.gram);
     for (const Witness& witness : proof.witnesses) total += bytesOf(witness.outer, witness.lambda);
   }

@@ -1,0 +1,24 @@
+#pragma once
+/// What a direct solve (dynamics/newton.h) keeps between its parts: its rows, and the layout of its
+/// matrix, which takes as long as two of its steps. All of it follows from the rows of the solve.
+
+#include <cstddef>
+#include <memory>
+
+#include "src2d/core/ids.h"
+
+namespace merge2d {
+
+class InteriorPoint;
+
+struct NewtonWorkspace {
+  NewtonWorkspace();
+  ~NewtonWorkspace();
+  NewtonWorkspace(NewtonWorkspace&&) noexcept;
+  NewtonWorkspace& operator=(NewtonWorkspace&&) noexcept;
+
+  CollectionId of = kNoCollection;  ///< whose solve it is
+  std::unique_ptr<InteriorPoint> point;
+};
+
+}  // namespace merge2d
