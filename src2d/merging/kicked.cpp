@@ -93,7 +93,7 @@ void forgetExpectedContacts(State& state, const Scratch& scratch) {
     c.stale = true;
     c.block_contact.clear();
     std::erase_if(c.contacts, expected);
-    releaseFromProofs(state, c, std::vector<std::uint8_t>(c.members.size(), 1));
+    releaseFromProofs(state, c);
   }
   layOutFloating(state);
 }

@@ -1,9 +1,11 @@
 #include "src2d/merging/proof_transfer.h"
 
 #include <algorithm>
+#include <map>
 
-#include "src2d/core/nonnegative_fit.h"
 #include "src2d/merging/decided_settings.h"
+#include "src2d/merging/new_contacts.h"
+#include "src2d/merging/proof_columns.h"
 
 namespace merge2d {
 namespace {
@@ -13,89 +15,23 @@ constexpr std::size_t kFewest = 8;
 
 constexpr std::uint32_t kLeft = ~0u;  ///< no contact refers to the block any more
 
-SolverVelocity atRest(const State& state, BodyId b) {
-  return {.inv_mass = 1.0 / state[b].mass, .inv_inertia = 1.0 / state[b].inertia};
-}
-
-/// The velocities that the impulses of a block give its two bodies.
-struct Gains {
-  SolverVelocity a, b;
-};
-
-Gains gainsOf(const State& state, const ContactBlock& block, const Impulses& lambda,
-              std::size_t bodies) {
-  Gains gains;
-  if (block.a < bodies) gains.a = atRest(state, BodyId{block.a});
-  if (block.b < bodies) gains.b = atRest(state, BodyId{block.b});
-  ContactBlock k = block;
-  k.lambda = lambda;
-  applyImpulses(k, gains.a, gains.b);
-  return gains;
-}
-
-/// The place of a body's column, which is made if there is none.
-std::size_t columnOf(LoadCertificate& proof, BodyId b) {
-  const auto at = std::ranges::lower_bound(proof.columns, b) - proof.columns.begin();
-  const auto place = static_cast<std::size_t>(at);
-  if (place < proof.columns.size() && proof.columns[place] == b) return place;
-  proof.columns.insert(proof.columns.begin() + at, b);
-  for (Witness& witness : proof.witnesses)
-    witness.outer.insert(witness.outer.begin() + at, Twist{});
-  return place;
-}
-
-void add(Twist& to, const SolverVelocity& gain, double sign, double size) {
-  to.vx += sign * gain.vx;
-  to.vy += sign * gain.vy;
-  to.omega += sign * gain.omega * size;
-}
-
-/// Adds the impulses of a block to the load from outside on one of its bodies, in all proofs.
-void addToColumn(const State& state, LoadCertificate& proof, const ContactBlock& k, BodyId b,
-                 double sign, double size, auto&& lambdaOf) {
-  const std::size_t column = columnOf(proof, b);
-  for (Witness& witness : proof.witnesses) {
-    const Gains gains = gainsOf(state, k, lambdaOf(witness), state.bodies.size());
-    add(witness.outer[column], BodyId{k.a} == b ? gains.a : gains.b, sign, size);
-  }
-}
-
-/// A member whose load from outside counts.
-bool isHeld(const State& state, const Collection& c, std::uint32_t body) {
-  if (body >= state.bodies.size()) return false;
-  const BodyId b{body};
-  return state[b].rigid == c.rigid && b != c.certificate.front().heaviest;
-}
-
-bool hasProofs(const Collection& c) {
-  return !c.certificate.empty() && !c.certificate.front().witnesses.empty();
-}
-
 }  // namespace
 
-void releaseFromProofs(const State& state, Collection& c, const std::vector<std::uint8_t>& stays) {
+void releaseFromProofs(const State& state, Collection& c) {
   if (!hasProofs(c)) return;
   LoadCertificate& proof = c.certificate.front();
-  const double size = sizeOf(state, c);
-  const auto staysHeld = [&](std::uint32_t body) {
-    return isHeld(state, c, body) && stays[state[rigidOf(BodyId{body})].member];
-  };
   std::vector<std::uint32_t> place(c.blocks.size(), kLeft);
   for (const InternalContact& inner : c.contacts) {
     if (inner.block != InternalContact::kNoBlock) place[inner.block] = 0;
   }
+  for (std::uint32_t i = 0; i < c.blocks.size(); ++i) {
+    if (place[i] == kLeft) addToColumns(state, c, i, 1.0);
+  }
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < c.blocks.size(); ++i) {
-    const ContactBlock k = c.blocks[i];
-    if (place[i] == kLeft) {
-      const auto lambdaOf = [&](const Witness& w) -> const Impulses& { return w.lambda[i]; };
-      for (const std::uint32_t body : {k.a, k.b}) {
-        if (staysHeld(body)) addToColumn(state, proof, k, BodyId{body}, 1.0, size, lambdaOf);
-      }
-      continue;
-    }
+    if (place[i] == kLeft) continue;
     place[i] = kept;
-    c.blocks[kept] = k;
+    c.blocks[kept] = c.blocks[i];
     for (Witness& witness : proof.witnesses) witness.lambda[kept] = witness.lambda[i];
     ++kept;
   }
@@ -177,137 +113,66 @@ void ProofTransfer::express(Witness& witness) const {
   witness.lambda = std::move(lambda);
 }
 
-/// The two edges of the cones of new contacts, and the loads from outside that they take over.
-class NewContacts {
- public:
-  static constexpr std::size_t kMost = 16;  // edges: of eight points
-
-  NewContacts(const State& state, const Collection& c, const std::vector<std::uint32_t>& blocks)
-      : state_(state), c_(c) {
-    for (const std::uint32_t i : blocks) add(i);
-  }
-
-  bool tooMany() const { return edges_.size() > kMost; }
-
-  /// The impulses that leave least of the load from outside in a proof.
-  void hold(LoadCertificate& proof, Witness& witness) const {
-    const double size = sizeOf(state_, c_);
-    std::array<double, kMost * kMost> gram{};
-    std::array<double, kMost> b{};
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      for (const Push& push : edges_[i].pushes) {
-        const Twist& outer = witness.outer[columnOf(proof, push.body)];
-        b[i] += energy(push, {outer.vx, outer.vy, outer.omega / size});
-      }
-      for (std::size_t j = 0; j < edges_.size(); ++j) {
-        double& g = gram[i * kMost + j];
-        for (const Push& x : edges_[i].pushes) {
-          for (const Push& y : edges_[j].pushes) {
-            if (x.body == y.body) g += energy(x, y.gain);
-          }
-        }
-        if (i == j) g *= 1.0 + kRidge;
-      }
-    }
-    const auto part = nonNegativeFit<kMost>(gram, b, edges_.size());
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const Edge& edge = edges_[i];
-      Impulses& lambda = witness.lambda[edge.block];
-      lambda[edge.point] += part[i];
-      lambda[edge.point + 2] += part[i] * edge.mu;
-    }
-  }
-
- private:
-  static constexpr double kRidge = 1e-10;  // edges of many points depend on each other
-  struct Push {
-    BodyId body{};
-    Twist gain;
-  };
-  struct Edge {
-    std::uint32_t block = 0;
-    std::size_t point = 0;
-    double mu = 0.0;
-    std::vector<Push> pushes;
-  };
-
-  double energy(const Push& x, const Twist& y) const {
-    const Body& body = state_[x.body];
-    return body.mass * (x.gain.vx * y.vx + x.gain.vy * y.vy) +
-           body.inertia * x.gain.omega * y.omega;
-  }
-
-  void add(std::uint32_t i) {
-    const ContactBlock& k = c_.blocks[i];
-    for (std::size_t p = 0; p < static_cast<std::size_t>(k.count); ++p) {
-      if (!k.rolls() && k.bias[p] > 0.0) continue;  // not closed yet
-      for (const double mu : {k.mu, -k.mu}) {
-        Edge edge{i, p, mu, {}};
-        Impulses unit{};
-        unit[p] = 1.0;
-        unit[p + 2] = mu;
-        const Gains gains = gainsOf(state_, k, unit, state_.bodies.size());
-        const auto push = [&](std::uint32_t body, const SolverVelocity& u) {
-          if (!isHeld(state_, c_, body)) return;
-          edge.pushes.push_back({BodyId{body}, {u.vx, u.vy, u.omega}});
-        };
-        push(k.a, gains.a);
-        push(k.b, gains.b);
-        edges_.push_back(std::move(edge));
-        if (mu == 0.0) break;
-      }
-    }
-  }
-
-  const State& state_;
-  const Collection& c_;
-  std::vector<Edge> edges_;
-};
-
 /// New contacts take over from forces outside what they can: few of them in each proof as much as
 /// they can, many what they carry now.
 void ProofTransfer::holdNewContacts() {
   LoadCertificate& proof = c_.certificate.front();
-  const double size = sizeOf(state_, c_);
   for (const std::uint32_t i : fresh_) {
     for (const std::uint32_t body : {c_.blocks[i].a, c_.blocks[i].b}) {
       if (isHeld(state_, c_, body)) columnOf(proof, BodyId{body});
     }
   }
   const NewContacts contacts(state_, c_, fresh_);
-  if (!contacts.tooMany()) {
+  if (contacts.areFew()) {
     for (Witness& witness : proof.witnesses) {
       for (const std::uint32_t i : fresh_) witness.lambda[i] = {};
-      contacts.hold(proof, witness);
+      contacts.takeOver(proof, witness);
     }
   }
-  for (const std::uint32_t i : fresh_) {
-    const ContactBlock& k = c_.blocks[i];
-    for (const std::uint32_t body : {k.a, k.b}) {
-      if (!isHeld(state_, c_, body)) continue;
-      addToColumn(state_, proof, k, BodyId{body}, -1.0, size,
-                  [&](const Witness& w) -> const Impulses& { return w.lambda[i]; });
-    }
-  }
+  for (const std::uint32_t i : fresh_) addToColumns(state_, c_, i, -1.0);
 }
 
-/// How fast the members move at the new contacts.
-double ProofTransfer::motionOf(const Witness& witness) const {
-  std::vector<SolverVelocity> u(c_.members.size() + 1);
-  for (std::uint32_t m = 0; m < c_.members.size(); ++m) {
-    const BodyId b = c_.members[m];
-    if (b == c_.certificate.front().heaviest) continue;
-    const Twist load = loadOnMember(state_, c_, witness, m);
-    u[m] = atRest(state_, b);
-    u[m].vx = load.vx;
-    u[m].vy = load.vy;
-    u[m].omega = load.omega;
-  }
-  const auto velocity = [&](std::uint32_t body) -> SolverVelocity& {
-    const bool inside = body < state_.bodies.size() && state_[BodyId{body}].rigid == c_.rigid;
-    return inside ? u[state_[rigidOf(BodyId{body})].member] : u.back();
+/// The blocks at members that have a new contact.
+std::vector<std::uint32_t> ProofTransfer::blocksNearBy() const {
+  std::vector<std::uint8_t> near(c_.members.size(), 0);
+  const auto isMember = [&](std::uint32_t body) {
+    return body < state_.bodies.size() && state_[BodyId{body}].rigid == c_.rigid;
   };
+  const auto memberOf = [&](std::uint32_t body) { return state_[rigidOf(BodyId{body})].member; };
+  for (const std::uint32_t i : fresh_) {
+    for (const std::uint32_t body : {c_.blocks[i].a, c_.blocks[i].b}) {
+      if (isMember(body)) near[memberOf(body)] = 1;
+    }
+  }
+  std::vector<std::uint32_t> blocks;
   for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) {
+    const ContactBlock& k = c_.blocks[i];
+    const auto isNear = [&](std::uint32_t body) { return isMember(body) && near[memberOf(body)]; };
+    if (isNear(k.a) || isNear(k.b)) blocks.push_back(i);
+  }
+  return blocks;
+}
+
+/// How fast the members move in a proof, at the new contacts at least.
+double ProofTransfer::motionOf(const Witness& witness,
+                               const std::vector<std::uint32_t>& blocks) const {
+  std::map<std::uint32_t, SolverVelocity> u;
+  const auto start = [&](std::uint32_t body) {
+    if (!isHeld(state_, c_, body)) return;
+    const BodyId b{body};
+    const Twist load = loadOnMember(state_, c_, witness, state_[rigidOf(b)].member);
+    SolverVelocity& of = u.emplace(body, atRest(state_, b)).first->second;
+    of.vx = load.vx;
+    of.vy = load.vy;
+    of.omega = load.omega;
+  };
+  for (const std::uint32_t i : fresh_) start(c_.blocks[i].a), start(c_.blocks[i].b);
+  SolverVelocity still;
+  const auto velocity = [&](std::uint32_t body) -> SolverVelocity& {
+    const auto found = u.find(body);
+    return found == u.end() ? still : found->second;
+  };
+  for (const std::uint32_t i : blocks) {
     ContactBlock k = c_.blocks[i];
     k.lambda = witness.lambda[i];
     applyImpulses(k, velocity(k.a), velocity(k.b));
@@ -335,7 +200,8 @@ void ProofTransfer::finish() {
   dropColumns();
   for (Witness& witness : proof.witnesses) express(witness);
   holdNewContacts();
-  for (Witness& witness : proof.witnesses) witness.motion = motionOf(witness);
+  const std::vector<std::uint32_t> near_by = blocksNearBy();
+  for (Witness& witness : proof.witnesses) witness.motion = motionOf(witness, near_by);
   const auto isProof = [&](const Witness& w) { return w.motion <= cutSpeed(state_); };
   const auto found = proof.witnesses.begin() + static_cast<std::ptrdiff_t>(proof.inherited);
   const auto old = std::count_if(proof.witnesses.begin(), found, isProof);

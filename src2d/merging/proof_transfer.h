@@ -8,10 +8,8 @@
 namespace merge2d {
 
 /// Contacts have left a collection, and their blocks leave it now: in all proofs their impulses
-/// become loads from outside on the members that stay.
-/// stays: per member.
-void releaseFromProofs(const State& state, Collection& collection,
-                       const std::vector<std::uint8_t>& stays);
+/// become loads from outside.
+void releaseFromProofs(const State& state, Collection& collection);
 
 /// Bodies join a collection that has not been laid out anew yet: in the proofs they are held by
 /// forces from outside.
@@ -33,7 +31,8 @@ class ProofTransfer {
   void dropColumns();
   void express(Witness& witness) const;
   void holdNewContacts();
-  double motionOf(const Witness& witness) const;
+  std::vector<std::uint32_t> blocksNearBy() const;
+  double motionOf(const Witness& witness, const std::vector<std::uint32_t>& blocks) const;
 
   const State& state_;
   Collection& c_;

@@ -207,9 +207,7 @@ class Split {
                            cut ? cut->motion : 0.0F});
     }
     c.contacts.resize(staying);
-    std::vector<std::uint8_t> stays(c.members.size());
-    for (std::size_t m = 0; m < stays.size(); ++m) stays[m] = part_[m] == largest_;
-    releaseFromProofs(state_, c, stays);
+    releaseFromProofs(state_, c);
   }
 
   RigidId leave(std::size_t p) {
