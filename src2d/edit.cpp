@@ -10,6 +10,7 @@
 #include "src2d/contact/table.h"
 #include "src2d/core/error.h"
 #include "src2d/merging/collection.h"
+#include "src2d/merging/load_certificate.h"
 #include "src2d/merging/unmerge.h"
 
 namespace merge2d {
@@ -165,6 +166,17 @@ void wakeAll(Setup& setup) {
       setup.actions.stirred.push_back(body);
     }
   }
+}
+
+void setSettings(State& state, const Settings& settings) {
+  if (settings.unmerging.rule != state.settings.unmerging.rule) {
+    for (Collection& c : state.collections) {
+      bringBlocksBack(state, c);
+      writeImpulses(c);
+      c.certificate.clear();
+    }
+  }
+  state.settings = settings;
 }
 
 void setMode(Setup& setup, Scratch& scratch, Mode mode) {

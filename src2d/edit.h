@@ -29,6 +29,9 @@ void setFriction(Setup& setup, BodyId body, double friction);
 void wake(Setup& setup, BodyId body);
 void wakeAll(Setup& setup);
 
+/// Replaces the settings. Another rule of unmerging finds no proofs, and all rows in their places.
+void setSettings(State& state, const Settings& settings);
+
 /// Takes all collections apart where the mode does not merge, wakes all where it does not sleep.
 void setMode(Setup& setup, Scratch& scratch, Mode mode);
 

@@ -287,7 +287,9 @@ class StateCheck {
         require(i == 0 || proof.columns[i - 1] < proof.columns[i], "proofs");
       }
       const std::size_t witnesses = proof.witnesses.size();
-      require(witnesses <= LoadCertificate::kMost, "proofs");
+      require(witnesses <= LoadCertificate::kMost && proof.inherited <= witnesses, "proofs");
+      const NewtonIterate& newton = proof.search.newton;
+      require(newton.u.size() == (newton.unknowns.empty() ? 0 : c.members.size()), "proofs");
       require(proof.heaviest == LoadCertificate{}.heaviest ||
                   std::ranges::binary_search(c.members, proof.heaviest),
               "proofs");

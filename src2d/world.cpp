@@ -352,7 +352,7 @@ void World::removeJoint(std::uint32_t joint) {
 const Settings& World::settings() const { return impl_->setup.state.settings; }
 void World::setSettings(const Settings& settings) {
   checkSettings(settings);
-  impl_->changing().state.settings = settings;
+  merge2d::setSettings(impl_->changing().state, settings);
 }
 Vec2 World::gravity() const { return impl_->setup.state.gravity; }
 

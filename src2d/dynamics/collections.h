@@ -165,7 +165,7 @@ struct LoadCertificate {
   ProofSearch search;
 
   /// Blocks and joints hold other impulses than `impulses` gives.
-  bool isAhead() const { return lambda_stale && !witnesses.empty(); }
+  bool areRowsStale() const { return lambda_stale && !witnesses.empty(); }
 
   /// Of the block or joint at a place, by the weights.
   Impulses impulses(std::size_t at) const {
@@ -209,9 +209,10 @@ struct Collection {
   HitRun hits;                      ///< the last run of them
   std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
 
-  /// Of a block, wherever they stand.
+  /// Of a block: by the weights while the rows are stale, else from there, or from its contact where
+  /// it is put away.
   Impulses impulsesOf(std::size_t block) const {
-    if (!certificate.empty() && certificate.front().isAhead()) {
+    if (!certificate.empty() && certificate.front().areRowsStale()) {
       return certificate.front().impulses(block);
     }
     return blocks.empty() ? contacts[block_contact[block]].impulses() : blocks[block].lambda;

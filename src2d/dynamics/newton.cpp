@@ -60,6 +60,8 @@ class InteriorPoint {
     });
   }
 
+  std::size_t unknowns() const { return unknowns_.size(); }
+
   /// Takes some steps. True where that was the last one.
   bool run(double tolerance, NewtonIterate& iterate, int most_steps) {
     iterate.unknowns.empty() ? start(tolerance) : resume(iterate);
@@ -389,6 +391,7 @@ bool continueByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> join
     workspace.point = std::make_unique<InteriorPoint>(bodies, u);
     for (const ContactBlock& k : blocks) workspace.point->addBlock(k);
     for (const JointBlock& k : joints) workspace.point->addJoint(k);
+    if (iterate.unknowns.size() != workspace.point->unknowns()) iterate = {};  // it begins
   }
   InteriorPoint& solver = *workspace.point;
   if (!solver.run(tolerance, iterate, most_steps)) return false;

@@ -1,11 +1,10 @@
 #pragma once
 /// What a direct solve (dynamics/newton.h) keeps between its parts: its rows, and the layout of its
-/// matrix, which takes as long as two of its steps. All of it follows from the rows of the solve.
+/// matrix, which takes as long as two of its steps. All of it follows from the rows of the solve,
+/// which must stay at their addresses.
 
 #include <cstddef>
 #include <memory>
-
-#include "src2d/core/ids.h"
 
 namespace merge2d {
 
@@ -17,7 +16,6 @@ struct NewtonWorkspace {
   NewtonWorkspace(NewtonWorkspace&&) noexcept;
   NewtonWorkspace& operator=(NewtonWorkspace&&) noexcept;
 
-  CollectionId of = kNoCollection;  ///< whose solve it is
   std::unique_ptr<InteriorPoint> point;
 };
 

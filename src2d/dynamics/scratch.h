@@ -4,6 +4,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "src2d/core/assert.h"
@@ -265,10 +266,10 @@ struct Scratch {
   std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
 
   // Unmerge
-  std::vector<SolverVelocity> trial_u;           ///< per body
-  NewtonWorkspace newton;                        ///< of a direct solve that is under way
-  bool split = false;                            ///< some collection was taken apart
-  std::vector<std::uint32_t> overloaded_joints;  ///< break after the full solve
+  std::vector<SolverVelocity> trial_u;             ///< per body
+  std::map<CollectionId, NewtonWorkspace> newton;  ///< of direct solves that are under way
+  bool split = false;                              ///< some collection was taken apart
+  std::vector<std::uint32_t> overloaded_joints;    ///< break after the full solve
 
   // Merge
   std::vector<ReadyPair> ready;  ///< ascending by bodies

@@ -260,7 +260,7 @@ void absorbContacts(State& state) {
       inner.points[i] = {from_a * p.position, p.lambda_n, p.lambda_t};
       inner.gap[i] = p.gap;
       inner.feature[i] = p.feature;
-      inner.watch[i].active = p.lambda_n > 0.0 || isBilateral(state, contact.key.a, contact.key.b);
+      inner.watch[i].active = p.lambda_n > 0.0 || isHeld(state, contact);
     }
     if (contact.count == 1) inner.points[1].lambda_t = rollingImpulse(state, contact);
     unmergingMethod(state).enter(inner);

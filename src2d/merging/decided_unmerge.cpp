@@ -252,7 +252,6 @@ void decideOne(State& state, Scratch& scratch, Collection& c) {
   const bool parting = moves && fallsApart(state, c, parts);
   if (parting) {
     c.settled = false;
-    proof.in_doubt = true;
     splitAtCuts(state, scratch, c.rigid, parts);
   } else {
     forgetCuts(c);

@@ -307,7 +307,8 @@ void layOutCollections(State& state) {
 
 void layOutFloating(State& state) {
   for (Collection& c : state.collections) {
-    if (c.id != kNoCollection && c.stale && state[c.rigid].floating()) layOut(state, c);
+    if (c.id == kNoCollection || !c.stale) continue;
+    if (state[c.rigid].floating() || !c.certificate.empty()) layOut(state, c);
   }
 }
 

@@ -198,7 +198,6 @@ void restart(const State& state, LoadCertificate& proof) {
   fillGram(proof);
   proof.weights = {};
   proof.lambda_stale = false;
-  proof.in_doubt = false;
   proof.since = state.step;
   proof.search = {};
   proof.inherited = proof.witnesses.size();
@@ -352,7 +351,7 @@ Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
 }
 
 void writeImpulses(Collection& c) {
-  if (c.certificate.empty() || !c.certificate.front().isAhead()) return;
+  if (c.certificate.empty() || !c.certificate.front().areRowsStale()) return;
   LoadCertificate& proof = c.certificate.front();
   proof.lambda_stale = false;
   std::size_t at = 0;

@@ -150,7 +150,7 @@ bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
   release(scratch.open);
   release(scratch.outer_loads);
   release(scratch.trial_u);
-  scratch.newton = {};
+  scratch.newton.clear();
   return true;
 }
 

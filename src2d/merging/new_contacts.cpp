@@ -15,7 +15,7 @@ NewContacts::NewContacts(const State& state, const Collection& c,
 void NewContacts::add(std::uint32_t i) {
   const ContactBlock& k = c_.blocks[i];
   for (std::size_t p = 0; p < static_cast<std::size_t>(k.count); ++p) {
-    if (!k.rolls() && k.bias[p] > 0.0) continue;
+    if (k.bias[p] > 0.0) continue;
     for (const double mu : {k.mu, -k.mu}) {
       Edge edge{i, p, mu, {}};
       Impulses unit{};
@@ -23,7 +23,8 @@ void NewContacts::add(std::uint32_t i) {
       unit[p + 2] = mu;
       const BlockGains gains = gainsOf(state_, k, unit);
       const auto push = [&](std::uint32_t body, const SolverVelocity& u) {
-        if (isHeld(state_, c_, body)) edge.pushes.push_back({BodyId{body}, {u.vx, u.vy, u.omega}});
+        if (hasColumn(state_, c_, body))
+          edge.pushes.push_back({BodyId{body}, {u.vx, u.vy, u.omega}});
       };
       push(k.a, gains.a);
       push(k.b, gains.b);

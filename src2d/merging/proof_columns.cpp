@@ -8,7 +8,7 @@ bool hasProofs(const Collection& c) {
   return !c.certificate.empty() && !c.certificate.front().witnesses.empty();
 }
 
-bool isHeld(const State& state, const Collection& c, std::uint32_t body) {
+bool hasColumn(const State& state, const Collection& c, std::uint32_t body) {
   if (body >= state.bodies.size()) return false;
   const BodyId b{body};
   return state[b].rigid == c.rigid && b != c.certificate.front().heaviest;
@@ -52,7 +52,7 @@ void addToColumns(const State& state, Collection& c, std::uint32_t block, double
     column.omega += sign * gain.omega * size;
   };
   for (const std::uint32_t body : {k.a, k.b}) {
-    if (!isHeld(state, c, body)) continue;
+    if (!hasColumn(state, c, body)) continue;
     const std::size_t column = columnOf(proof, BodyId{body});
     for (Witness& witness : proof.witnesses) {
       const BlockGains gains = gainsOf(state, k, witness.lambda[block]);

@@ -10,7 +10,7 @@ bool hasProofs(const Collection& collection);
 
 /// Whether a body is a member whose load from outside counts: of a floating collection the heaviest
 /// follows from the others.
-bool isHeld(const State& state, const Collection& collection, std::uint32_t body);
+bool hasColumn(const State& state, const Collection& collection, std::uint32_t body);
 
 /// A member as the rows inside see it, without velocity.
 SolverVelocity atRest(const State& state, BodyId body);

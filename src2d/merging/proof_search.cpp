@@ -124,10 +124,8 @@ bool solveDirectly(const State& state, Scratch& scratch, Collection& c) {
   ProofSearch& search = c.certificate.front().search;
   search.nncg.previous = 0.0;
   const double most = kDecided.row_sweeps / static_cast<double>(c.blocks.size() + c.joints.size());
-  if (scratch.newton.of != c.id) scratch.newton = {};
-  scratch.newton.of = c.id;
   return continueByNewton(c.blocks, c.joints, bodies, scratch.trial_u, toleratedResidual(state),
-                          search.newton, std::max(1, static_cast<int>(most)), scratch.newton);
+                          search.newton, std::max(1, static_cast<int>(most)), scratch.newton[c.id]);
 }
 
 }  // namespace
@@ -136,6 +134,7 @@ void beginSearch(const State& state, Collection& c, const CollectionLoad& load) 
   ProofSearch& search = newSearch(c, asWitness(state, c, load));
   loadMembers(state, c, load, search.start);
   swapImpulses(c, search.load);  // the progress outlives a new layout
+  c.certificate.front().weights = {};
 }
 
 bool isSuspended(const ProofSearch& search) { return !search.newton.unknowns.empty(); }

@@ -1,7 +1,9 @@
 #include "src2d/merging/proof_transfer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "src2d/merging/decided_settings.h"
 #include "src2d/merging/new_contacts.h"
@@ -20,6 +22,8 @@ constexpr std::uint32_t kLeft = ~0u;  ///< no contact refers to the block any mo
 void releaseFromProofs(const State& state, Collection& c) {
   if (!hasProofs(c)) return;
   LoadCertificate& proof = c.certificate.front();
+  const bool has_joints = proof.witnesses.front().lambda.size() != c.blocks.size();
+  if (has_joints) return forgetProofs(c);
   std::vector<std::uint32_t> place(c.blocks.size(), kLeft);
   for (const InternalContact& inner : c.contacts) {
     if (inner.block != InternalContact::kNoBlock) place[inner.block] = 0;
@@ -119,7 +123,7 @@ void ProofTransfer::holdNewContacts() {
   LoadCertificate& proof = c_.certificate.front();
   for (const std::uint32_t i : fresh_) {
     for (const std::uint32_t body : {c_.blocks[i].a, c_.blocks[i].b}) {
-      if (isHeld(state_, c_, body)) columnOf(proof, BodyId{body});
+      if (hasColumn(state_, c_, body)) columnOf(proof, BodyId{body});
     }
   }
   const NewContacts contacts(state_, c_, fresh_);
@@ -158,7 +162,7 @@ double ProofTransfer::motionOf(const Witness& witness,
                                const std::vector<std::uint32_t>& blocks) const {
   std::map<std::uint32_t, SolverVelocity> u;
   const auto start = [&](std::uint32_t body) {
-    if (!isHeld(state_, c_, body)) return;
+    if (!hasColumn(state_, c_, body)) return;
     const BodyId b{body};
     const Twist load = loadOnMember(state_, c_, witness, state_[rigidOf(b)].member);
     SolverVelocity& of = u.emplace(body, atRest(state_, b)).first->second;
@@ -188,6 +192,24 @@ double ProofTransfer::motionOf(const Witness& witness,
   return most;
 }
 
+/// Drops the forces from outside that the new contacts have not taken over: nothing gives them.
+/// Returns the speed that they would have given [m/s].
+double ProofTransfer::dropForcesOutside(Witness& witness) const {
+  LoadCertificate& proof = c_.certificate.front();
+  const double size = sizeOf(state_, c_);
+  double speed = 0.0;
+  for (const std::uint32_t i : fresh_) {
+    for (const std::uint32_t body : {c_.blocks[i].a, c_.blocks[i].b}) {
+      if (!hasColumn(state_, c_, body)) continue;
+      const BodyId b{body};
+      const Twist outer = std::exchange(witness.outer[columnOf(proof, b)], Twist{});
+      const double reach = state_.extent(rigidOf(b)).box.half.norm();
+      speed += std::hypot(outer.vx, outer.vy) + reach * std::abs(outer.omega) / size;
+    }
+  }
+  return speed;
+}
+
 void ProofTransfer::finish() {
   if (!survives()) {
     c_.certificate.clear();
@@ -201,11 +223,14 @@ void ProofTransfer::finish() {
   for (Witness& witness : proof.witnesses) express(witness);
   holdNewContacts();
   const std::vector<std::uint32_t> near_by = blocksNearBy();
-  for (Witness& witness : proof.witnesses) witness.motion = motionOf(witness, near_by);
+  for (Witness& witness : proof.witnesses) {
+    witness.motion = motionOf(witness, near_by) + dropForcesOutside(witness);
+  }
   const auto isProof = [&](const Witness& w) { return w.motion <= cutSpeed(state_); };
   const auto found = proof.witnesses.begin() + static_cast<std::ptrdiff_t>(proof.inherited);
   const auto old = std::count_if(proof.witnesses.begin(), found, isProof);
   std::erase_if(proof.witnesses, [&](const Witness& w) { return !isProof(w); });
+  dropColumns();
   if (changedMuch()) {  // perhaps long ago
     proof.witnesses.erase(proof.witnesses.begin(), proof.witnesses.begin() + old);
     dropColumns();

@@ -144,6 +144,24 @@ TEST(Determinism, AWatchedWorldEqualsAnUnwatchedOne) {
   }
 }
 
+/// A wall with proofs, onto which boxes fall: in some steps one leaves while another joins.
+TEST(Determinism, AWatchedWallThatGainsAndLosesBodiesEqualsAnUnwatchedOne) {
+  Scene scene = wallOnSwingingPlatform(10, 10, 0.4, 4.0);
+  EmitterDesc rain;
+  rain.body = scene.bodies.back();
+  rain.body.name = "drop";
+  rain.body.at = {0.0, 14.0};
+  rain.every = 0.2;
+  rain.count = 40;
+  rain.spread = {4.0, 0.0};
+  scene.emitters.push_back(rain);
+  for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+    CountingObserver observer;
+    const auto watched = run(scene, {.mode = mode, .timings = false}, 1000, &observer);
+    EXPECT_EQ(firstDifference(watched, run(scene, inMode(mode), 1000)), -1) << name(mode);
+  }
+}
+
 TEST(Determinism, AskingForDecisionsChangesNothing) {
   for (const Mode mode : kModes) {
     const WorldOptions asking{.mode = mode, .timings = false, .decisions = true};
