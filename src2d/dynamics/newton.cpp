@@ -64,11 +64,11 @@ class InteriorPoint {
 
   /// Takes some steps. True where that was the last one.
   bool run(double tolerance, NewtonIterate& iterate, int most_steps) {
-    iterate.unknowns.empty() ? start(tolerance) : resume(iterate);
+    iterate.unknowns.empty() ? start(tolerance) : swapWith(iterate);
     for (int step = 0;; ++step, ++iterate.steps) {
       if (findErrors() <= exact_ || iterate.steps == kMostSteps) break;
       if (step == most_steps) {
-        suspend(iterate);
+        swapWith(iterate);
         return false;
       }
       if (!factorize()) break;
@@ -100,15 +100,10 @@ class InteriorPoint {
   }
 
  private:
-  void suspend(NewtonIterate& iterate) {
-    iterate.unknowns = std::move(unknowns_);
-    iterate.u = std::move(u_now_);
-    iterate.exact = exact_;
-  }
-  void resume(NewtonIterate& iterate) {
-    unknowns_ = std::move(iterate.unknowns);
-    u_now_ = std::move(iterate.u);
-    exact_ = iterate.exact;
+  void swapWith(NewtonIterate& iterate) {
+    std::swap(unknowns_, iterate.unknowns);
+    std::swap(u_now_, iterate.u);
+    std::swap(exact_, iterate.exact);
   }
 
   RowGroup& addGroup(std::uint32_t row, double softness) {
@@ -370,11 +365,6 @@ class InteriorPoint {
   std::size_t next_ = 0;
 };
 
-NewtonWorkspace::NewtonWorkspace() = default;
-NewtonWorkspace::~NewtonWorkspace() = default;
-NewtonWorkspace::NewtonWorkspace(NewtonWorkspace&&) noexcept = default;
-NewtonWorkspace& NewtonWorkspace::operator=(NewtonWorkspace&&) noexcept = default;
-
 void solveByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
                    std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
                    double tolerance) {
@@ -388,7 +378,7 @@ bool continueByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> join
                       double tolerance, NewtonIterate& iterate, int most_steps,
                       NewtonWorkspace& workspace) {
   if (iterate.unknowns.empty() || !workspace.point) {
-    workspace.point = std::make_unique<InteriorPoint>(bodies, u);
+    workspace.point = std::make_shared<InteriorPoint>(bodies, u);
     for (const ContactBlock& k : blocks) workspace.point->addBlock(k);
     for (const JointBlock& k : joints) workspace.point->addJoint(k);
     if (iterate.unknowns.size() != workspace.point->unknowns()) iterate = {};  // it begins

@@ -1,9 +1,8 @@
 #pragma once
-/// What a direct solve (dynamics/newton.h) keeps between its parts: its rows, and the layout of its
-/// matrix, which takes as long as two of its steps. All of it follows from the rows of the solve,
-/// which must stay at their addresses.
+/// The data that a direct solve (dynamics/newton.h) keeps between its parts: its rows, and the
+/// layout of its matrix, which takes as long as two of its steps. All of it follows from the rows
+/// of the solve, which must stay at their addresses.
 
-#include <cstddef>
 #include <memory>
 
 namespace merge2d {
@@ -11,12 +10,7 @@ namespace merge2d {
 class InteriorPoint;
 
 struct NewtonWorkspace {
-  NewtonWorkspace();
-  ~NewtonWorkspace();
-  NewtonWorkspace(NewtonWorkspace&&) noexcept;
-  NewtonWorkspace& operator=(NewtonWorkspace&&) noexcept;
-
-  std::unique_ptr<InteriorPoint> point;
+  std::shared_ptr<InteriorPoint> point;
 };
 
 }  // namespace merge2d

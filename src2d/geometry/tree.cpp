@@ -9,7 +9,7 @@ namespace {
 constexpr float kRoom = 0.1F;
 /// The room ahead, in displacements …
 constexpr float kAhead = 4.0F;
-/// … and at most [m]: what is faster leaves its box at once, and a long box meets many others.
+/// … and at most [m]: faster leaves leave their boxes at once, and a long box meets many others.
 constexpr float kFarthestAhead = 4.0F * kRoom;
 /// A fat box that is larger than a new one would be by more than this on any side is too large [m].
 constexpr float kTooMuch = 4.0F * kRoom;
