@@ -209,8 +209,8 @@ struct Collection {
   HitRun hits;                      ///< the last run of them
   std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
 
-  /// Of a block: by the weights while the rows are stale, else from there, or from its contact where
-  /// it is put away.
+  /// Of a block: by the weights while the rows are stale, else from there, or from its contact
+  /// where it is put away.
   Impulses impulsesOf(std::size_t block) const {
     if (!certificate.empty() && certificate.front().areRowsStale()) {
       return certificate.front().impulses(block);
