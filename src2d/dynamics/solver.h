@@ -18,8 +18,9 @@ double contactBias(const SolverSettings& settings, double h, double gap);
 
 /// The same for a magnet's contact, which shall have just this velocity. A gap is closed at the
 /// speed `closing` [m/s] with which it closes already, but no slower than an overlap is removed,
-/// and no faster than the gap allows: a magnet neither takes hold with a blow, nor stops what has
-/// not reached it. Guarded by Magnet.TakesHoldWithoutABlow and Magnet.AddsNoEnergyToWhatSpinsPast.
+/// and no faster than the gap allows: a magnet neither takes hold with a blow, nor stops a body
+/// that has not reached it. Guarded by Magnet.TakesHoldWithoutABlow and
+/// Magnet.AddsNoEnergyToWhatSpinsPast.
 double bilateralBias(const SolverSettings& settings, double h, double gap, double closing);
 
 /// The smaller side of the smaller of two bodies, of those that respond to forces [m].

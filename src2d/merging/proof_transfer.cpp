@@ -117,8 +117,8 @@ void ProofTransfer::express(Witness& witness) const {
   witness.lambda = std::move(lambda);
 }
 
-/// New contacts take over from forces outside what they can: few of them in each proof as much as
-/// they can, many what they carry now.
+/// New contacts take over forces from outside: few of them as large a part as they can, in each
+/// proof anew; many of them their impulses of now.
 void ProofTransfer::holdNewContacts() {
   LoadCertificate& proof = c_.certificate.front();
   for (const std::uint32_t i : fresh_) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Proofs outlive a layout: the impulses of a witness go on to carry what they carried when a body
-/// joins a collection or leaves it. Those between the body and the others become loads from
+/// Proofs outlive a layout: the impulses of a witness go on to carry their load when a body joins a
+/// collection or leaves it. Those between the body and the others become loads from
 /// outside, or no longer are.
 
 #include "src2d/merging/load_certificate.h"

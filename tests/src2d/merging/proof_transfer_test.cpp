@@ -9,7 +9,7 @@ namespace merge2d {
 namespace {
 
 /// A cart on two springs, which swings for ever, or a platform that is moved to and fro; on it
-/// stand a wall.
+/// stands a wall.
 std::string swinging(bool floats) {
   const std::string base = floats ? R"(
 format = 1
