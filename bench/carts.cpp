@@ -11,20 +11,13 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "bench/random_mounts.h"
 #include "bench/random_scene.h"
 #include "src2d/world.h"
 
 namespace merge2d::bench {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-template <class T, std::size_t n>
-T oneOf(Random& random, const std::array<T, n>& values) {
-  return values[random.below(n)];
-}
 
 /// Boxes of one size on top of each other, of which one may be denser.
 struct Tower {
@@ -62,69 +55,11 @@ void add(Scene& scene, const Tower& tower, const Vec2& foot) {
   }
 }
 
-void addSpring(Scene& scene, const Vec2& anchor, const Vec2& to, double stiffness, double damping) {
-  SpringDesc spring;
-  spring.body = 0;
-  spring.anchor = anchor;
-  spring.to = to;
-  spring.stiffness = stiffness;
-  spring.damping = damping;
-  scene.springs.push_back(spring);
-}
-
-/// Hangs on two rods and swings without turning.
-void hang(Scene& scene, Random& random) {
-  const double length = random.between(3.0, 6.0), angle = random.between(15.0, 45.0) * kDegree;
-  scene.bodies[0].velocity = {std::sqrt(2.0 * 9.81 * length * (1.0 - std::cos(angle))), 0.0};
-  for (const double x : {-1.4, 1.4}) {
-    JointDesc rod;
-    rod.kind = JointKind::Distance;
-    rod.at = {x, 0.0};
-    rod.to = {x, length};
-    scene.joints.push_back(rod);
-  }
-}
-
-/// Held by four springs, and swings sideways or up and down.
-void spring(Scene& scene, Random& random) {
-  const double mass = *scene.bodies[0].mass, speed = random.between(0.5, 4.0);
-  const double turn = oneOf(random, std::array{0.0, 0.3});
-  scene.bodies[0].velocity = {speed, turn * speed};
-  for (const double x : {-1.4, 1.4}) {
-    addSpring(scene, {x, 0.0}, {x, 4.0}, 5.0 * mass, 0.0);
-    addSpring(scene, {x, 0.0}, {4.0 * x, 0.0}, random.between(2.0, 8.0) * mass, 0.0);
-  }
-}
-
-/// Turns about a hinge on the world at its left end, held up by a spring at the other.
-void hinge(Scene& scene, Random& random) {
-  const double mass = *scene.bodies[0].mass;
-  JointDesc pin;
-  pin.kind = JointKind::Revolute;
-  pin.at = {-1.4, 0.0};
-  scene.joints.push_back(pin);
-  addSpring(scene, {1.4, 0.0}, {1.4, 3.0}, random.between(1.0, 2.5) * mass, 0.1 * mass);
-}
-
-/// Rolls without friction on the ground, pulled by a force.
-void pull(Scene& scene, Random& random) {
-  const double mass = *scene.bodies[0].mass;
-  JointDesc rail;
-  rail.kind = JointKind::Prismatic;
-  rail.axis = Vec2::UnitX();
-  scene.joints.push_back(rail);
-  ForceDesc force;
-  force.force = {random.between(2.0, 9.0) * mass, 0.0};
-  force.from = 1.0;
-  scene.forces.push_back(force);
-}
-
 Scene cart(Random& random) {
   Scene scene;
   BodyDesc seat = box("cart", 3.0, 0.2, {0.0, 0.0});
   seat.mass = oneOf(random, std::array{10.0, 100.0, 1000.0});
   scene.bodies.push_back(seat);
-  constexpr std::array kMounts{hang, spring, hinge, pull};
   kMounts[random.below(kMounts.size())](scene, random);
   const Tower tower = randomTower(random, 2 + static_cast<int>(random.below(11)));
   add(scene, tower, {random.between(-0.3, 0.3), 0.1});
@@ -150,8 +85,6 @@ Scene column(Random& random) {
   return scene;
 }
 
-constexpr double kNever = 1e9;
-
 /// When the top box has turned by 15 degrees or moved by a quarter of a metre against the first
 /// body, or kNever [s].
 double timeOfFall(const Scene& scene, Mode mode, double until) {
@@ -173,8 +106,6 @@ double timeOfFall(const Scene& scene, Mode mode, double until) {
   return kNever;
 }
 
-std::string shown(double time) { return time == kNever ? "never" : fmt::format("{:5.2f}", time); }
-
 void run(const Cases& cases, bool columns) {
   constexpr double kLate = 0.3;  // [s]
   const double until = columns ? 14.0 : 12.0;
@@ -183,10 +114,7 @@ void run(const Cases& cases, bool columns) {
     Random random = cases.random(i);
     Scene scene = columns ? column(random) : cart(random);
     scene.settings.unmerging.rule = cases.rule;
-    Scene hard = scene;
-    hard.settings.solver.iterations = 100;
-    hard.settings.solver.compliance *= 0.1;
-    const double reference = timeOfFall(hard, Mode::Reference, until);
+    const double reference = timeOfFall(hardened(scene), Mode::Reference, until);
     if (reference > until - 2.0) continue;
     const double soft = timeOfFall(scene, Mode::Reference, until);
     const double merged = timeOfFall(scene, Mode::Merge, until);

@@ -1,9 +1,13 @@
 #pragma once
 /// The parts of random scenes.
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstddef>
 #include <map>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -11,6 +15,8 @@
 #include "src2d/scene/scene.h"
 
 namespace merge2d::bench {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 inline BodyDesc box(const std::string& name, double width, double height, const Vec2& at) {
   BodyDesc body;
@@ -32,6 +38,35 @@ class Random {
  private:
   std::mt19937 engine_;
 };
+
+/// On the first body; its other end is on the world.
+inline void addSpring(Scene& scene, const Vec2& anchor, const Vec2& to, double stiffness, double damping) {
+  SpringDesc spring;
+  spring.body = 0;
+  spring.anchor = anchor;
+  spring.to = to;
+  spring.stiffness = stiffness;
+  spring.damping = damping;
+  scene.springs.push_back(spring);
+}
+
+template <class T, std::size_t n>
+T oneOf(Random& random, const std::array<T, n>& values) {
+  return values[random.below(n)];
+}
+
+/// The same scene with contacts ten times as hard, of which a reference converges.
+inline Scene hardened(Scene scene) {
+  scene.settings.solver.iterations = 100;
+  scene.settings.solver.compliance *= 0.1;
+  return scene;
+}
+
+inline constexpr double kNever = 1e9;  ///< the time of what does not happen [s]
+
+inline std::string shown(double time) {
+  return time == kNever ? "never" : fmt::format("{:5.2f}", time);
+}
 
 /// Which random scenes to make, and how much to say of them.
 struct Cases {

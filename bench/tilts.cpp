@@ -19,8 +19,6 @@
 namespace merge2d::bench {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 struct Wall {
   int columns, rows;
   double shift;   ///< of every other row [m]
