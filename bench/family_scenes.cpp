@@ -8,8 +8,9 @@
 namespace merge2d::bench {
 namespace {
 
+constexpr double kBefore = 1.9;     // when places are noted [s]
 constexpr double kGravity = 9.81;    // [m/s²]
-constexpr double kSettled = 1.0;     // [s]
+constexpr double kSettled = 2.0;     // when loads begin [s]
 constexpr double kTilted = 60.0;     // how far any ground is tilted [degrees]
 constexpr double kAtRest = 1000.0;   // the end of scripts [s]
 
@@ -174,16 +175,16 @@ Structure movingFrame(Random& random) {
   } else if (kind == 2) {
     s.kind = "tilt";
     const double angle = std::atan(factor * most / kGravity);
-    s.until = random.between(3.0, 12.0);
-    move(moves, turned(seat.at, kSettled, s.until - 1.0, side(random) * angle));
-    s.until += 2.0;
+    const double seconds = random.between(2.0, 10.0);
+    move(moves, turned(seat.at, kSettled, seconds, side(random) * angle));
+    s.until = kSettled + seconds + 2.0;
   } else if (kind == 3) {
     s.kind = "rush";
     move(moves, rushing(seat.at, factor * most, 8.0));
   } else {
     kMounts[kind - 4](s.scene, random);
   }
-  s.from = kind < 4 ? kSettled : 0.0;
+  s.from = kind < 4 ? kBefore : 0.0;
   add(s, wall, {random.between(-0.2, 0.2), 0.1});
   setFriction(s.scene, friction);
   return s;
@@ -207,57 +208,65 @@ BodyDesc turningDrum(Random& random, int sides, double radius) {
   return body;
 }
 
-/// Turns about a hinge far above it.
-void pendulum(Scene& scene, Random& random) {
-  BodyDesc& seat = scene.bodies.front();
-  const double length = random.between(1.5, 5.0), angle = random.between(20.0, 80.0) * kDegree;
-  seat.spin = side(random) * std::sqrt(2.0 * kGravity / length * (1.0 - std::cos(angle)));
-  seat.velocity = {seat.spin * length, 0.0};
+/// A hinge far above the seat.
+void hangOnHinge(Scene& scene, double length) {
   JointDesc pin;
   pin.at = {0.0, length};
   scene.joints.push_back(pin);
 }
 
-/// Hangs on two rods that part or meet upwards, so that it turns as it swings.
-void trapeze(Scene& scene, Random& random) {
-  const double length = random.between(2.0, 5.0), angle = random.between(15.0, 60.0) * kDegree;
-  BodyDesc& seat = scene.bodies.front();
-  seat.velocity = {std::sqrt(2.0 * kGravity * length * (1.0 - std::cos(angle))), 0.0};
-  const double spread = random.between(-0.8, 0.8);
-  for (const double x : {-1.4, 1.4}) {
+/// Two rods, which turn the seat as it swings where they part or meet upwards.
+void hangOnRods(Scene& scene, double length, double spread) {
+  for (const double x : {-1.0, 1.0}) {
     JointDesc rod;
     rod.kind = JointKind::Distance;
-    rod.at = {x, 0.0};
-    rod.to = {x + std::copysign(spread, spread * x), length};
+    rod.at = {1.4 * x, 0.0};
+    rod.to = {(1.4 + spread) * x, length};
     scene.joints.push_back(rod);
   }
-  // The rods turn it so that their ends move across them.
-  seat.spin = -seat.velocity.x() * spread / length / 1.4;
+}
+
+/// Hangs at rest; a spring to a hand that moves to and fro swings it more and more.
+Structure swing(Random& random) {
+  Structure s{.kind = "rods", .from = kBefore, .until = 20.0};
+  BodyDesc seat = box("seat", 3.0, 0.2, {0.0, 0.0});
+  seat.mass = oneOf(random, std::array{10.0, 50.0, 300.0});
+  s.scene.bodies.push_back(seat);
+  const double length = random.between(1.5, 5.0);
+  if (random.below(3) == 0) {
+    s.kind = "hinge";
+    hangOnHinge(s.scene, length);
+  } else {
+    hangOnRods(s.scene, length, random.below(2) == 0 ? 0.0 : random.between(-0.8, 0.8));
+  }
+  add(s, randomWall(random, 2.5, 2.0), {random.between(-0.5, 0.5), 0.1});
+  setFriction(s.scene, random.between(0.2, 0.9));
+  BodyDesc hand = box("hand", 0.1, 0.1, {-50.0, 0.0});
+  const double period =
+      2.0 * std::numbers::pi * std::sqrt(length / kGravity) * random.between(0.9, 1.1);
+  move(hand, shaken(hand.at, random.between(1.0, 4.0) * kGravity, period, 18.0));
+  SpringDesc pull;
+  pull.to_body = s.scene.bodies.size();
+  pull.rest_length = 50.0;
+  pull.stiffness = 0.2 * massOf(s.scene) * kGravity / length;
+  s.scene.springs.push_back(pull);
+  s.scene.bodies.push_back(hand);
+  return s;
 }
 
 }  // namespace
 
 Structure drum(Random& random) {
-  const std::size_t kind = random.below(4);
-  if (kind < 2) {
-    Structure s{.kind = "drum", .from = 0.9};
-    const int sides = count(random, 5, 9);
-    const double radius = random.between(1.5, 2.5);
-    s.scene.bodies.push_back(turningDrum(random, sides, radius));
-    const auto& path = std::get<Keyframes>(*s.scene.bodies.front().script);
-    s.until = std::min(20.0, path.keys[2].time);
-    const double length = 2.0 * radius * std::tan(std::numbers::pi / sides);
-    add(s, randomWall(random, 0.9 * length, 1.2 * radius), {0.0, 0.0});
-    setFriction(s.scene, random.between(0.3, 1.0));
-    return s;
-  }
-  Structure s{.kind = kind == 2 ? "pendulum" : "trapeze"};
-  BodyDesc seat = box("seat", 3.0, 0.2, {0.0, 0.0});
-  seat.mass = oneOf(random, std::array{10.0, 50.0, 300.0});
-  s.scene.bodies.push_back(seat);
-  (kind == 2 ? pendulum : trapeze)(s.scene, random);
-  add(s, randomWall(random, 2.5, 2.0), {random.between(-0.5, 0.5), 0.1});
-  setFriction(s.scene, random.between(0.2, 1.0));
+  if (random.below(2) == 0) return swing(random);
+  Structure s{.kind = "drum", .from = kBefore};
+  const int sides = count(random, 5, 9);
+  const double radius = random.between(1.5, 2.5);
+  s.scene.bodies.push_back(turningDrum(random, sides, radius));
+  const auto& path = std::get<Keyframes>(*s.scene.bodies.front().script);
+  s.until = std::min(20.0, path.keys[2].time);
+  const double length = 2.0 * radius * std::tan(std::numbers::pi / sides);
+  add(s, randomWall(random, 0.9 * length, 1.2 * radius), {0.0, 0.0});
+  setFriction(s.scene, random.between(0.3, 1.0));
   return s;
 }
 
@@ -277,7 +286,7 @@ BodyDesc ringPiece(const std::string& name, double inner, double outer, double f
 
 /// Voussoirs between two abutments.
 Structure roundArch(Random& random) {
-  Structure s{.kind = "spread", .from = 0.9};
+  Structure s{.kind = "spread", .from = kBefore};
   const int n = count(random, 4, 11);
   const double radius = random.between(1.5, 3.0), half = 0.5 * radius * random.between(0.13, 0.3);
   const double start = oneOf(random, std::array{0.0, 15.0, 30.0}) * kDegree;
@@ -302,7 +311,7 @@ Structure roundArch(Random& random) {
     s.until = kSettled + way / speed + 3.0;
   } else {
     s.kind = "load";
-    s.until = 14.0;
+    s.until = 15.0;
     const auto stone = static_cast<BodyIndex>(2 + count(random, n / 4, 3 * n / 4));
     const double lean = random.between(-0.4, 0.4);
     pullMoreAndMore(s.scene, std::min<BodyIndex>(stone, static_cast<BodyIndex>(n + 1)), Vec2::Zero(),
@@ -314,7 +323,7 @@ Structure roundArch(Random& random) {
 
 /// A lintel on two piers of boxes laid flat, of which each lies a little farther inward.
 Structure corbels(Random& random) {
-  Structure s{.kind = "corbels", .from = 0.9};
+  Structure s{.kind = "corbels", .from = kBefore};
   const double gap = random.between(1.0, 2.5), width = random.between(0.6, 1.2);
   const double height = random.between(0.15, 0.4);
   const int rows = count(random, 2, 6);
@@ -342,7 +351,7 @@ Structure corbels(Random& random) {
     move(right, shifted(right.at, kSettled, way / speed, {way, 0.0}));
     s.until = kSettled + way / speed + 3.0;
   } else {
-    s.until = 14.0;
+    s.until = 15.0;
     const double lean = random.between(-1.3, 1.3);
     const BodyIndex lintel = s.scene.bodies.size() - 1;
     pullMoreAndMore(s.scene, lintel, {random.between(-0.4, 0.4) * length, 0.5 * height},
@@ -359,10 +368,10 @@ Structure arch(Random& random) {
 }
 
 Structure ladder(Random& random) {
-  Structure s{.kind = "load", .from = 0.9};
+  Structure s{.kind = "load", .from = kBefore};
   const double length = random.between(2.0, 4.0), half = random.between(0.04, 0.1);
   const double lean = random.between(8.0, 40.0) * kDegree;
-  const double friction = std::tan(lean) * random.between(0.55, 1.1);
+  const double friction = std::tan(lean) * random.between(0.5, 0.85);
   s.scene.bodies.push_back(pinnedBox("floor", 30.0, 1.0, {0.0, -0.5}));
   s.scene.bodies.push_back(pinnedBox("wall", 1.0, 8.0, {-0.5, 4.0}));
   const double cosine = std::cos(lean), sine = std::sin(lean);
@@ -384,21 +393,21 @@ Structure ladder(Random& random) {
   setFriction(s.scene, friction);
   const std::size_t kind = random.below(3);
   if (kind == 0) {
-    s.until = 14.0;
-    const double place = random.between(-0.3, 0.5) * length, towards = random.between(-0.3, 0.3);
+    s.until = 15.0;
+    const double place = random.between(0.0, 0.5) * length, towards = random.between(-0.3, 0.3);
     pullMoreAndMore(s.scene, s.scene.bodies.size() - 1, {0.0, place},
                     {std::sin(towards), -std::cos(towards)},
                     massOf(s.scene) * kGravity * random.between(0.05, 0.6), kSettled, s.until);
   } else if (kind == 1) {
     s.kind = "floor slides";
-    const double way = length * random.between(0.1, 0.6), speed = random.between(0.02, 0.2);
+    const double way = length * random.between(0.2, 0.9), speed = random.between(0.02, 0.2);
     move(s.scene.bodies[0], shifted({0.0, -0.5}, kSettled, way / speed, {way, 0.0}));
     s.until = kSettled + way / speed + 2.0;
   } else {
     s.kind = "floor tilts";
     const double seconds = random.between(4.0, 12.0);
     move(s.scene.bodies[0],
-         turned({0.0, -0.5}, kSettled, seconds, -random.between(2.0, 20.0) * kDegree));
+         turned({0.0, -0.5}, kSettled, seconds, -random.between(4.0, 25.0) * kDegree));
     s.until = kSettled + seconds + 2.0;
   }
   return s;
@@ -433,7 +442,7 @@ BodyDesc card(const std::string& name, const Vec2& foot, double mirror, double h
 }  // namespace
 
 Structure cardHouse(Random& random) {
-  Structure s{.kind = "leaning", .from = 0.9};
+  Structure s{.kind = "leaning", .from = kBefore};
   s.scene.bodies.push_back(ground());
   const bool leaning = random.below(3) != 0;
   const double height = random.between(0.8, 1.5), thick = height * random.between(0.05, 0.12);
@@ -466,7 +475,7 @@ Structure cardHouse(Random& random) {
   if (!leaning) s.kind = "upright";
   const double needed = leaning ? std::tan(lean) : 0.5;
   setFriction(s.scene, needed * random.between(0.6, 1.3));
-  s.until = 14.0;
+  s.until = 15.0;
   const BodyIndex loaded = 1 + random.below(s.scene.bodies.size() - 1);
   const double towards = leaning ? random.between(-0.5, 0.5) : side(random) * random.between(0.05, 1.5);
   pullMoreAndMore(s.scene, random.below(2) == 0 ? loaded : s.scene.bodies.size() - 1, Vec2::Zero(),
@@ -476,7 +485,7 @@ Structure cardHouse(Random& random) {
 }
 
 Structure disassembly(Random& random) {
-  Structure s{.kind = "pulled", .from = 0.9};
+  Structure s{.kind = "pulled", .from = kBefore};
   s.scene.bodies.push_back(ground());
   Wall wall = randomWall(random, 3.0, 3.0);
   wall.rows = std::max(wall.rows, 3);
@@ -484,10 +493,12 @@ Structure disassembly(Random& random) {
   const double speed = random.between(0.02, 0.2), out = side(random);
   if (kind == 2) {  // the right half of the ground sinks
     s.kind = "lowered";
+    wall.columns = std::max(wall.columns, 2);
+    wall.shift = 0.5 * wall.width;
     BodyDesc sinks = pinnedBox("sinking", 30.0, 1.0, {15.0, -0.5});
     s.scene.bodies.front() = pinnedBox("ground", 30.0, 1.0, {-15.0, -0.5});
     add(s, wall, {random.between(-0.3, 0.3) * wall.breadth(), 0.0});
-    const double way = wall.height * random.between(0.1, 1.5);
+    const double way = wall.height * random.between(0.2, 3.0);
     move(sinks, shifted(sinks.at, kSettled, 3.0 * way / speed, {0.0, -way}));
     s.scene.bodies.push_back(sinks);
     for (Watch& w : s.watched) w.along = Vec2::UnitX();
@@ -510,21 +521,22 @@ Structure disassembly(Random& random) {
   }
   s.kind = "dragged";
   const double weight = kGravity * massOf(brick) * (wall.rows - row) * 2.0;
-  s.until = 14.0;
+  s.until = 15.0;
   pullMoreAndMore(s.scene, pulled, Vec2::Zero(), {out, 0.0}, weight * random.between(0.05, 0.5),
                   kSettled, s.until);
   return s;
 }
 
 Structure heavyOnLight(Random& random) {
-  Structure s{.kind = "tilted", .from = 0.9};
+  Structure s{.kind = "tilted", .from = kBefore};
   s.scene.bodies.push_back(ground());
   Wall wall = randomWall(random, 2.5, 3.0);
   wall.rows = std::min(wall.rows, 6);
+  for (double* length : {&wall.width, &wall.height, &wall.shift}) *length *= 4.0;  // rows are soft
   add(s, wall, {0.0, 0.0});
   const double ratio = std::exp(random.between(std::log(20.0), std::log(1000.0)));
   const double breadth = wall.breadth() * random.between(0.5, 1.5);
-  const double height = random.between(0.2, 1.0), top = wall.rows * wall.height;
+  const double height = random.between(0.5, 4.0), top = wall.rows * wall.height;
   BodyDesc heavy = box("heavy", breadth, height,
                        {random.between(-0.15, 0.15) * wall.breadth(), top + 0.5 * height});
   heavy.mass = ratio * wall.width * wall.height;
@@ -536,7 +548,7 @@ Structure heavyOnLight(Random& random) {
       kGravity * std::min(friction, 0.5 * wall.breadth() / (top + 0.5 * height));
   const double factor = random.between(0.9, 2.0);
   BodyDesc& base = s.scene.bodies.front();
-  s.until = 14.0;
+  s.until = 15.0;
   const std::size_t kind = random.below(3);
   if (kind == 0) {
     const double angle = std::min(std::atan(factor * most / kGravity), kTilted * kDegree);
@@ -553,10 +565,11 @@ Structure heavyOnLight(Random& random) {
 }
 
 Structure conveyor(Random& random) {
-  Structure s{.kind = "start and stop", .from = 0.9};
+  Structure s{.kind = "start and stop", .from = kBefore};
   const std::size_t kind = random.below(3);
-  const Wall wall = randomWall(random, 1.5, 2.5);
-  const double friction = random.between(0.2, 1.0), speed = random.between(0.3, 2.5);
+  Wall wall = randomWall(random, 1.5, 2.5);
+  if (kind > 0) wall.rows = std::max(wall.rows, 4);
+  const double friction = random.between(0.2, 1.0), speed = random.between(0.5, 3.0);
   s.scene.bodies.push_back(ground());
   BodyDesc& belt = s.scene.bodies.front();
   if (kind == 0) {  // a belt that starts, runs, and stops
@@ -585,7 +598,7 @@ Structure conveyor(Random& random) {
   // Carried by its surface: first by one belt, then by another, or against a sill.
   belt.at.x() = -30.0;
   belt.surface_velocity = speed;
-  const double way = speed * random.between(1.0, 3.0) + 0.5 * wall.breadth() + wall.shift;
+  const double way = speed * random.between(1.5, 3.0) + 0.5 * wall.breadth() + wall.shift;
   BodyDesc next = ground();
   next.at.x() = 30.0;
   add(s, wall, {-way, 0.0});
@@ -597,13 +610,13 @@ Structure conveyor(Random& random) {
   } else {
     s.kind = "sill";
     next.name = "sill";
-    next.at.y() += std::min(wall.height, wall.rows * wall.height * random.between(0.05, 0.6));
+    next.at.y() += std::min(wall.height, wall.rows * wall.height * random.between(0.1, 0.6));
   }
   s.scene.bodies.push_back(next);
   // Seen from the first box, which itself may tip.
   for (Watch& w : s.watched) w.frame = 1;
   s.watched.front() = {.body = 1, .frame = 0, .way = kNever};
-  s.from = 0.5;
+  s.from = 1.0;
   s.until = 10.0;
   setFriction(s.scene, friction);
   return s;
