@@ -41,7 +41,7 @@ Wall randomWall(Random& random, double breadth, double height) {
             .height = oneOf(random, std::array{0.2, 0.3, 0.5})};
   while (wall.breadth() + 0.5 * wall.width > breadth && wall.columns > 1) --wall.columns;
   while (wall.rows * wall.height > height && wall.rows > 2) --wall.rows;
-  if (wall.columns > 1) wall.shift = oneOf(random, std::array{0.0, 0.25, 0.5}) * wall.width;
+  if (wall.columns > 1) wall.shift = oneOf(random, std::array{0.0, 0.2, 0.35}) * wall.width;
   return wall;
 }
 
@@ -494,7 +494,7 @@ Structure disassembly(Random& random) {
   if (kind == 2) {  // the right half of the ground sinks
     s.kind = "lowered";
     wall.columns = std::max(wall.columns, 2);
-    wall.shift = 0.5 * wall.width;
+    wall.shift = 0.35 * wall.width;
     BodyDesc sinks = pinnedBox("sinking", 30.0, 1.0, {15.0, -0.5});
     s.scene.bodies.front() = pinnedBox("ground", 30.0, 1.0, {-15.0, -0.5});
     add(s, wall, {random.between(-0.3, 0.3) * wall.breadth(), 0.0});
@@ -531,14 +531,14 @@ Structure heavyOnLight(Random& random) {
   Structure s{.kind = "tilted", .from = kBefore};
   s.scene.bodies.push_back(ground());
   Wall wall = randomWall(random, 2.5, 3.0);
-  wall.rows = std::min(wall.rows, 6);
+  wall.rows = count(random, 1, 3);
   for (double* length : {&wall.width, &wall.height, &wall.shift}) *length *= 4.0;  // rows are soft
   add(s, wall, {0.0, 0.0});
   const double ratio = std::exp(random.between(std::log(20.0), std::log(1000.0)));
   const double breadth = wall.breadth() * random.between(0.5, 1.5);
   const double height = random.between(0.5, 4.0), top = wall.rows * wall.height;
   BodyDesc heavy = box("heavy", breadth, height,
-                       {random.between(-0.15, 0.15) * wall.breadth(), top + 0.5 * height});
+                       {random.between(-0.1, 0.1) * wall.breadth(), top + 0.5 * height});
   heavy.mass = ratio * wall.width * wall.height;
   s.watched.push_back({.body = s.scene.bodies.size(), .way = 0.25 * wall.size()});
   s.scene.bodies.push_back(heavy);
