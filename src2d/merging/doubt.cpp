@@ -167,7 +167,11 @@ void findDoubts(State& state, Scratch& scratch) {
     if (!isSwept(state, c)) continue;
     openCertificate(state, c);
     Doubt& doubt = scratch.doubts[state.collections.slotOf(c)];
-    if (doubt == Doubt::None) doubt = findDoubt(state, scratch, c);
+    if (doubt == Doubt::None) {
+      doubt = findDoubt(state, scratch, c);
+    } else {
+      c.certificate.front().search = {};  // of a load without what a frame drags
+    }
     any |= doubt != Doubt::None;
     if (doubt == Doubt::None && isLongQuiet(state, c)) putBlocksAway(c);
   }
