@@ -9,10 +9,10 @@ namespace merge2d::bench {
 namespace {
 
 constexpr double kBefore = 1.9;     // when places are noted [s]
-constexpr double kGravity = 9.81;    // [m/s²]
-constexpr double kSettled = 2.0;     // when loads begin [s]
-constexpr double kTilted = 60.0;     // how far any ground is tilted [degrees]
-constexpr double kAtRest = 1000.0;   // the end of scripts [s]
+constexpr double kGravity = 9.81;   // [m/s²]
+constexpr double kSettled = 2.0;    // when loads begin [s]
+constexpr double kTilted = 60.0;    // how far any ground is tilted [degrees]
+constexpr double kAtRest = 1000.0;  // the end of scripts [s]
 
 int count(Random& random, int least, int most) {
   return least + static_cast<int>(random.below(static_cast<std::size_t>(most - least + 1)));
@@ -87,18 +87,14 @@ void move(BodyDesc& body, const Script& script) {
 
 /// Stays until a time and has moved by a way some seconds later.
 Script shifted(const Vec2& at, double from, double seconds, const Vec2& way) {
-  return Keyframes{{{0.0, at, 0.0},
-                    {from, at, 0.0},
-                    {from + seconds, at + way, 0.0},
-                    {kAtRest, at + way, 0.0}}};
+  return Keyframes{
+      {{0.0, at, 0.0}, {from, at, 0.0}, {from + seconds, at + way, 0.0}, {kAtRest, at + way, 0.0}}};
 }
 
 /// Turns by an angle about the origin of the frame.
 Script turned(const Vec2& at, double from, double seconds, double angle) {
-  return Keyframes{{{0.0, at, 0.0},
-                    {from, at, 0.0},
-                    {from + seconds, at, angle},
-                    {kAtRest, at, angle}}};
+  return Keyframes{
+      {{0.0, at, 0.0}, {from, at, 0.0}, {from + seconds, at, angle}, {kAtRest, at, angle}}};
 }
 
 /// Swings sideways with a growing amplitude, up to an acceleration after some seconds.
@@ -118,12 +114,14 @@ Script rushing(const Vec2& at, double acceleration, double seconds) {
   Keyframes path{{{0.0, at, 0.0}}};
   for (int i = 0; 0.25 * i <= seconds; ++i) {
     const double t = 0.25 * i;
-    path.keys.push_back({kSettled + t, at + Vec2(acceleration / seconds * t * t * t / 6.0, 0.0), 0.0});
+    path.keys.push_back(
+        {kSettled + t, at + Vec2(acceleration / seconds * t * t * t / 6.0, 0.0), 0.0});
   }
   return path;
 }
 
-/// A force that grows by `rate` [N/s] from the time `from` on: a weak spring to a hand that goes far away.
+/// A force that grows by `rate` [N/s] from the time `from` on: a weak spring to a hand that goes
+/// far away.
 void pullMoreAndMore(Scene& scene, BodyIndex body, const Vec2& anchor, const Vec2& direction,
                      double rate, double from, double until) {
   constexpr double kSpeed = 4.0;  // [m/s]
@@ -274,7 +272,9 @@ namespace {
 
 /// A piece of a ring about the origin, as a body at its middle.
 BodyDesc ringPiece(const std::string& name, double inner, double outer, double from, double to) {
-  const auto at = [](double r, double angle) { return Vec2(r * std::cos(angle), r * std::sin(angle)); };
+  const auto at = [](double r, double angle) {
+    return Vec2(r * std::cos(angle), r * std::sin(angle));
+  };
   BodyDesc body;
   body.name = name;
   body.at = at(0.5 * (inner + outer), 0.5 * (from + to));
@@ -314,8 +314,8 @@ Structure roundArch(Random& random) {
     s.until = 15.0;
     const auto stone = static_cast<BodyIndex>(2 + count(random, n / 4, 3 * n / 4));
     const double lean = random.between(-0.4, 0.4);
-    pullMoreAndMore(s.scene, std::min<BodyIndex>(stone, static_cast<BodyIndex>(n + 1)), Vec2::Zero(),
-                    {std::sin(lean), -std::cos(lean)},
+    pullMoreAndMore(s.scene, std::min<BodyIndex>(stone, static_cast<BodyIndex>(n + 1)),
+                    Vec2::Zero(), {std::sin(lean), -std::cos(lean)},
                     massOf(s.scene) * kGravity * random.between(0.05, 0.5), kSettled, s.until);
   }
   return s;
@@ -334,10 +334,10 @@ Structure corbels(Random& random) {
   }
   for (int row = 0; row < rows; ++row) {
     for (const double x : {-1.0, 1.0}) {
-      s.watched.push_back({.body = s.scene.bodies.size(),
-                           .frame = x < 0 ? 0U : 1U,
-                           .way = 0.25 * height});
-      s.scene.bodies.push_back(box(fmt::format("{}[{}]", x < 0 ? "west" : "east", row), width, height,
+      s.watched.push_back(
+          {.body = s.scene.bodies.size(), .frame = x < 0 ? 0U : 1U, .way = 0.25 * height});
+      s.scene.bodies.push_back(box(fmt::format("{}[{}]", x < 0 ? "west" : "east", row), width,
+                                   height,
                                    {x * ((gap + width) / 2.0 - step * row), (row + 0.5) * height}));
     }
   }
@@ -379,9 +379,9 @@ Structure ladder(Random& random) {
   const int planks = count(random, 1, 3);
   for (int i = 0; i < planks; ++i) {
     const double past = 2.0 * half * i / cosine;
-    BodyDesc plank = box(fmt::format("plank[{}]", i), 2.0 * half, length,
-                         {0.5 * length * sine + half * cosine + past,
-                          0.5 * length * cosine + half * sine});
+    BodyDesc plank =
+        box(fmt::format("plank[{}]", i), 2.0 * half, length,
+            {0.5 * length * sine + half * cosine + past, 0.5 * length * cosine + half * sine});
     plank.angle = lean;
     const Watch foot{.body = s.scene.bodies.size(),
                      .way = 0.06 * length,
@@ -415,8 +415,8 @@ Structure ladder(Random& random) {
 
 namespace {
 
-/// The right card of a pair that leans against its mirror image: with a flat foot, and cut off where
-/// it meets the other and at the height.
+/// The right card of a pair that leans against its mirror image: with a flat foot, and cut off
+/// where it meets the other and at the height.
 BodyDesc card(const std::string& name, const Vec2& foot, double mirror, double height, double lean,
               double thick) {
   const double across = thick / std::cos(lean), reach = height * std::tan(lean) - 0.5 * across;
@@ -477,7 +477,8 @@ Structure cardHouse(Random& random) {
   setFriction(s.scene, needed * random.between(0.6, 1.3));
   s.until = 15.0;
   const BodyIndex loaded = 1 + random.below(s.scene.bodies.size() - 1);
-  const double towards = leaning ? random.between(-0.5, 0.5) : side(random) * random.between(0.05, 1.5);
+  const double towards =
+      leaning ? random.between(-0.5, 0.5) : side(random) * random.between(0.05, 1.5);
   pullMoreAndMore(s.scene, random.below(2) == 0 ? loaded : s.scene.bodies.size() - 1, Vec2::Zero(),
                   {std::sin(towards), -std::cos(towards)},
                   massOf(s.scene) * kGravity * random.between(0.02, 0.3), kSettled, s.until);
@@ -544,8 +545,7 @@ Structure heavyOnLight(Random& random) {
   s.scene.bodies.push_back(heavy);
   const double friction = random.between(0.3, 1.0);
   setFriction(s.scene, friction);
-  const double most =
-      kGravity * std::min(friction, 0.5 * wall.breadth() / (top + 0.5 * height));
+  const double most = kGravity * std::min(friction, 0.5 * wall.breadth() / (top + 0.5 * height));
   const double factor = random.between(0.9, 2.0);
   BodyDesc& base = s.scene.bodies.front();
   s.until = 15.0;
@@ -582,8 +582,8 @@ Structure conveyor(Random& random) {
     const double slice = std::min(start, stop) / 8.0;
     const auto placeAt = [&](double t) {
       const double a = std::clamp(t, 0.0, start), c = std::clamp(t - start - run, 0.0, stop);
-      return speed * (0.5 * a * a / start + std::clamp(t - start, 0.0, run) + c -
-                      0.5 * c * c / stop);
+      return speed *
+             (0.5 * a * a / start + std::clamp(t - start, 0.0, run) + c - 0.5 * c * c / stop);
     };
     for (double t = 0.0; t <= whole; t += slice) {
       path.keys.push_back({kSettled + t, belt.at + Vec2(placeAt(t), 0.0), 0.0});

@@ -12,10 +12,10 @@ namespace merge2d::bench {
 /// A body whose motion tells that its structure falls, seen from another.
 struct Watch {
   BodyIndex body = 0, frame = 0;
-  double way = 0.25;               ///< that is a fall [m]
-  double turn = 15.0 * kDegree;    ///< that is one [rad]
-  Vec2 at = Vec2::Zero();          ///< its point, from the centre of mass, in the body frame [m]
-  Vec2 along = Vec2::Zero();       ///< direction of the way in the frame; zero: any
+  double way = 0.25;             ///< that is a fall [m]
+  double turn = 15.0 * kDegree;  ///< that is one [rad]
+  Vec2 at = Vec2::Zero();        ///< its point, from the centre of mass, in the body frame [m]
+  Vec2 along = Vec2::Zero();     ///< direction of the way in the frame; zero: any
 };
 
 /// A random structure.
@@ -42,10 +42,10 @@ Structure heavyOnLight(Random& random);
 Structure conveyor(Random& random);
 
 inline constexpr std::array kFamilies{
-    Family{"frames", movingFrame},       Family{"drums", drum},
-    Family{"arches", arch},              Family{"ladders", ladder},
-    Family{"cards", cardHouse},          Family{"disassembly", disassembly},
-    Family{"heavy", heavyOnLight},       Family{"conveyors", conveyor},
+    Family{"frames", movingFrame}, Family{"drums", drum},
+    Family{"arches", arch},        Family{"ladders", ladder},
+    Family{"cards", cardHouse},    Family{"disassembly", disassembly},
+    Family{"heavy", heavyOnLight}, Family{"conveyors", conveyor},
 };
 
 }  // namespace merge2d::bench

@@ -40,7 +40,8 @@ class Random {
 };
 
 /// On the first body; its other end is on the world.
-inline void addSpring(Scene& scene, const Vec2& anchor, const Vec2& to, double stiffness, double damping) {
+inline void addSpring(Scene& scene, const Vec2& anchor, const Vec2& to, double stiffness,
+                      double damping) {
   SpringDesc spring;
   spring.body = 0;
   spring.anchor = anchor;
