@@ -345,6 +345,10 @@ Structure corbels(Random& random) {
   s.watched.push_back({.body = s.scene.bodies.size(), .way = kNever});
   s.scene.bodies.push_back(box("lintel", length, height, {0.0, (rows + 0.5) * height}));
   setFriction(s.scene, random.between(0.3, 1.0));
+  for (BodyDesc& body :
+       s.scene.bodies) {  // the lintel slides on one seat, not now on one now on both
+    if (body.at.x() < 0.0) body.friction *= 1.5;
+  }
   BodyDesc& right = s.scene.bodies[1];
   if (random.below(2) == 0) {
     const double way = width * random.between(0.4, 2.0), speed = random.between(0.03, 0.2);
