@@ -537,6 +537,7 @@ Structure heavyOnLight(Random& random) {
   s.scene.bodies.push_back(ground());
   Wall wall = randomWall(random, 2.5, 3.0);
   wall.rows = count(random, 1, 3);
+  wall.columns = count(random, 2, 4);
   for (double* length : {&wall.width, &wall.height, &wall.shift}) *length *= 4.0;  // rows are soft
   add(s, wall, {0.0, 0.0});
   const double ratio = std::exp(random.between(std::log(20.0), std::log(1000.0)));
@@ -563,7 +564,7 @@ Structure heavyOnLight(Random& random) {
                     {side(random), 0.0}, *heavy.mass * most * factor / 10.0, kSettled, s.until);
   } else {
     s.kind = "shaken";
-    move(base, shaken(base.at, factor * most, random.between(0.7, 2.5), 10.0));
+    move(base, shaken(base.at, 2.0 * factor * most, random.between(1.0, 3.0), 10.0));
   }
   return s;
 }
