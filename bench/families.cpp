@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/family_scenes.h"
+#include "bench/families/family_list.h"
 #include "src2d/scene/load.h"
 #include "src2d/world.h"
 
