@@ -268,6 +268,19 @@ class StateCheck {
           weld.first <= c.contacts.size() && weld.count <= c.contacts.size() - weld.first;
       require(run && weld.node_a < nodes && weld.node_b < nodes, "welds");
     }
+    checkWeldsOfMembers(c);
+  }
+
+  void checkWeldsOfMembers(const Collection& c) const {
+    const auto& numbers = c.welds_of.numbers;
+    if (numbers.empty()) return;
+    const std::size_t begin = c.members.size() + 1;
+    require(numbers.size() >= begin && numbers.front() == begin, "welds");
+    require(numbers[c.members.size()] == numbers.size(), "welds");
+    const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(begin);
+    require(std::is_sorted(numbers.begin(), end), "welds");
+    require(std::all_of(end, numbers.end(), [&](auto weld) { return weld < c.welds.size(); }),
+            "welds");
   }
 
   void checkWelds(const Collection& c) const {

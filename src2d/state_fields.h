@@ -153,6 +153,11 @@ void fields(Ar& ar, Some<Weld> auto& w) {
   ar(a, b, first, count, node_a, node_b, motion, moving, joints, expected, cut, reason);
 }
 template <class Ar>
+void fields(Ar& ar, Some<IndexRuns> auto& r) {
+  auto& [numbers] = r;
+  ar(numbers);
+}
+template <class Ar>
 void fields(Ar& ar, Some<Witness> auto& w) {
   auto& [frame, outer, lambda, motion] = w;
   ar(frame, outer, lambda, motion);
@@ -191,15 +196,15 @@ void fields(Ar& ar, Some<LoadCertificate> auto& c) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<HitRun> auto& run) {
-  auto& [met, first, last] = run;
-  ar(met, first, last);
+  auto& [blow, met, first, last] = run;
+  ar(blow, met, first, last);
 }
 template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, active_blocks, points, stale,
-         welds, joints, push, residual, settled, last_blow, hits, certificate] = c;
+         welds, welds_of, joints, push, residual, settled, hits, certificate] = c;
   ar(id, rigid, anchor, members, contacts, blocks, block_contact, active_blocks, points, stale,
-     welds, joints, push, residual, settled, last_blow, hits, certificate);
+     welds, welds_of, joints, push, residual, settled, hits, certificate);
 }
 
 template <class Ar>

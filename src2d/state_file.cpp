@@ -18,7 +18,7 @@
 namespace merge2d {
 namespace {
 
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 /// FNV-1a, 64 bits: finds damage, not malice.
 std::uint64_t hashOf(std::string_view bytes) {

@@ -52,7 +52,7 @@ void setTimeStep(Setup& setup, double h) {
   for (Collection& c : state.collections) {
     if (c.id == kNoCollection) continue;
     dropRows(state, c, ratio);
-    c.hits = {};  // it counts steps
+    c.hits.endRun();  // it counts steps
   }
   scaleImpulses(state, ratio);
   layOutCollections(state);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src2d/core/events.h"
+#include "src2d/core/index_runs.h"
 #include "src2d/dynamics/bounded_impulse.h"
 #include "src2d/dynamics/contact_block.h"
 #include "src2d/dynamics/contact_table.h"
@@ -179,10 +180,14 @@ struct LoadCertificate {
   }
 };
 
-/// The steps without a break in which hits of other bodies opened a collection.
+/// When something hit a collection, and the steps without a break in which hits of other bodies
+/// opened it.
 struct HitRun {
-  std::int64_t met = kNever;  ///< step in which a body hit it last
+  std::int64_t blow = kNever;  ///< step in which something hit it last
+  std::int64_t met = kNever;   ///< step in which a body did
   std::int64_t first = kNever, last = kNever;
+
+  void endRun() { met = first = last = kNever; }
 };
 
 /// Bodies simulated as one (Section 4).
@@ -201,12 +206,12 @@ struct Collection {
   int points = 0;                   ///< contact points of all blocks
   bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
   std::vector<Weld> welds;          ///< ascending by pair
+  IndexRuns welds_of;               ///< of each member, where it was opened
   std::vector<JointBlock> joints;   ///< those that act inside; λ is live here
   std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
   float residual = 0.0F;            ///< largest of its rows, when last solved [m/s]
   bool settled = false;             ///< the forces inside are known
-  std::int64_t last_blow = kNever;  ///< step in which something hit it last
-  HitRun hits;                      ///< the last run of them
+  HitRun hits;
   std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
 
   /// Of a block: by the weights while the rows are stale, else from there, or from its contact

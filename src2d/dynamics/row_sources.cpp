@@ -34,7 +34,6 @@ void listRowSources(const State& state, Scratch& scratch) {
   scratch.row_sources.clear();
   reserveTightly(scratch.row_sources, scratch.pairs.size());
   for (const BodyPair& pair : scratch.pairs) listSources(state, pair, scratch);
-  if (scratch.open.empty()) return;
   const auto& inner = scratch.open_rows;
   scratch.row_sources.insert(scratch.row_sources.end(), inner.begin(), inner.end());
 }

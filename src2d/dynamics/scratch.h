@@ -183,6 +183,19 @@ enum class Doubt : std::uint8_t {
   Open,    ///< they do not cover it, or something hits it
 };
 
+/// The part of an open collection whose members the full solve takes on their own
+/// (merging/open_region.h).
+struct OpenRegion {
+  std::uint32_t slot = 0;                                  ///< of the collection
+  bool whole = false;                                      ///< all members are inside
+  std::vector<std::uint32_t> members;                      ///< that are inside
+  std::vector<std::pair<std::uint32_t, Impulses>> before;  ///< of its blocks, where it is no whole
+  /// Per member, where some are outside: the velocity that the impulses inside leave of its load,
+  /// too slow for a hit to see.
+  std::vector<Twist> left;
+  int rings = 2;  ///< of neighbours that are added next
+};
+
 /// The change of all impulses in the last sweep, squared, beside the impulses themselves [N² s²].
 struct SweepChange {
   double squared = 0.0;
@@ -244,17 +257,18 @@ struct Scratch {
 
   // WarmStart
   std::vector<OuterLoad> outer_loads;     ///< ascending by slot, then by member
+  std::vector<OuterLoad> known_loads;     ///< those before the solve
   std::vector<std::uint32_t> load_place;  ///< per body: one more than its place there, or 0
   std::vector<Doubt> doubts;              ///< per collection slot, where welds are decided
 
   // SingleIterationPGS, where collections are opened: the full solve, with members on their own
-  std::vector<BodyId> opened;        ///< members of the collections that are open
+  std::vector<OpenRegion> regions;
   std::vector<BodyId> open_members;  ///< those that the solve takes on their own
   std::vector<RowSource> open_rows;  ///< the contacts between them
-  std::vector<Twist> open_start;     ///< per body: the velocity with which it began, if open
-  std::vector<std::uint8_t>
-      open;             ///< per body: it is one of open_members; empty where there are none
-  bool solved = false;  ///< SolveLCP has nothing left to do
+  std::vector<std::uint8_t> open;    ///< per body: it is in a region
+  std::vector<Twist> open_start;     ///< per body of an open collection: its velocity before
+  std::vector<RigidId> opened;       ///< collections that were open, and the parts that came out
+  bool solved = false;               ///< SolveLCP has nothing left to do
 
   // SingleIterationPGS
   bool sweeping = false;                ///< some collection is swept

@@ -85,20 +85,20 @@ void setLane(WideBlock& w, std::size_t lane, const ContactBlock& k, const Solver
 
 }  // namespace
 
-void WideBlocks::begin(std::span<const ContactBlock> blocks) {
+void WideBlocks::begin(std::size_t blocks, std::size_t chosen) {
   wide_.clear();
   alone_.clear();
   colours_.clear();
-  reserveTightly(wide_, blocks.size() / 4 + 1);
-  resizeTightly(impulses_, blocks.size() + 1);
-  for (std::size_t i = 0; i < blocks.size(); ++i) impulses_[i] = blocks[i].lambda;
-  impulses_[blocks.size()] = {};
+  reserveTightly(wide_, chosen / 4 + 1);
+  resizeTightly(impulses_, blocks + 1);
+  impulses_[blocks] = {};
 }
 
 void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const BlockOrder> order,
                       const std::vector<SolverVelocity>& u, std::uint32_t idle) {
-  begin(blocks);
   const auto size = static_cast<std::uint32_t>(blocks.size());
+  begin(size, size);
+  for (std::uint32_t i = 0; i < size; ++i) impulses_[i] = blocks[i].lambda;
   for (std::uint32_t first = 0, last = 0; first < size; first = last) {
     while (last < size && order[last].colour() == order[first].colour()) ++last;
     if (order[first].colour() == kMixedColour) {
@@ -116,7 +116,8 @@ void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const Bloc
 void WideBlocks::packChosen(std::span<const ContactBlock> blocks,
                             std::span<const std::uint32_t> chosen,
                             const std::vector<SolverVelocity>& u, std::uint32_t idle) {
-  begin(blocks);
+  begin(blocks.size(), chosen.size());
+  for (const std::uint32_t i : chosen) impulses_[i] = blocks[i].lambda;
   if (taken_.size() < u.size()) resizeTightly(taken_, u.size());
   const auto moves = [&](std::uint32_t body) {
     return u[body].inv_mass != 0.0 || u[body].inv_inertia != 0.0;
@@ -199,6 +200,11 @@ void WideBlocks::sweep(std::span<ContactBlock> blocks, std::vector<SolverVelocit
 
 void WideBlocks::storeImpulses(std::span<ContactBlock> blocks) const {
   for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].lambda = impulses_[i];
+}
+
+void WideBlocks::storeImpulses(std::span<ContactBlock> blocks,
+                               std::span<const std::uint32_t> chosen) const {
+  for (const std::uint32_t i : chosen) blocks[i].lambda = impulses_[i];
 }
 
 std::size_t WideBlocks::memoryBytes() const {

@@ -55,6 +55,7 @@ class WideBlocks {
   void sweep(std::span<ContactBlock> blocks, std::vector<SolverVelocity>& u, SweepPath path);
 
   void storeImpulses(std::span<ContactBlock> blocks) const;
+  void storeImpulses(std::span<ContactBlock> blocks, std::span<const std::uint32_t> chosen) const;
 
   std::size_t memoryBytes() const;
   /// Gives its memory back; no sweep may follow before blocks are packed again.
@@ -67,7 +68,7 @@ class WideBlocks {
     std::uint32_t last_alone = 0;                  ///< of alone_
   };
 
-  void begin(std::span<const ContactBlock> blocks);
+  void begin(std::size_t blocks, std::size_t chosen);
   void packColour(std::span<const ContactBlock> blocks, const std::vector<SolverVelocity>& u,
                   std::uint32_t idle);
   void packGroups(std::span<const ContactBlock> blocks, const std::vector<SolverVelocity>& u,

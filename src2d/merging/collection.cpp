@@ -47,6 +47,7 @@ RigidId asCollection(State& state, RigidId id) {
 HitRun united(const HitRun& x, const HitRun& y) {
   HitRun run = x.last < y.last ? y : x;
   if (x.last == y.last) run.first = std::min(x.first, y.first);
+  run.blow = std::max(x.blow, y.blow);
   run.met = std::max(x.met, y.met);
   return run;
 }
@@ -71,7 +72,6 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   std::inplace_merge(target.members.begin(), target.members.begin() + middle, target.members.end());
   state.extents[state[to].extent].bounds.include(placed(relative, state.extent(from).bounds));
   state[to].resized = true;
-  target.last_blow = std::max(target.last_blow, source.last_blow);
   target.hits = united(target.hits, source.hits);
   target.stale = true;
   removeRigid(state, from);

@@ -38,6 +38,9 @@ void layOutFloating(State& state);
 /// and the first reader calls this.
 void layOutPush(const State& state, Collection& collection);
 
+/// Lists the welds of each member. A layout leaves that empty too.
+void listWeldsOfMembers(Collection& collection);
+
 /// Takes the collection apart: `part[i]` is the part of its i-th member, `anchored[p]` says whether
 /// part p is still welded to the frame. The largest part keeps id and frame; contacts between the
 /// parts return to the contact table with their impulses. Momentum is conserved to rounding.

@@ -24,7 +24,8 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
   before.welds = state.collection(id).welds;
   before.joints = state.collection(id).joints;
   std::erase_if(before.welds, [](const Weld& weld) { return weld.expected; });
-  splitCollection(state, id, parts.part, parts.anchored);
+  const std::vector<RigidId> out = splitCollection(state, id, parts.part, parts.anchored);
+  if (!scratch.opened.empty()) scratch.opened.insert(scratch.opened.end(), out.begin(), out.end());
   reportCuts(state, before, scratch);
   for (const JointBlock& k : before.joints) {
     Joint& joint = state.joints[k.joint];

@@ -65,7 +65,7 @@ inline constexpr DecidedSettings kDecided;
 
 /// Something hits it in these steps.
 inline bool isHit(const State& state, const Collection& c) {
-  return state.step - c.last_blow < kDecided.hit_steps;
+  return state.step - c.hits.blow < kDecided.hit_steps;
 }
 
 /// Ten sweeps over all its rows are more than those of a step: a hit is followed only as far as it

@@ -11,6 +11,7 @@
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/load_certificate.h"
 #include "src2d/merging/metric.h"
+#include "src2d/merging/open_region.h"
 #include "src2d/merging/open_solve.h"
 #include "src2d/merging/proof_search.h"
 #include "src2d/merging/sweep.h"
@@ -123,12 +124,13 @@ bool turns(const Collection& c, const WeldMotions& motions, double noise) {
 /// Cuts the welds whose bodies move. Motion slower than the residual may be an error of the solve.
 /// Where a search has found motion, so may the motion of welds that did not move in it. While one
 /// goes on, some weld must move by more than a few residuals. True where some are cut.
-bool cutMovers(const State& state, Scratch& scratch, Collection& c, const ProofSearch& search) {
+bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRegion& region,
+               const ProofSearch& search) {
   const WeldMotions motions(state, c, scratch.trial_u);
-  const double residual = c.last_blow == state.step ? 0.0 : c.residual;
+  const double residual = c.hits.blow == state.step ? 0.0 : c.residual;
   const bool moves = search.start.empty() || turns(c, motions, kDecided.sure * residual);
   bool any = false;
-  for (std::size_t i = 0; i < c.welds.size(); ++i) {
+  for (const std::uint32_t i : weldsAt(c, region.members)) {
     Weld& weld = c.welds[i];
     weld.cut = false;
     weld.motion = 0.0F;
@@ -178,7 +180,7 @@ void stepBack(const State& state, Scratch& scratch, Collection& c) {
     weld.cut = true;
     weld.motion = static_cast<float>(state.settings.merging.velocity / kDecided.longest_wait);
   }
-  c.hits = {};
+  c.hits.endRun();
 }
 
 /// Where no part comes off.
@@ -217,45 +219,48 @@ double fastestOf(const State& state, const Scratch& scratch, const Collection& c
 
 /// No part comes off in the full solve: a proof, where that has converged to rest. A search that
 /// had not goes on; one that had, with the load of an earlier step, begins anew.
-void keepTogether(const State& state, Scratch& scratch, Collection& c, ProofSearch&& search) {
+void keepTogether(const State& state, Scratch& scratch, Collection& c, const OpenRegion& region,
+                  ProofSearch&& search) {
   LoadCertificate& proof = c.certificate.front();
   const bool converged = c.residual <= toleratedResidual(state);
-  const double motion = converged ? fastestOf(state, scratch, c) : 0.0;
-  c.settled = !isHit(state, c) && converged && motion <= cutSpeed(state);
+  const bool hit = isHit(state, c);
+  const double motion = converged && !hit ? fastestOf(state, scratch, c) : 0.0;
+  c.settled = !hit && converged && motion <= cutSpeed(state);
   if (c.settled) {
     Witness witness = asWitness(state, c, loadOn(state, scratch, c));
     witness.motion = motion;
     readImpulses(c, witness);
     return prove(state, c, std::move(witness));
   }
-  proof.in_doubt |= !isHit(state, c) || proof.witnesses.empty();
-  if (isHit(state, c) || search.start.empty() || converged) return;
-  swapImpulses(c, search.load);
+  proof.in_doubt |= !hit || proof.witnesses.empty();
+  if (hit || search.start.empty() || converged) return;
+  restoreImpulses(c, region, search.load);
   proof.search = std::move(search);
 }
 
 /// Where the solve has not converged, only motion that is above its residual counts.
-void decideOne(State& state, Scratch& scratch, Collection& c) {
+void decideOne(State& state, Scratch& scratch, const OpenRegion& region) {
+  Collection& c = state.collections[region.slot];
   LoadCertificate& proof = c.certificate.front();
   ProofSearch before = std::exchange(proof.search, {});
   if (breakJointsInside(state, scratch, c)) return;
   if (!c.joints.empty()) loosenJoints(state, c, scratch.sweep_u);
   Noted noted(scratch.notes);
-  bool moves = cutMovers(state, scratch, c, before);
+  bool moves = cutMovers(state, scratch, c, region, before);
   if (isHitForLong(state, c)) {
     stepBack(state, scratch, c);
     moves = true;
   }
   noted.close();
-  if (isHit(state, c)) swapImpulses(c, before.load);  // those of a hit are not those of a load
+  if (isHit(state, c)) restoreImpulses(c, region, before.load);  // those of a hit are no load's
   const Parts parts = moves ? componentsOf(c) : Parts();
   const bool parting = moves && fallsApart(state, c, parts);
   if (parting) {
     c.settled = false;
     splitAtCuts(state, scratch, c.rigid, parts);
   } else {
-    forgetCuts(c);
-    keepTogether(state, scratch, c, std::move(before));
+    if (moves) forgetCuts(c);
+    keepTogether(state, scratch, c, region, std::move(before));
   }
   restate(state, noted, "cut");
 }
@@ -315,15 +320,9 @@ bool endSearch(State& state, Scratch& scratch, Collection& c) {
 }
 
 void unmergeMovers(State& state, Scratch& scratch) {
-  const std::size_t slots = scratch.doubts.size();
+  if (scratch.regions.empty()) return;
   listOuterLoads(state, scratch);
-  for (std::size_t slot = 0; slot < slots; ++slot) {
-    Collection& c = state.collections[slot];
-    // After this its slot may be another's.
-    const Doubt doubt =
-        c.id == kNoCollection ? Doubt::None : std::exchange(scratch.doubts[slot], Doubt::None);
-    if (doubt == Doubt::Open) decideOne(state, scratch, c);
-  }
+  for (const OpenRegion& region : scratch.regions) decideOne(state, scratch, region);
   closeOpened(state, scratch);
 }
 

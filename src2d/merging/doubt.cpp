@@ -35,7 +35,7 @@ void notePerturbations(State& state, const Scratch& scratch) {
   const auto hit = [&](BodyId b, bool met) {
     if (!state.isCollection(state[b].rigid)) return;
     Collection& c = state.collection(state[b].rigid);
-    c.last_blow = state.step;
+    c.hits.blow = state.step;
     if (met) c.hits.met = state.step;
   };
   for (const Meeting& m : scratch.meetings) {

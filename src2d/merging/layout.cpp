@@ -227,6 +227,7 @@ void layOutBlocks(const State& state, Collection& c) {
 void putBlocksAway(Collection& c) {
   for (InternalContact& inner : c.contacts) dropBlock(c, inner);
   std::vector<ContactBlock>().swap(c.blocks);
+  c.welds_of = {};
 }
 
 void bringBlocksBack(const State& state, Collection& c) {
@@ -236,6 +237,18 @@ void bringBlocksBack(const State& state, Collection& c) {
     c.contacts[contact].block = static_cast<std::uint32_t>(c.blocks.size());
     c.blocks.push_back(makeBlock(state, c, c.contacts[contact]));
   }
+}
+
+void listWeldsOfMembers(Collection& c) {
+  if (!c.welds_of.empty()) return;
+  const auto frame = static_cast<std::uint32_t>(c.members.size());
+  c.welds_of.build(c.members.size(), [&](auto&& visit) {
+    for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
+      for (const std::uint32_t node : {c.welds[w].node_a, c.welds[w].node_b}) {
+        if (node != frame) visit(node, w);
+      }
+    }
+  });
 }
 
 // The push is the start of the next sweep, so that no pass over the rows is needed for a warm
@@ -293,6 +306,7 @@ void layOut(State& state, Collection& c) {
   layOutBlocks(state, c);
   proofs.finish();
   c.push.clear();  // made for whoever sweeps it next
+  c.welds_of = {};
   c.stale = false;
   c.settled = false;
 }

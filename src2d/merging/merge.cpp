@@ -132,10 +132,11 @@ void releaseRows(State& state, Scratch& scratch) {
   scratch.nncg.u_before.clear();
   scratch.nncg.u_direction.clear();
   scratch.wide.release();
+  scratch.open_start.clear();
   trim(scratch.blocks, scratch.row_sources, scratch.block_order, scratch.sweep_contacts,
        scratch.candidates, scratch.near_candidates, scratch.nncg.before, scratch.nncg.direction,
        scratch.nncg.u_before, scratch.nncg.u_direction, scratch.pairs, scratch.ready, scratch.u,
-       scratch.island_bodies, scratch.moved, state.broadphase.near);
+       scratch.island_bodies, scratch.moved, scratch.open_start, state.broadphase.near);
 }
 
 bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
@@ -144,11 +145,13 @@ bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
   const auto release = [](auto& v) { std::remove_reference_t<decltype(v)>().swap(v); };
   release(scratch.sweep_u);
   release(scratch.open_start);
+  release(scratch.regions);
   release(scratch.opened);
   release(scratch.open_members);
   release(scratch.open_rows);
   release(scratch.open);
   release(scratch.outer_loads);
+  release(scratch.known_loads);
   release(scratch.trial_u);
   scratch.newton.clear();
   return true;

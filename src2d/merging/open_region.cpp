@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
+#include "src2d/core/index_set.h"
 #include "src2d/merging/collection.h"
 #include "src2d/merging/collection_load.h"
 #include "src2d/merging/decided_settings.h"
+#include "src2d/merging/load_certificate.h"
 
 namespace merge2d {
 namespace {
@@ -22,11 +23,110 @@ ContactBlock inWorld(const State& state, const Collection& c, const ContactBlock
 /// A search has found motion, which may be that of any member.
 bool wasSearched(const Collection& c) { return !c.certificate.front().search.movers.empty(); }
 
-/// Slower than this no weld parts [m/s].
-double slowestCut(const State& state, const Collection& c) {
+bool isFrame(const Collection& c, std::uint32_t node) { return node == c.members.size(); }
+
+/// The frame counts as inside.
+bool isInside(const Scratch& scratch, const Collection& c, std::uint32_t node) {
+  return isFrame(c, node) || scratch.open[index(c.members[node])] != 0;
+}
+
+std::uint32_t otherEnd(const Weld& weld, std::uint32_t node) {
+  return weld.node_a == node ? weld.node_b : weld.node_a;
+}
+
+/// Slower than this no weld of a member parts [m/s].
+double slowestCut(const State& state, const Collection& c, std::uint32_t member) {
   double slowest = std::numeric_limits<double>::infinity();
-  for (const Weld& weld : c.welds) slowest = std::min(slowest, cutSpeed(state, c, weld));
+  for (const std::uint32_t w : c.welds_of[member]) {
+    slowest = std::min(slowest, cutSpeed(state, c, c.welds[w]));
+  }
   return slowest;
+}
+
+void add(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member) {
+  const Collection& c = state.collections[region.slot];
+  if (!isInside(scratch, c, member)) addMember(state, scratch, region, member);
+}
+
+void addHit(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
+  const auto touch = [&](BodyId b) {
+    if (state[b].rigid == c.rigid) add(state, scratch, region, state[rigidOf(b)].member);
+  };
+  for (const Meeting& meeting : scratch.meetings) {
+    touch(scratch.pairs[meeting.pair].a);
+    touch(scratch.pairs[meeting.pair].b);
+  }
+  for (const Kick& kick : scratch.kicks) touch(kick.body);
+}
+
+void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
+  loadMembers(state, c, loadOn(state, scratch, c), region.left);
+  layOutPush(state, c);
+  for (std::uint32_t m = 0; m < region.left.size(); ++m) {
+    Twist& left = region.left[m];
+    const Twist& push = c.push[m];
+    left = {left.vx + push.vx, left.vy + push.vy, left.omega + push.omega};
+    const double reach = state.extent(rigidOf(c.members[m])).box.half.norm();
+    const double speed = Vec2(left.vx, left.vy).norm() + reach * std::abs(left.omega);
+    if (speed <= cutSpeed(state) || speed <= slowestCut(state, c, m)) continue;
+    left = {};
+    add(state, scratch, region, m);
+  }
+}
+
+/// Rings of neighbours around members of the region.
+void addAround(State& state, Scratch& scratch, OpenRegion& region, std::size_t first) {
+  const Collection& c = state.collections[region.slot];
+  for (int i = 0; i < region.rings; ++i) {
+    const std::size_t end = region.members.size();
+    for (; first < end; ++first) {
+      const std::uint32_t m = region.members[first];
+      for (const std::uint32_t w : c.welds_of[m]) {
+        add(state, scratch, region, otherEnd(c.welds[w], m));
+      }
+    }
+  }
+  region.rings *= 2;
+}
+
+/// Calls `visit` with each block between a member inside and one outside.
+template <class Visit>
+void forEachHeld(const Scratch& scratch, const Collection& c, const OpenRegion& region,
+                 Visit&& visit) {
+  if (region.whole) return;
+  for (const std::uint32_t in : region.members) {
+    for (const std::uint32_t w : c.welds_of[in]) {
+      const std::uint32_t out = otherEnd(c.welds[w], in);
+      if (isInside(scratch, c, out)) continue;
+      forEachBlock(c, c.welds[w], [&](std::uint32_t block) { visit(c.blocks[block], in, out); });
+    }
+  }
+}
+
+/// The velocity with which a member goes into the full solve.
+void startMember(State& state, const Scratch& scratch, const Collection& c,
+                 const OpenRegion& region, std::uint32_t member) {
+  const BodyId b = c.members[member];
+  const Twist& start = scratch.open_start[index(b)];
+  const Twist left = region.whole ? Twist{} : region.left[member];
+  const Vec2 v = state[c.rigid].rotation * Vec2(left.vx, left.vy);
+  Rigid& r = state[rigidOf(b)];
+  r.v = Vec2(start.vx, start.vy) - v;
+  r.omega = start.omega - left.omega;
+}
+
+/// The impulses that contacts at the border hold.
+void pushFromOutside(State& state, const Scratch& scratch, const Collection& c,
+                     const OpenRegion& region) {
+  forEachHeld(scratch, c, region, [&](const ContactBlock& inner, std::uint32_t in, std::uint32_t) {
+    const BodyId b = c.members[in];
+    Rigid& r = state[rigidOf(b)];
+    SolverVelocity u{r.v.x(), r.v.y(), r.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia}, rest;
+    const bool is_a = inner.a == index(b);
+    applyImpulses(inWorld(state, c, inner), is_a ? u : rest, is_a ? rest : u);
+    r.v = {u.vx, u.vy};
+    r.omega = u.omega;
+  });
 }
 
 }  // namespace
@@ -41,141 +141,104 @@ SolverVelocity solvedVelocity(const State& state, const Scratch& scratch, BodyId
   return u;
 }
 
-OpenRegion::OpenRegion(const State& state, const Scratch& scratch, Collection& c)
-    : c_(&c), inside_(c.members.size() + 1, 1) {
-  if (!opensInPart(state, c) || wasSearched(c)) return;
-  std::fill(inside_.begin(), inside_.end() - 1, std::uint8_t{0});
-  noise_ = slowestCut(state, c);
-  findNeighbours();
-  addTouched(state, scratch);
-  addUnbalanced(state, scratch);
-}
-
-void OpenRegion::addTouched(const State& state, const Scratch& scratch) {
-  const auto add = [&](BodyId b) {
-    if (state[b].rigid == c_->rigid) inside_[state[rigidOf(b)].member] = 1;
-  };
-  for (const BodyPair& pair : scratch.pairs) {
-    add(pair.a);
-    add(pair.b);
-  }
-  for (const Kick& kick : scratch.kicks) add(kick.body);
-  for (const Load& load : scratch.loads) add(load.body);
-}
-
-void OpenRegion::addUnbalanced(const State& state, const Scratch& scratch) {
-  loadMembers(state, *c_, loadOn(state, scratch, *c_), left_);
-  layOutPush(state, *c_);
-  for (std::uint32_t m = 0; m < left_.size(); ++m) {
-    Twist& left = left_[m];
-    const Twist& push = c_->push[m];
-    left = {left.vx + push.vx, left.vy + push.vy, left.omega + push.omega};
-    const double reach = state.extent(rigidOf(c_->members[m])).box.half.norm();
-    const double speed = Vec2(left.vx, left.vy).norm() + reach * std::abs(left.omega);
-    if (speed <= noise_) continue;
-    inside_[m] = 1;
-    left = {};
-  }
-}
-
-void OpenRegion::findNeighbours() {
-  const auto frame = static_cast<std::uint32_t>(c_->members.size());
-  first_.assign(frame + 2, 0);
-  const auto forEachLink = [&](auto&& visit) {
-    for (const Weld& weld : c_->welds) {
-      if (weld.node_a == frame || weld.node_b == frame) continue;
-      visit(weld.node_a, weld.node_b);
-      visit(weld.node_b, weld.node_a);
+void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member) {
+  const Collection& c = state.collections[region.slot];
+  const BodyId b = c.members[member];
+  Rigid& r = state[rigidOf(b)];
+  r.x = state.pose(b).position;
+  r.rest = Vec2::Zero();
+  if (!region.whole) {
+    for (const std::uint32_t w : c.welds_of[member]) {
+      const std::uint32_t other = otherEnd(c.welds[w], member);
+      if (!isFrame(c, other) && isInside(scratch, c, other)) continue;  // they are kept already
+      forEachBlock(c, c.welds[w], [&](std::uint32_t block) {
+        region.before.emplace_back(block, c.blocks[block].lambda);
+      });
     }
-  };
-  forEachLink([&](std::uint32_t from, std::uint32_t) { ++first_[from + 2]; });
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  next_.resize(first_.back());
-  forEachLink([&](std::uint32_t from, std::uint32_t to) { next_[first_[from + 1]++] = to; });
-}
-
-void OpenRegion::addAround(std::vector<std::uint32_t> members) {
-  std::vector<std::uint32_t> ring;
-  for (int i = 0; i < rings_; ++i) {
-    ring.clear();
-    for (const std::uint32_t m : members) {
-      for (std::uint32_t n = first_[m]; n < first_[m + 1]; ++n) {
-        if (inside_[next_[n]]) continue;
-        inside_[next_[n]] = 1;
-        ring.push_back(next_[n]);
-      }
-    }
-    std::swap(members, ring);
   }
-  rings_ *= 2;
+  scratch.open[index(b)] = 1;
+  region.members.push_back(member);
 }
 
-template <class Visit>
-void OpenRegion::forEachBlock(const Weld& weld, Visit&& visit) const {
-  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
-    visit(c_->contacts[i].block);
+void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
+  region.slot = static_cast<std::uint32_t>(state.collections.slotOf(c));
+  region.whole = !opensInPart(state, c) || wasSearched(c);
+  if (region.whole) {
+    readImpulses(c, c.certificate.front().search.load);
+    for (std::uint32_t m = 0; m < c.members.size(); ++m) addMember(state, scratch, region, m);
+    return;
   }
+  addHit(state, scratch, c, region);
+  addUnbalanced(state, scratch, c, region);
 }
 
-/// The blocks between a member inside and one outside.
-template <class Visit>
-void OpenRegion::forEachHeld(Visit&& visit) const {
-  const auto frame = static_cast<std::uint32_t>(c_->members.size());
-  for (const Weld& weld : c_->welds) {
-    if (inside_[weld.node_a] == inside_[weld.node_b]) continue;
-    const std::uint32_t in = inside_[weld.node_a] ? weld.node_a : weld.node_b;
-    const std::uint32_t out = inside_[weld.node_a] ? weld.node_b : weld.node_a;
-    if (in == frame) continue;
-    forEachBlock(weld, [&](std::uint32_t block) { visit(c_->blocks[block], in, out); });
+void listRegion(State& state, Scratch& scratch, OpenRegion& region) {
+  const Collection& c = state.collections[region.slot];
+  std::ranges::sort(region.members);
+  for (const std::uint32_t m : region.members) {
+    startMember(state, scratch, c, region, m);
+    scratch.open_members.push_back(c.members[m]);
+  }
+  pushFromOutside(state, scratch, c, region);
+  for (const std::uint32_t block : blocksAt(c, region.members)) {
+    const Weld& weld = c.welds[c.contacts[c.block_contact[block]].weld];
+    if (!isInside(scratch, c, weld.node_a) || !isInside(scratch, c, weld.node_b)) continue;
+    scratch.open_rows.push_back(RowSource::inside(region.slot, block));
   }
 }
 
-void OpenRegion::list(State& state, Scratch& scratch) const {
-  for (std::uint32_t m = 0; m < c_->members.size(); ++m) {
-    if (!inside_[m]) continue;
-    const BodyId b = c_->members[m];
-    const Twist& start = scratch.open_start[index(b)];
-    const Twist left = isWhole() ? Twist{} : left_[m];
-    const Vec2 v = state[c_->rigid].rotation * Vec2(left.vx, left.vy);
-    state[rigidOf(b)].v = Vec2(start.vx, start.vy) - v;
-    state[rigidOf(b)].omega = start.omega - left.omega;
-    scratch.open[index(b)] = 1;
-    scratch.open_members.push_back(b);
+namespace {
+
+/// The members to which something outside gives another impulse than the one that was known.
+void addDisturbed(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
+  for (const OuterLoad& load : loadOn(state, scratch, c).outer) {
+    if (isInside(scratch, c, load.member)) continue;
+    if (unknownSpeed(state, scratch, load) <= slowestCut(state, c, load.member)) continue;
+    addMember(state, scratch, region, load.member);
   }
-  forEachHeld([&](const ContactBlock& inner, std::uint32_t in, std::uint32_t) {
-    const BodyId b = c_->members[in];
-    Rigid& r = state[rigidOf(b)];
-    SolverVelocity u{r.v.x(), r.v.y(), r.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia}, rest;
-    const bool is_a = inner.a == index(b);
-    applyImpulses(inWorld(state, *c_, inner), is_a ? u : rest, is_a ? rest : u);
-    r.v = {u.vx, u.vy};
-    r.omega = u.omega;
-  });
-  const std::size_t first = scratch.open_rows.size();
-  const auto slot = static_cast<std::uint32_t>(state.collections.slotOf(*c_));
-  for (const Weld& weld : c_->welds) {
-    if (!inside_[weld.node_a] || !inside_[weld.node_b]) continue;
-    forEachBlock(weld, [&](std::uint32_t block) {
-      scratch.open_rows.push_back(RowSource::inside(slot, block));
-    });
-  }
-  std::sort(scratch.open_rows.begin() + static_cast<std::ptrdiff_t>(first), scratch.open_rows.end(),
-            [](const RowSource& x, const RowSource& y) { return x.block() < y.block(); });
 }
 
-bool OpenRegion::widen(const State& state, const Scratch& scratch) {
-  if (isWhole()) return false;
+}  // namespace
+
+bool widen(State& state, Scratch& scratch, OpenRegion& region) {
+  const Collection& c = state.collections[region.slot];
   std::vector<std::uint32_t> behind;
-  forEachHeld([&](const ContactBlock& inner, std::uint32_t, std::uint32_t out) {
-    const ContactBlock k = inWorld(state, *c_, inner);
+  forEachHeld(scratch, c, region, [&](const ContactBlock& inner, std::uint32_t, std::uint32_t out) {
+    const ContactBlock k = inWorld(state, c, inner);
     const double residual = residualOf(k, k.nx, k.ny, solvedVelocity(state, scratch, BodyId{k.a}),
                                        solvedVelocity(state, scratch, BodyId{k.b}));
-    if (residual > noise_) behind.push_back(out);
+    if (residual > slowestCut(state, c, out)) behind.push_back(out);
   });
-  if (behind.empty()) return false;
-  for (const std::uint32_t m : behind) inside_[m] = 1;
-  addAround(std::move(behind));
+  const std::size_t all = region.members.size();
+  if (!region.whole) addDisturbed(state, scratch, c, region);
+  const std::size_t first = region.members.size();
+  if (behind.empty()) return first > all;
+  for (const std::uint32_t m : behind) add(state, scratch, region, m);
+  addAround(state, scratch, region, first);
   return true;
+}
+
+std::vector<std::uint32_t> weldsAt(const Collection& c, std::span<const std::uint32_t> members) {
+  IndexSet welds(c.welds.size());
+  for (const std::uint32_t m : members) {
+    for (const std::uint32_t w : c.welds_of[m]) welds.add(w);
+  }
+  return welds.ascending();
+}
+
+std::vector<std::uint32_t> blocksAt(const Collection& c, std::span<const std::uint32_t> members) {
+  IndexSet blocks(c.blocks.size());
+  for (const std::uint32_t m : members) {
+    for (const std::uint32_t w : c.welds_of[m]) {
+      forEachBlock(c, c.welds[w], [&](std::uint32_t block) { blocks.add(block); });
+    }
+  }
+  return blocks.ascending();
+}
+
+void restoreImpulses(Collection& c, const OpenRegion& region, Witness& sought) {
+  if (region.whole) return swapImpulses(c, sought);
+  for (const auto& [block, impulses] : region.before) c.blocks[block].lambda = impulses;
 }
 
 }  // namespace merge2d

@@ -4,6 +4,8 @@
 /// with the impulses that they hold. After a solve the region is widened beyond each of them that
 /// has a residual: no momentum ends at its border.
 
+#include <span>
+
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
@@ -11,36 +13,34 @@ namespace merge2d {
 /// The velocity of a body in the full solve.
 SolverVelocity solvedVelocity(const State& state, const Scratch& scratch, BodyId b);
 
-class OpenRegion {
- public:
-  /// The members that something outside touches, and those that the impulses inside do not keep at
-  /// rest; all of them where `c` floats or was opened by a search.
-  OpenRegion(const State& state, const Scratch& scratch, Collection& c);
+/// The region that a solve begins with: the members that something hits, and those that the
+/// impulses inside do not keep at rest; all of them where the collection floats or was opened by a
+/// search. The loads from outside must be listed.
+void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& region);
 
-  /// Adds the members and rows of the region to those of the full solve.
-  void list(State& state, Scratch& scratch) const;
-  /// After the solve: true where a contact at the border had a residual.
-  bool widen(const State& state, const Scratch& scratch);
+/// One more member, which has moved with its collection so far.
+void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member);
 
- private:
-  bool isWhole() const { return next_.empty(); }
-  void addTouched(const State& state, const Scratch& scratch);
-  void addUnbalanced(const State& state, const Scratch& scratch);
-  void findNeighbours();
-  void addAround(std::vector<std::uint32_t> members);
-  template <class Visit>
-  void forEachBlock(const Weld& weld, Visit&& visit) const;
-  template <class Visit>
-  void forEachHeld(Visit&& visit) const;
+/// Adds the members and rows of the region to those of the full solve.
+void listRegion(State& state, Scratch& scratch, OpenRegion& region);
 
-  Collection* c_;
-  std::vector<std::uint8_t> inside_;  ///< per member; the frame counts as inside
-  /// Per member: the velocity that the impulses inside leave of its load, too slow for a hit to
-  /// see.
-  std::vector<Twist> left_;
-  std::vector<std::uint32_t> first_, next_;  ///< per member: its run of neighbours
-  double noise_ = 0.0;                       ///< slower is no motion in a hit [m/s]
-  int rings_ = 2;                            ///< that are added next; twice as many each time
-};
+/// After the solve: true where a contact at the border had a residual, or something outside pushes
+/// a member as it did not before, and the region is wider now. The loads from outside must be
+/// listed again.
+bool widen(State& state, Scratch& scratch, OpenRegion& region);
+
+/// The welds and the blocks at some members, ascending.
+std::vector<std::uint32_t> weldsAt(const Collection& c, std::span<const std::uint32_t> members);
+std::vector<std::uint32_t> blocksAt(const Collection& c, std::span<const std::uint32_t> members);
+
+/// Puts the impulses back that the blocks had before the solve: those of a whole region stand in
+/// the load that was sought.
+void restoreImpulses(Collection& c, const OpenRegion& region, Witness& sought);
+
+/// Calls `visit` with each block of a weld.
+template <class Visit>
+void forEachBlock(const Collection& c, const Weld& weld, Visit&& visit) {
+  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) visit(c.contacts[i].block);
+}
 
 }  // namespace merge2d

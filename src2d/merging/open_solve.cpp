@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "src2d/dynamics/solver.h"
+#include "src2d/merging/collection.h"
+#include "src2d/merging/collection_load.h"
 #include "src2d/merging/momentum.h"
 #include "src2d/merging/open_region.h"
-#include "src2d/merging/proof_search.h"
+#include "src2d/merging/relaxation.h"
 #include "src2d/merging/sweep.h"
 
 namespace merge2d {
@@ -13,39 +15,34 @@ namespace {
 
 /// A member begins with the velocity that it had before its collection turned in the last step: to
 /// turn it takes forces.
-void startMember(State& state, const Rigid& whole, BodyId b) {
-  const Vec2 arm = whole.previous_rotation * (state[b].local - whole.center);
-  Rigid& r = state[rigidOf(b)];
-  r.x = state.pose(b).position;
-  r.rest = Vec2::Zero();
-  r.v = whole.v + cross(whole.omega, arm);
-  r.omega = whole.omega;
+void noteStart(const State& state, Scratch& scratch, const Collection& c) {
+  const Rigid& whole = state[c.rigid];
+  for (const BodyId b : c.members) {
+    const Vec2 arm = whole.previous_rotation * (state[b].local - whole.center);
+    const Vec2 v = whole.v + cross(whole.omega, arm);
+    scratch.open_start[index(b)] = {v.x(), v.y(), whole.omega};
+  }
 }
 
-/// Notes the members of the collections that are open, and the regions that the solve begins with.
-std::vector<OpenRegion> open(State& state, Scratch& scratch) {
-  std::vector<OpenRegion> regions;
+/// The regions that the solve begins with.
+void open(State& state, Scratch& scratch) {
+  scratch.regions.clear();
   scratch.opened.clear();
+  scratch.open.assign(state.bodies.size(), 0);
   scratch.open_start.resize(state.bodies.size());
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) != Doubt::Open) continue;
-    readImpulses(c, c.certificate.front().search.load);
-    for (const BodyId b : c.members) {
-      startMember(state, state[c.rigid], b);
-      const Rigid& r = state[rigidOf(b)];
-      scratch.open_start[index(b)] = {r.v.x(), r.v.y(), r.omega};
-      scratch.opened.push_back(b);
-    }
-    regions.emplace_back(state, scratch, c);
+    listWeldsOfMembers(c);
+    noteStart(state, scratch, c);
+    beginRegion(state, scratch, c, scratch.regions.emplace_back());
+    scratch.opened.push_back(c.rigid);
   }
-  return regions;
 }
 
-void listRegions(State& state, Scratch& scratch, const std::vector<OpenRegion>& regions) {
-  scratch.open.assign(state.bodies.size(), 0);
+void listRegions(State& state, Scratch& scratch) {
   scratch.open_members.clear();
   scratch.open_rows.clear();
-  for (const OpenRegion& region : regions) region.list(state, scratch);
+  for (OpenRegion& region : scratch.regions) listRegion(state, scratch, region);
   std::ranges::sort(scratch.open_members);
 }
 
@@ -70,21 +67,24 @@ Doubt doubtAbout(const State& state, const Scratch& scratch, const Collection& c
 }
 
 void solveOpened(State& state, Scratch& scratch) {
-  std::vector<OpenRegion> regions = open(state, scratch);
+  open(state, scratch);
+  if (!std::ranges::all_of(scratch.regions, &OpenRegion::whole)) {
+    scratch.known_loads = scratch.outer_loads;
+  }
   scratch.last_sweep = state.step;
   for (bool wider = true; wider;) {
-    listRegions(state, scratch, regions);
+    listRegions(state, scratch);
     scratch.solved = false;
     solveContacts(state, scratch);
+    listOuterLoads(state, scratch);
     wider = false;
-    for (OpenRegion& region : regions) wider |= region.widen(state, scratch);
+    for (OpenRegion& region : scratch.regions) wider |= widen(state, scratch, region);
   }
   scratch.solved = true;
   showVelocities(state, scratch);
-  for (Collection& c : state.collections) {
-    if (doubtAbout(state, scratch, c) != Doubt::Open) continue;
-    takeJointImpulses(state, c);
-    relaxOpen(state, scratch, c);
+  for (OpenRegion& region : scratch.regions) {
+    takeJointImpulses(state, state.collections[region.slot]);
+    relaxOpen(state, scratch, region);
   }
 }
 
@@ -120,18 +120,19 @@ void closeOpened(State& state, Scratch& scratch) {
   if (scratch.opened.empty()) return;
   scratch.u.resize(state.rigids.size() + 1);
   scratch.u.back() = {};
-  for (const BodyId b : scratch.opened) {
-    const RigidId id = state[b].rigid;
-    if (id == rigidOf(b)) {
+  for (const RigidId id : scratch.opened) {
+    if (!state.isCollection(id)) {
       const Rigid& r = state[id];
-      const SolverVelocity gain = gainOf(scratch, b);
-      scratch.u[index(b)] = {r.v.x() + gain.vx, r.v.y() + gain.vy, r.omega + gain.omega};
-    } else if (state.collection(id).members.front() == b) {
+      const SolverVelocity gain = gainOf(scratch, BodyId{static_cast<std::uint32_t>(id)});
+      scratch.u[index(id)] = {r.v.x() + gain.vx, r.v.y() + gain.vy, r.omega + gain.omega};
+    } else if (state.collection(id).id != kNoCollection) {
       closeCollection(state, scratch, state.collection(id));
     }
   }
   scratch.opened.clear();
+  std::vector<OpenRegion>().swap(scratch.regions);
   scratch.open_members.clear();
+  scratch.open_rows.clear();
   scratch.open.clear();
 }
 

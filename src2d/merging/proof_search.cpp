@@ -15,7 +15,7 @@
 namespace merge2d {
 
 bool isLookedAt(const State& state, const Collection& c) {
-  const std::int64_t since_hit = state.step - c.last_blow;
+  const std::int64_t since_hit = state.step - c.hits.blow;
   return since_hit >= kDecided.shaken_steps || since_hit % state.settings.merging.steps == 0;
 }
 
@@ -32,62 +32,6 @@ void startFrame(const State& state, Scratch& scratch, const Collection& c) {
 SolverVelocity memberAt(const State& state, BodyId b, const Twist& u) {
   return {u.vx, u.vy, u.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia};
 }
-
-/// The motion of an open collection as one body: that of its frame, or of its members' momentum.
-/// Seen from the centre of mass, so that the rounding does not depend on where that is.
-struct OneBody {
-  Vec2 v = Vec2::Zero();
-  double omega = 0.0;
-  Vec2 at(const Vec2& arm) const { return v + cross(omega, arm); }
-};
-
-OneBody motionOf(const State& state, const Scratch& scratch, const Collection& c) {
-  const Rigid& r = state[c.rigid];
-  if (r.floating()) {
-    const VelocityField field = sweptField(state, scratch, c);
-    return {field.v, field.omega};
-  }
-  if (r.anchor == kWorldFrame) return {};
-  const Rigid& anchor = state[rigidOf(c.anchor)];
-  return {anchor.v, anchor.omega};
-}
-
-/// From the centre of mass, or the frame's origin.
-Vec2 armOf(const State& state, const Collection& c, BodyId b) {
-  const Rigid& r = state[c.rigid];
-  return r.rotation * (state[b].local - (r.floating() ? r.center : Vec2(Vec2::Zero())));
-}
-
-}  // namespace
-
-void relaxOpen(const State& state, Scratch& scratch, Collection& c) {
-  const OneBody one = motionOf(state, scratch, c);
-  const Rotation turn = state[c.rigid].rotation, back = turn.inverse();
-  startFrame(state, scratch, c);
-  for (const BodyId b : c.members) {
-    const SolverVelocity& u = scratch.sweep_u[index(b)];
-    const Vec2 v = back * Vec2(Vec2(u.vx, u.vy) - one.at(armOf(state, c, b)));
-    scratch.trial_u[index(b)] = memberAt(state, b, {v.x(), v.y(), u.omega - one.omega});
-  }
-  c.residual = static_cast<float>(residualInside(c, scratch.trial_u));
-  const double tolerance = toleratedResidual(state);
-  if (c.residual <= tolerance) return;
-  ProofSearch& search = c.certificate.front().search;
-  ProofSearch waiting;
-  if (isLarge(c)) std::swap(waiting, search);
-  c.residual = static_cast<float>(relax(state, scratch, c, tolerance));
-  if (isLarge(c)) std::swap(waiting, search);
-  for (const BodyId b : c.members) {
-    const SolverVelocity& u = scratch.trial_u[index(b)];
-    const Vec2 v = one.at(armOf(state, c, b)) + turn * Vec2(u.vx, u.vy);
-    SolverVelocity& of = scratch.sweep_u[index(b)];
-    of.vx = v.x();
-    of.vy = v.y();
-    of.omega = one.omega + u.omega;
-  }
-}
-
-namespace {
 
 /// A search starts from the impulses that the witnesses foretell, or else from those that there
 /// are.

@@ -12,12 +12,6 @@ namespace merge2d {
 /// Whether its load is looked at in this step, as always but for a while after a hit.
 bool isLookedAt(const State& state, const Collection& collection);
 
-/// Goes on, after the full solve, with the contacts inside an open collection until they have
-/// converged, or for as many sweeps as a step may spend; forces from outside stay as they are.
-/// Leaves the members' velocities in `scratch.trial_u` and the largest residual of a row in
-/// Collection::residual.
-void relaxOpen(const State& state, Scratch& scratch, Collection& collection);
-
 /// Begins a search for impulses that carry a load.
 void beginSearch(const State& state, Collection& collection, const CollectionLoad& load);
 

@@ -1,18 +1,20 @@
 #pragma once
-/// The engine's own block sweeps inside the conjugate gradient (dynamics/nncg.h), over the rows
-/// inside one collection, until they have converged.
+/// The rows inside one collection, solved until they have converged (block_sweeps.h).
 
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
 
-/// The largest change that one more solve of a row inside would make [m/s], with the velocities
-/// `u` of its members and of its frame, seen from the frame.
-double residualInside(const Collection& collection, const std::vector<SolverVelocity>& u);
-
 /// Solves the rows inside, with the velocities in `scratch.trial_u`, until their residual is
 /// below `tolerance` [m/s] or the sweeps of a step are spent (DecidedSettings); returns it [m/s].
 /// Where a search is under way it goes on as if there had been no pause.
 double relax(const State& state, Scratch& scratch, Collection& collection, double tolerance);
+
+/// Goes on, after the full solve, with the contacts inside an open collection until they have
+/// converged, or for as many sweeps as a step may spend; forces from outside stay as they are. A
+/// hit is followed as far as it moves anything: the members that it reaches join the region. Leaves
+/// the region's velocities, seen from the collection, in `scratch.trial_u`, and the largest
+/// residual of a row in Collection::residual.
+void relaxOpen(State& state, Scratch& scratch, OpenRegion& region);
 
 }  // namespace merge2d

@@ -145,7 +145,7 @@ class Split {
         anchored_(anchored),
         whole_(state[id]),
         anchor_(state.collection(id).anchor),
-        last_blow_(state.collection(id).last_blow),
+        last_blow_(state.collection(id).hits.blow),
         members_(membersOfParts(state.collection(id), part, anchored.size())),
         kept_(members_.size()) {
     for (std::size_t p = 1; p < members_.size(); ++p) {
@@ -217,7 +217,7 @@ class Split {
         newPart(state_, members_[p], std::move(kept_[p]), whole_, anchor_, anchored_[p] != 0);
     // The hit has cut its movers already: the part is shaken, but no longer hit, and its run of
     // hits begins anew.
-    state_.collection(id).last_blow = std::min(last_blow_, state_.step - kDecided.hit_steps);
+    state_.collection(id).hits.blow = std::min(last_blow_, state_.step - kDecided.hit_steps);
     return id;
   }
 

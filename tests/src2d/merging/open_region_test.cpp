@@ -10,16 +10,22 @@ namespace {
 
 /// Boxes of 1 kg in a row on the ground, on which they slide almost freely.
 std::string longRow(int count) {
-  return kGround + fmt::format(R"(
+  return fmt::format(R"(
+format = 1
 [material]
 friction = 0.05
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [2000, 1]
 [[body]]
 name = "box"
 at = [0, 0.5]
 box = [1, 1]
 repeat = {{ count = [{}, 1], spacing = [1, 1] }}
 )",
-                               count);
+                     count);
 }
 
 /// No box of the row stands on a fixed foot: all of the impulse goes into its boxes, but for what
@@ -38,6 +44,57 @@ TEST(OpenRegion, ABlowOnALongRowKeepsItsMomentum) {
     momentum += now.bodies[index(run.id(fmt::format("box[{},0]", i)))].v.x();
   }
   EXPECT_NEAR(momentum, kImpulse, kCount * 0.05 * 9.81 * 0.01);
+}
+
+/// A ram hits a box beside the row that has a belt, so that it never merges, and that passes the
+/// blow on to the row.
+constexpr int kLongRow = 550;
+Simulation rowBehindABuffer() {
+  return Simulation(longRow(kLongRow) + R"(
+[[body]]
+name = "buffer"
+at = [-1, 0.5]
+box = [1, 1]
+surface_velocity = 1e-9
+[[body]]
+name = "ram"
+at = [-12, 0.5]
+box = [1, 1]
+density = 20
+friction = 0
+velocity = [10, 0]
+)",
+                    Mode::Merge);
+}
+
+/// Momentum is lost to friction alone.
+void expectTheBlowInTheRow(Simulation& run) {
+  double of_row = 0.0;
+  const Snapshot now = run.now();
+  for (int i = 0; i < kLongRow; ++i) {
+    of_row += now.bodies[index(run.id(fmt::format("box[{},0]", i)))].v.x();
+  }
+  const double all = of_row + run.body("buffer").v.x() + 20.0 * run.body("ram").v.x();
+  EXPECT_GT(of_row, 50.0);
+  EXPECT_NEAR(all, 200.0, kLongRow * 0.05 * 9.81 * 0.05);
+}
+
+TEST(OpenRegion, ABlowOnABodyThatTouchesARowMovesTheRow) {
+  Simulation run = rowBehindABuffer();
+  run.until(1.05);
+  expectTheBlowInTheRow(run);
+}
+
+/// A knock at the far end opens the row, at first nowhere else.
+TEST(OpenRegion, ABlowFromOutsideIsSeenWhereverItReachesAnOpenRow) {
+  Simulation run = rowBehindABuffer();
+  run.until(0.9);
+  ASSERT_TRUE(run.anchored("box[0,0]"));
+  while (run.world().time() < 1.05) {
+    run.kick("box[500,0]", {0.0, -1e-3});
+    run.steps(1);
+  }
+  expectTheBlowInTheRow(run);
 }
 
 /// A wall of bricks with a second one on it that is free; a disc falls on that.

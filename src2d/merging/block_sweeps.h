@@ -1,0 +1,45 @@
+#pragma once
+/// The engine's own block sweeps inside the conjugate gradient (dynamics/nncg.h), over chosen rows
+/// inside one collection, with the velocities in `scratch.trial_u`.
+
+#include <span>
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+class BlockSweeps {
+ public:
+  static constexpr int kLookEvery = 5;  ///< sweeps after which the residual is looked at
+
+  BlockSweeps(Scratch& scratch, Collection& c, double tolerance)
+      : scratch_(scratch), c_(c), u_(scratch.trial_u), tolerance_(tolerance) {}
+
+  /// The largest change that one more solve of a block would make [m/s].
+  double residual(std::uint32_t block) const {
+    const ContactBlock& k = c_.blocks[block];
+    return residualOf(k, k.nx, k.ny, u_[k.a], u_[k.b]);
+  }
+
+  /// At most so many sweeps over `blocks`, ascending, at the members `bodies`; fewer where all of
+  /// them are below the tolerance before. `resumes`: the last ones over them go on. Returns how
+  /// many.
+  int run(int most, std::span<const std::uint32_t> blocks, std::span<const BodyId> bodies,
+          NncgBuffers& buffers, bool resumes);
+
+ private:
+  int runOneByOne(int most, std::span<const std::uint32_t> blocks, std::span<const BodyId> bodies,
+                  NncgBuffers& buffers, bool resumes);
+  int runWide(int most, std::span<const std::uint32_t> blocks, std::span<const BodyId> bodies,
+              NncgBuffers& buffers, bool resumes);
+  template <class ImpulsesAt, class Sweep, class Store>
+  int iterate(int most, std::span<const std::uint32_t> blocks, std::span<const BodyId> bodies,
+              NncgBuffers& buffers, bool resumes, ImpulsesAt impulses, Sweep sweep, Store store);
+
+  Scratch& scratch_;
+  Collection& c_;
+  std::vector<SolverVelocity>& u_;
+  double tolerance_;  ///< [m/s]
+};
+
+}  // namespace merge2d
