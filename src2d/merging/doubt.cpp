@@ -170,7 +170,7 @@ void findDoubts(State& state, Scratch& scratch) {
     if (doubt == Doubt::None) {
       doubt = findDoubt(state, scratch, c);
     } else {
-      c.certificate.front().search = {};  // of a load without what a frame drags
+      c.certificate.front().search = {};  // whose load lacks the drag of the frame
     }
     any |= doubt != Doubt::None;
     if (doubt == Doubt::None && isLongQuiet(state, c)) putBlocksAway(c);

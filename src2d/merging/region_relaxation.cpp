@@ -39,7 +39,7 @@ Vec2 armOf(const State& state, const Collection& c, BodyId b) {
   return r.rotation * (state[b].local - (r.floating() ? r.center : Vec2(Vec2::Zero())));
 }
 
-/// A member of the region, seen from the collection; what it touches outside does not move.
+/// A member of the region, seen from the collection; its neighbours outside do not move.
 void startRelaxed(const State& state, Scratch& scratch, const Collection& c, std::uint32_t member,
                   const Twist& u) {
   const BodyId b = c.members[member];
@@ -67,8 +67,8 @@ class RegionRelaxation {
     double residual = choose(region_.members);
     double left =
         std::max(kDecided.row_sweeps, kDecided.full_sweeps * static_cast<double>(blocks_.size()));
-    for (int sweeps = 0;
-         residual > tolerance_ && (sweeps == 0 || sweeps < kDecided.most_sweeps) && left > 0.0;) {
+    int sweeps = 0;
+    while (residual > tolerance_ && sweeps < kDecided.most_sweeps && left > 0.0) {
       constexpr int kRound = 10;
       const int done = sweeps_of_.run(kRound, blocks_, bodies_, scratch_.nncg, false);
       sweeps += done;
