@@ -57,6 +57,12 @@ void addHit(State& state, Scratch& scratch, const Collection& c, OpenRegion& reg
     touch(scratch.pairs[meeting.pair].b);
   }
   for (const Kick& kick : scratch.kicks) touch(kick.body);
+  for (const BodyPair& pair : scratch.pairs) {  // no row without the member tells of these
+    const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
+    if (a.floating() || b.floating() || a.anchor == b.anchor) continue;
+    touch(pair.a);
+    touch(pair.b);
+  }
 }
 
 void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {

@@ -43,5 +43,34 @@ TEST(SlowLoad, APierFollowsItsBaseAndTheLintelSlides) {
   }
 }
 
+/// A wall of 1,080 bricks, and a magnet above its middle that waits at a height of its lower face
+/// until 3 s, comes down to the wall, and goes up again by 3 mm in 5 s.
+std::string wallUnderAMagnet(double from, double to) {
+  constexpr int kColumns = 30, kRows = 36;
+  std::string toml = "format = 1\n[material]\nfriction = 0.6\n" + kGround.substr(12);
+  for (int row = 0; row < kRows; ++row) {
+    for (int i = 0; i < kColumns; ++i) {
+      toml += fmt::format("[[body]]\nname = \"b{}_{}\"\nat = [{}, {}]\nbox = [0.4, 0.2]\n", i, row,
+                          0.41 * i + 0.2 * (row % 2), 0.1 + 0.2 * row);
+    }
+  }
+  return toml + fmt::format(
+                    "[[body]]\nname = \"hook\"\nmotion = \"scripted\"\nbox = [0.3, 0.2]\n"
+                    "script = {{ keyframes = [[0, 6.35, {0}, 0], [3, 6.35, {0}, 0], "
+                    "[5, 6.35, {1}, 0], [7, 6.35, {1}, 0], [12, 6.35, {2}, 0]] }}\n"
+                    "[[magnet]]\nbody = \"hook\"\n",
+                    from + 0.1, to + 0.1, to + 0.103);
+}
+
+/// Between two frames only members on their own feel each other, in a large collection too.
+TEST(SlowLoad, AMagnetTakesABrickSlowlyOffALargeWall) {
+  Simulation before(wallUnderAMagnet(20.0, 20.0), Mode::Merge);
+  before.until(2.9);
+  const double top = before.body("b15_35").x.y() + 0.1;
+  Simulation run(wallUnderAMagnet(7.5, top), Mode::Merge);
+  run.until(11.5);
+  EXPECT_NEAR(run.body("b15_35").x.y() + 0.1, run.body("hook").x.y() - 0.1, 5e-4);
+}
+
 }  // namespace
 }  // namespace merge2d
