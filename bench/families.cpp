@@ -24,7 +24,7 @@ namespace merge2d::bench {
 namespace {
 
 constexpr double kLate = 0.3;   // [s]
-constexpr double kSlack = 2.0;  // in which what is late falls after the end [s]
+constexpr double kSlack = 2.0;  // after the end, for late falls [s]
 
 /// Where a body is, seen from another.
 struct Seen {

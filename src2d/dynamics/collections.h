@@ -206,7 +206,7 @@ struct Collection {
   int points = 0;                   ///< contact points of all blocks
   bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
   std::vector<Weld> welds;          ///< ascending by pair
-  IndexRuns welds_of;               ///< of each member, where it was opened
+  IndexRuns welds_of;               ///< per member; empty until it is opened
   std::vector<JointBlock> joints;   ///< those that act inside; λ is live here
   std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
   float residual = 0.0F;            ///< largest of its rows, when last solved [m/s]

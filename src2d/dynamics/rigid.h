@@ -70,6 +70,10 @@ struct Rigid {
 inline bool sameFrame(const Rigid& a, const Rigid& b) {
   return !a.floating() && a.anchor == b.anchor;
 }
+/// Each is fixed to a frame of its own: the full solve has no row between them.
+inline bool areOnTwoFrames(const Rigid& a, const Rigid& b) {
+  return !a.floating() && !b.floating() && a.anchor != b.anchor;
+}
 
 /// A body's own constants, and where it is found now.
 struct Body {

@@ -189,10 +189,10 @@ struct OpenRegion {
   std::uint32_t slot = 0;                                  ///< of the collection
   bool whole = false;                                      ///< all members are inside
   std::vector<std::uint32_t> members;                      ///< that are inside
-  std::vector<std::pair<std::uint32_t, Impulses>> before;  ///< of its blocks, where it is no whole
+  std::vector<std::pair<std::uint32_t, Impulses>> before;  ///< of its blocks, where it is not whole
   /// Per member, where some are outside: the velocity that the impulses inside leave of its load,
   /// too slow for a hit to see.
-  std::vector<Twist> left;
+  std::vector<Twist> imbalance;
   int rings = 2;  ///< of neighbours that are added next
 };
 

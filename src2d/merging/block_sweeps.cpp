@@ -20,7 +20,7 @@ int BlockSweeps::iterate(int most, std::span<const std::uint32_t> blocks,
   const auto enough = [&] {
     if (++done % kLookEvery != 0) return false;
     store();
-    return std::ranges::all_of(blocks, [&](std::uint32_t i) { return residual(i) <= tolerance_; });
+    return std::ranges::all_of(blocks, [&](std::uint32_t i) { return residual(i) <= tolerance; });
   };
   if (resumes) {
     iteration.resume(most, enough);
@@ -65,7 +65,7 @@ int BlockSweeps::run(int most, std::span<const std::uint32_t> blocks,
                     scratch_.sweep_path != SweepPath::OneByOne;
   const int done = wide ? runWide(most, blocks, bodies, buffers, resumes)
                         : runOneByOne(most, blocks, bodies, buffers, resumes);
-  settleJoints(c_, {}, u_, tolerance_);
+  settleJoints(c_, {}, u_, tolerance);
   return done;
 }
 

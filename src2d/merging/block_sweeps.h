@@ -12,8 +12,8 @@ class BlockSweeps {
  public:
   static constexpr int kLookEvery = 5;  ///< sweeps after which the residual is looked at
 
-  BlockSweeps(Scratch& scratch, Collection& c, double tolerance)
-      : scratch_(scratch), c_(c), u_(scratch.trial_u), tolerance_(tolerance) {}
+  BlockSweeps(Scratch& scratch, Collection& c, double tolerance_of_rows)
+      : tolerance(tolerance_of_rows), scratch_(scratch), c_(c), u_(scratch.trial_u) {}
 
   /// The largest change that one more solve of a block would make [m/s].
   double residual(std::uint32_t block) const {
@@ -27,6 +27,8 @@ class BlockSweeps {
   int run(int most, std::span<const std::uint32_t> blocks, std::span<const BodyId> bodies,
           NncgBuffers& buffers, bool resumes);
 
+  double tolerance;  ///< of the rows' residuals [m/s]
+
  private:
   int runOneByOne(int most, std::span<const std::uint32_t> blocks, std::span<const BodyId> bodies,
                   NncgBuffers& buffers, bool resumes);
@@ -39,7 +41,6 @@ class BlockSweeps {
   Scratch& scratch_;
   Collection& c_;
   std::vector<SolverVelocity>& u_;
-  double tolerance_;  ///< [m/s]
 };
 
 }  // namespace merge2d

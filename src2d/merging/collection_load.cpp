@@ -140,7 +140,7 @@ Twist gainOf(const State& state, const Collection& c, const CollectionLoad& load
   return {v.x(), v.y(), outer.moment / body.inertia * load.size};
 }
 
-double unknownSpeed(const State& state, const Scratch& scratch, const OuterLoad& outer) {
+double speedOfNewLoad(const State& state, const Scratch& scratch, const OuterLoad& outer) {
   const auto place = [](const OuterLoad& l) { return packed(l.slot, l.member); };
   const auto known = std::ranges::lower_bound(scratch.known_loads, place(outer), {}, place);
   OuterLoad change = outer;

@@ -252,7 +252,7 @@ void decideOne(State& state, Scratch& scratch, const OpenRegion& region) {
     moves = true;
   }
   noted.close();
-  if (isHit(state, c)) restoreImpulses(c, region, before.load);  // those of a hit are no load's
+  if (isHit(state, c)) restoreImpulses(c, region, before.load);  // a hit is no load that lasts
   const Parts parts = moves ? componentsOf(c) : Parts();
   const bool parting = moves && fallsApart(state, c, parts);
   if (parting) {

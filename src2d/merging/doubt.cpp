@@ -144,7 +144,7 @@ void openWhatFramesDrag(const State& state, Scratch& scratch) {
   };
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
-    if (a.floating() || b.floating() || a.anchor == b.anchor || !(moves(a) || moves(b))) continue;
+    if (!areOnTwoFrames(a, b) || !(moves(a) || moves(b))) continue;
     for (const BodyId body : {pair.a, pair.b}) {
       if (!state.isCollection(state[body].rigid)) continue;
       const Collection& c = state.collection(state[body].rigid);
@@ -161,6 +161,8 @@ void findDoubts(State& state, Scratch& scratch) {
   scratch.sweep_contacts.clear();
   scratch.sweep_joints.clear();
   scratch.doubts.assign(state.collections.size(), Doubt::None);
+  scratch.regions.clear();  // some are left where an error ended the last step
+  scratch.open.clear();
   openWhatFramesDrag(state, scratch);
   bool any = false;
   for (Collection& c : state.collections) {

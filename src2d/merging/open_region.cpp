@@ -34,49 +34,39 @@ std::uint32_t otherEnd(const Weld& weld, std::uint32_t node) {
   return weld.node_a == node ? weld.node_b : weld.node_a;
 }
 
-/// Slower than this no weld of a member parts [m/s].
-double slowestCut(const State& state, const Collection& c, std::uint32_t member) {
-  double slowest = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t w : c.welds_of[member]) {
-    slowest = std::min(slowest, cutSpeed(state, c, c.welds[w]));
-  }
-  return slowest;
-}
-
-void add(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member) {
+void addIfOutside(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member) {
   const Collection& c = state.collections[region.slot];
   if (!isInside(scratch, c, member)) addMember(state, scratch, region, member);
 }
 
 void addHit(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
   const auto touch = [&](BodyId b) {
-    if (state[b].rigid == c.rigid) add(state, scratch, region, state[rigidOf(b)].member);
+    if (state[b].rigid == c.rigid) addIfOutside(state, scratch, region, state[rigidOf(b)].member);
   };
   for (const Meeting& meeting : scratch.meetings) {
     touch(scratch.pairs[meeting.pair].a);
     touch(scratch.pairs[meeting.pair].b);
   }
   for (const Kick& kick : scratch.kicks) touch(kick.body);
-  for (const BodyPair& pair : scratch.pairs) {  // no row without the member tells of these
-    const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
-    if (a.floating() || b.floating() || a.anchor == b.anchor) continue;
+  for (const BodyPair& pair : scratch.pairs) {  // only members on their own have rows for these
+    if (!areOnTwoFrames(state.rigid(pair.a), state.rigid(pair.b))) continue;
     touch(pair.a);
     touch(pair.b);
   }
 }
 
 void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
-  loadMembers(state, c, loadOn(state, scratch, c), region.left);
+  loadMembers(state, c, loadOn(state, scratch, c), region.imbalance);
   layOutPush(state, c);
-  for (std::uint32_t m = 0; m < region.left.size(); ++m) {
-    Twist& left = region.left[m];
+  for (std::uint32_t m = 0; m < region.imbalance.size(); ++m) {
+    Twist& left = region.imbalance[m];
     const Twist& push = c.push[m];
     left = {left.vx + push.vx, left.vy + push.vy, left.omega + push.omega};
     const double reach = state.extent(rigidOf(c.members[m])).box.half.norm();
     const double speed = Vec2(left.vx, left.vy).norm() + reach * std::abs(left.omega);
     if (speed <= cutSpeed(state) || speed <= slowestCut(state, c, m)) continue;
     left = {};
-    add(state, scratch, region, m);
+    addIfOutside(state, scratch, region, m);
   }
 }
 
@@ -88,7 +78,7 @@ void addAround(State& state, Scratch& scratch, OpenRegion& region, std::size_t f
     for (; first < end; ++first) {
       const std::uint32_t m = region.members[first];
       for (const std::uint32_t w : c.welds_of[m]) {
-        add(state, scratch, region, otherEnd(c.welds[w], m));
+        addIfOutside(state, scratch, region, otherEnd(c.welds[w], m));
       }
     }
   }
@@ -114,7 +104,7 @@ void startMember(State& state, const Scratch& scratch, const Collection& c,
                  const OpenRegion& region, std::uint32_t member) {
   const BodyId b = c.members[member];
   const Twist& start = scratch.open_start[index(b)];
-  const Twist left = region.whole ? Twist{} : region.left[member];
+  const Twist left = region.whole ? Twist{} : region.imbalance[member];
   const Vec2 v = state[c.rigid].rotation * Vec2(left.vx, left.vy);
   Rigid& r = state[rigidOf(b)];
   r.v = Vec2(start.vx, start.vy) - v;
@@ -166,6 +156,14 @@ void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t
   region.members.push_back(member);
 }
 
+double slowestCut(const State& state, const Collection& c, std::uint32_t member) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t w : c.welds_of[member]) {
+    slowest = std::min(slowest, cutSpeed(state, c, c.welds[w]));
+  }
+  return slowest;
+}
+
 void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
   region.slot = static_cast<std::uint32_t>(state.collections.slotOf(c));
   region.whole = !opensInPart(state, c) || wasSearched(c);
@@ -199,7 +197,7 @@ namespace {
 void addDisturbed(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
   for (const OuterLoad& load : loadOn(state, scratch, c).outer) {
     if (isInside(scratch, c, load.member)) continue;
-    if (unknownSpeed(state, scratch, load) <= slowestCut(state, c, load.member)) continue;
+    if (speedOfNewLoad(state, scratch, load) <= slowestCut(state, c, load.member)) continue;
     addMember(state, scratch, region, load.member);
   }
 }
@@ -215,13 +213,11 @@ bool widen(State& state, Scratch& scratch, OpenRegion& region) {
                                        solvedVelocity(state, scratch, BodyId{k.b}));
     if (residual > slowestCut(state, c, out)) behind.push_back(out);
   });
-  const std::size_t all = region.members.size();
-  if (!region.whole) addDisturbed(state, scratch, c, region);
   const std::size_t first = region.members.size();
-  if (behind.empty()) return first > all;
-  for (const std::uint32_t m : behind) add(state, scratch, region, m);
-  addAround(state, scratch, region, first);
-  return true;
+  for (const std::uint32_t m : behind) addIfOutside(state, scratch, region, m);
+  if (!behind.empty()) addAround(state, scratch, region, first);
+  if (!region.whole) addDisturbed(state, scratch, c, region);
+  return region.members.size() > first;
 }
 
 std::vector<std::uint32_t> weldsAt(const Collection& c, std::span<const std::uint32_t> members) {

@@ -2,7 +2,8 @@
 /// The part of an open collection that a hit reaches. Its members take part in the full solve on
 /// their own. The rest stays one body that moves with its frame; the contacts between the two push
 /// with the impulses that they hold. After a solve the region is widened beyond each of them that
-/// has a residual: no momentum ends at its border.
+/// has a residual, and by each member that something outside pushes anew: no momentum ends at its
+/// border.
 
 #include <span>
 
@@ -17,6 +18,9 @@ SolverVelocity solvedVelocity(const State& state, const Scratch& scratch, BodyId
 /// impulses inside do not keep at rest; all of them where the collection floats or was opened by a
 /// search. The loads from outside must be listed.
 void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& region);
+
+/// Slower than this no weld of a member parts [m/s].
+double slowestCut(const State& state, const Collection& c, std::uint32_t member);
 
 /// One more member, which has moved with its collection so far.
 void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "src2d/core/index_set.h"
@@ -51,24 +52,32 @@ void startRelaxed(const State& state, Scratch& scratch, const Collection& c, std
   scratch.trial_u[index(b)] = {u.vx, u.vy, u.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia};
 }
 
+/// A tenth of the slowest motion that parts a weld of some members [m/s]: in a hit more than under
+/// a load that lasts.
+double toleranceFor(const State& state, const Collection& c,
+                    std::span<const std::uint32_t> members) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t m : members) slowest = std::min(slowest, slowestCut(state, c, m));
+  return kDecided.tolerance * slowest;
+}
+
 /// A hit is followed as far as it moves anything: after each round only the rows are looked at that
 /// it may have changed.
 class RegionRelaxation {
  public:
-  RegionRelaxation(State& state, Scratch& scratch, OpenRegion& region, double tolerance)
+  RegionRelaxation(State& state, Scratch& scratch, OpenRegion& region)
       : state_(state),
         scratch_(scratch),
         region_(region),
         c_(state.collections[region.slot]),
-        sweeps_of_(scratch, c_, tolerance),
-        tolerance_(tolerance) {}
+        sweeps_of_(scratch, c_, toleranceFor(state, c_, region.members)) {}
 
   double run() {
     double residual = choose(region_.members);
     double left =
         std::max(kDecided.row_sweeps, kDecided.full_sweeps * static_cast<double>(blocks_.size()));
     int sweeps = 0;
-    while (residual > tolerance_ && sweeps < kDecided.most_sweeps && left > 0.0) {
+    while (residual > sweeps_of_.tolerance && sweeps < kDecided.most_sweeps && left > 0.0) {
       constexpr int kRound = 10;
       const int done = sweeps_of_.run(kRound, blocks_, bodies_, scratch_.nncg, false);
       sweeps += done;
@@ -87,7 +96,7 @@ class RegionRelaxation {
     for (const std::uint32_t i : blocksAt(c_, members)) {
       const double residual = sweeps_of_.residual(i);
       most = std::max(most, residual);
-      if (residual > tolerance_) addEnds(i, hot);
+      if (residual > sweeps_of_.tolerance) addEnds(i, hot);
     }
     blocks_ = blocksAt(c_, hot.ascending());
     IndexSet ends(c_.members.size());
@@ -109,6 +118,8 @@ class RegionRelaxation {
   }
 
   void admit(std::uint32_t member) {
+    const double own = kDecided.tolerance * slowestCut(state_, c_, member);
+    sweeps_of_.tolerance = std::min(sweeps_of_.tolerance, own);
     addMember(state_, scratch_, region_, member);
     startRelaxed(state_, scratch_, c_, member, {});
   }
@@ -118,10 +129,17 @@ class RegionRelaxation {
   OpenRegion& region_;
   Collection& c_;
   BlockSweeps sweeps_of_;
-  double tolerance_;
   std::vector<std::uint32_t> blocks_, members_;  ///< that are swept
   std::vector<BodyId> bodies_;                   ///< the same members
 };
+
+/// A load that lasts may move any member.
+void addAll(State& state, Scratch& scratch, OpenRegion& region) {
+  const Collection& c = state.collections[region.slot];
+  for (std::uint32_t m = 0; m < c.members.size(); ++m) {
+    if (scratch.open[index(c.members[m])] == 0) addMember(state, scratch, region, m);
+  }
+}
 
 double residualInside(Scratch& scratch, Collection& c) {
   const BlockSweeps sweeps(scratch, c, 0.0);
@@ -130,16 +148,9 @@ double residualInside(Scratch& scratch, Collection& c) {
   return most;
 }
 
-/// Slower than this no weld of the region parts [m/s].
-double slowestCut(const State& state, const Collection& c, const OpenRegion& region) {
-  double slowest = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t w : weldsAt(c, region.members)) {
-    slowest = std::min(slowest, cutSpeed(state, c, c.welds[w]));
-  }
-  return slowest;
-}
-
-double relaxWhole(State& state, Scratch& scratch, Collection& c, double tolerance) {
+double relaxWhole(State& state, Scratch& scratch, OpenRegion& region) {
+  Collection& c = state.collections[region.slot];
+  const double tolerance = toleranceFor(state, c, region.members);
   const double residual = residualInside(scratch, c);
   if (residual <= tolerance) return residual;
   ProofSearch& search = c.certificate.front().search;
@@ -159,15 +170,15 @@ void relaxOpen(State& state, Scratch& scratch, OpenRegion& region) {
   scratch.trial_u.resize(state.bodies.size() + 1);
   scratch.trial_u.back() = {};
   for (const BodyId b : c.members) scratch.trial_u[index(b)] = {};
+  const bool local = isHit(state, c) && isLarge(c);
+  if (!local) addAll(state, scratch, region);
   for (const std::uint32_t m : region.members) {
     const SolverVelocity& u = scratch.sweep_u[index(c.members[m])];
     const Vec2 v = back * Vec2(Vec2(u.vx, u.vy) - one.at(armOf(state, c, c.members[m])));
     startRelaxed(state, scratch, c, m, {v.x(), v.y(), u.omega - one.omega});
   }
-  const double tolerance = kDecided.tolerance * slowestCut(state, c, region);
-  const bool local = !region.whole || (isHit(state, c) && isLarge(c));
-  c.residual = static_cast<float>(local ? RegionRelaxation(state, scratch, region, tolerance).run()
-                                        : relaxWhole(state, scratch, c, tolerance));
+  c.residual = static_cast<float>(local ? RegionRelaxation(state, scratch, region).run()
+                                        : relaxWhole(state, scratch, region));
   for (const std::uint32_t m : region.members) {
     const BodyId b = c.members[m];
     const SolverVelocity& u = scratch.trial_u[index(b)];
