@@ -179,7 +179,18 @@ class Explainer {
   void explainPair(Explanation& out) const {
     const std::string who = words_.pair(out.a, out.b);
     const Decision& last = out.tests.back();
-    if (has(out.tests, "apart")) {
+    if (endInMerge(out.tests)) {
+      out.outcome = Outcome::Merged;
+      out.text = fmt::format("{} merged {}{}: they passed every test for {} of {} steps. {}.", who,
+                             atStep(), into(out.a, out.b), last.count, last.needed,
+                             sentence(because(out.tests, {"below", "merge"})));
+    } else if (last.criterion == "frames") {
+      out.outcome = Outcome::Apart;
+      out.text = fmt::format(
+          "{} stayed apart {}: they are on two frames, those of {} and {}, which may move against "
+          "each other.",
+          who, atStep(), words_.name(frameOf(out.a)), words_.name(frameOf(out.b)));
+    } else if (has(out.tests, "apart")) {
       out.outcome = Outcome::Apart;
       const std::string count =
           last.before > 0
@@ -187,15 +198,10 @@ class Explainer {
               : fmt::format("the count stays at 0 of {}", last.needed);
       out.text = fmt::format("{} stayed apart {}: {}; {}.", who, atStep(),
                              because(out.tests, {"apart"}), count);
-    } else if (last.verdict == "merge") {
-      out.outcome = Outcome::Merged;
-      out.text = fmt::format("{} merged {}{}: they passed every test for {} of {} steps. {}.", who,
-                             atStep(), into(out.a, out.b), last.count, last.needed,
-                             sentence(because(out.tests, {"below", "merge"})));
     } else if (out.tests.front().criterion == "patience") {
       out.outcome = Outcome::Waiting;
       out.text = fmt::format("{} wait {}: {}.", who, atStep(), test(out.tests.front()));
-    } else if (last.criterion == "cycle") {
+    } else if (last.criterion == "cycle" || last.criterion == "freedoms") {
       out.outcome = Outcome::Waiting;
       out.text = fmt::format("{} did not merge {}, though they passed every test for {} steps: {}.",
                              who, atStep(), last.count, test(last));
@@ -206,6 +212,14 @@ class Explainer {
                              who, atStep(), last.count, last.needed,
                              tests.empty() ? "" : fmt::format(" {}.", tests));
     }
+  }
+
+  /// The body to whose frame another one is fixed: its own, or what its collection is welded to.
+  BodyId frameOf(BodyId id) const {
+    const auto body = std::ranges::find(after_.bodies, id, &BodyState::id);
+    if (body == after_.bodies.end() || body->collection == kNoCollection) return id;
+    const auto c = std::ranges::find(after_.collections, body->collection, &CollectionView::id);
+    return c != after_.collections.end() && c->anchored ? c->anchor : id;
   }
 
   /// " into C3"

@@ -63,12 +63,14 @@ void WeldStory::remember(const Explanation& e, std::int64_t step) {
   if (e.outcome != Outcome::Apart && e.outcome != Outcome::Waiting) return;
   ++tested_;
   needed_ = e.tests.back().needed;
-  if (e.tests.back().count > best_count_) {
-    best_count_ = e.tests.back().count;
+  const int count = std::ranges::max(e.tests, {}, &Decision::count).count;
+  if (count > best_count_) {
+    best_count_ = count;
     best_step_ = step;
   }
   for (const Decision& d : e.tests) {
-    if (d.verdict != "apart" && !(d.verdict == "wait" && d.criterion == "cycle")) continue;
+    const bool refused = d.criterion == "cycle" || d.criterion == "freedoms";
+    if (d.verdict != "apart" && !(d.verdict == "wait" && refused)) continue;
     Obstacle& obstacle = obstacles_[std::string(d.criterion)];
     if (obstacle.steps == 0 || d.value < obstacle.nearest.value) {
       obstacle.nearest = d;

@@ -40,6 +40,7 @@ const Decision* worst(const std::vector<Decision>& tests) {
 using Kind = Condition::Kind;
 
 Condition whenApart(const std::vector<Decision>& tests) {
+  if (tests.back().criterion == "frames") return {.kind = Kind::OneFrame};
   const int needed = std::max(1, tests.back().needed);
   const Decision* high = worst(tests);
   if (high == nullptr) return {.kind = Kind::PassAll, .steps = needed};
@@ -48,7 +49,7 @@ Condition whenApart(const std::vector<Decision>& tests) {
 
 Condition whenWaiting(const std::vector<Decision>& tests) {
   const Decision& last = tests.back();
-  if (last.criterion == "cycle") return {.kind = Kind::Hold};
+  if (last.criterion == "cycle" || last.criterion == "freedoms") return {.kind = Kind::Hold};
   if (tests.front().criterion == "patience") {
     return {.kind = Kind::Wait, .steps = std::max(1, static_cast<int>(tests.front().value))};
   }
@@ -109,9 +110,9 @@ PairReason untested(const Words& words, const Snapshot& after, BodyId a, BodyId 
 }  // namespace
 
 const char* name(Condition::Kind kind) {
-  static constexpr const char* kNames[] = {"none",        "pass-all", "below",      "below-more",
-                                           "calm-more",   "wait",     "hold",       "touch",
-                                           "break-slide", "above",    "cut-between"};
+  static constexpr const char* kNames[] = {"none",        "pass-all", "below",       "below-more",
+                                           "calm-more",   "wait",     "hold",        "touch",
+                                           "break-slide", "above",    "cut-between", "one-frame"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -146,6 +147,8 @@ std::string sentence(const Condition& c) {
                          what, limit, c.steps > 1 ? fmt::format(" for {}", steps) : "");
     case Kind::CutBetween:
       return "They come apart when a weld on the way between them is cut.";
+    case Kind::OneFrame:
+      return "They may merge once one of them comes free of its frame.";
   }
   return "";
 }

@@ -26,6 +26,7 @@ struct Condition {
     BreakOrSlide,  ///< they come apart when their contacts break, or slide
     Above,         ///< … when `measure` is above `limit` for `steps`, or nothing presses
     CutBetween,    ///< … when a weld on the way between them is cut
+    OneFrame,      ///< they may merge once one of them comes free of its frame
   };
   Kind kind = Kind::None;
   std::string_view measure{};  ///< a criterion: "relative-motion"

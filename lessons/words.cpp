@@ -176,6 +176,11 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
         "their last weld broke too early, turned slowly, or was hit for long: {} to wait",
         counted(static_cast<std::size_t>(d.value), "step", "steps"));
   }
+  if (c == "frames") return "they are on two frames, which may move against each other";
+  if (c == "freedoms") {
+    return fmt::format("their joints take away {:.0f} of {:.0f} freedoms{}", d.value, d.threshold,
+                       d.verdict == "wait" ? ", too few to hold them" : "");
+  }
   if (c == "hits") {
     return fmt::format(
         "hits have gone on for {:.3g} s (bodies are simulated one by one after {} s; {})", d.value,

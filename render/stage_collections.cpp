@@ -122,21 +122,29 @@ void drawUnmerge(StageSheet& s) {
   s.legend.words("colours: what is one now");
 }
 
+/// The reason that a pair does not merge, in a word or two.
+std::string waitingName(const Decision& d) {
+  if (d.criterion == "frames") return "two frames";
+  if (d.criterion == "cycle" || d.criterion == "freedoms") return "pivot";
+  return fmt::format("{}/{}", d.count, d.needed);
+}
+
 void drawMerge(StageSheet& s) {
   StagePens& pens = s.pens;
   const auto meeting = meetings(s.after);
+  std::map<BodyPair, std::vector<Decision>> tests;
   for (const Decision& d : s.after.decisions) {
     const BodyPair pair = ordered(d.a, d.b);
-    const auto found = meeting.find(pair);
-    if (found == meeting.end() || d.verdict != "merge") continue;
-    pens.link(pair, found->second, 1.6F * pens.lineWidth(), pens.good());
+    if (d.stage == "Merge" && meeting.contains(pair)) tests[pair].push_back(d);
+  }
+  for (const auto& [pair, of_pair] : tests) {
+    if (!endInMerge(of_pair)) continue;
+    pens.link(pair, meeting.at(pair), 1.6F * pens.lineWidth(), pens.good());
   }
   drawCollections(s);
-  for (const Decision& d : s.after.decisions) {
-    const auto found = meeting.find(ordered(d.a, d.b));
-    if (found == meeting.end() || d.verdict != "wait") continue;
-    pens.label(d.criterion == "cycle" ? "pivot" : fmt::format("{}/{}", d.count, d.needed),
-               s.scene.view(found->second), pens.soft());
+  for (const auto& [pair, of_pair] : tests) {
+    if (endInMerge(of_pair)) continue;
+    pens.label(waitingName(of_pair.back()), s.scene.view(meeting.at(pair)), pens.soft());
   }
   s.legend.line("merged now", pens.good());
   s.legend.sample("oriented box and centre of a collection", 13.0F, [&s](Painter& p, Pixel left) {

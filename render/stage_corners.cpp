@@ -23,6 +23,7 @@ std::string obstacleName(std::string_view criterion) {
   if (criterion == "edge") return "on edge";
   if (criterion == "sliding") return "slips";
   if (criterion == "breathing") return "breathes";
+  if (criterion == "frames") return "two frames";
   return "moves";
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The tests of a step, as plain data: each number with its threshold and its verdict.
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,19 @@ struct Decision {
   std::int32_t group = -1;
   std::int32_t members = -1;  ///< all its bodies: an index of Snapshot::groups
 };
+
+/// True when a step welded a pair, of which these are all tests: it was ready, a group holds it
+/// where the cycle criterion was asked, and it is not on two frames.
+inline bool endInMerge(const std::vector<Decision>& tests) {
+  const auto any = [&](std::string_view criterion, std::string_view verdict) {
+    return std::ranges::any_of(tests, [&](const Decision& d) {
+      return d.stage == "Merge" && d.verdict == verdict &&
+             (criterion.empty() || d.criterion == criterion);
+    });
+  };
+  if (any("frames", "apart")) return false;
+  return any("cycle", "merge") || (any("", "merge") && !any("cycle", "wait"));
+}
 
 /// The bodies of a rigid group: first those whose contacts make it one, ascending, then those that
 /// are welded to them already, ascending.

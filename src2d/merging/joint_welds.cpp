@@ -29,7 +29,7 @@ struct Hold {
   }
   /// Counted in contacts: a pivot takes two of the three relative freedoms, two contacts take all.
   int contacts() const {
-    if (freedoms >= 3) return 2;
+    if (freedoms >= kFreedoms) return 2;
     return freedoms == 2 && pivot ? 1 : 0;
   }
 };
@@ -203,9 +203,9 @@ std::vector<JointEdge> readyJoints(const State& state) {
     for (; i < ready.size() && pairOf(*ready[i]) == pairOf(first); ++i) {
       hold.add(ready[i]->kind, freedomsTaken(state, *ready[i]));
     }
-    if (hold.contacts() == 0) continue;
     const auto [a, b] = pairOf(first);
-    edges.push_back({a, b, hold.contacts(), endOf(state, first)});
+    edges.push_back(
+        {a, b, std::min(hold.freedoms, kFreedoms), hold.contacts(), endOf(state, first)});
   }
   return edges;
 }

@@ -35,10 +35,13 @@ void breakWhatStaysInside(State& state, Scratch& scratch, std::span<const std::u
 /// joint must have come to rest.
 void countQuietJoints(State& state, Scratch& scratch);
 
+inline constexpr int kFreedoms = 3;  ///< of one body against another
+
 /// A pair of bodies that joints alone hold together, as so many contacts would.
 struct JointEdge {
   BodyId a{}, b{};
-  int contacts = 0;
+  int freedoms = 0;        ///< those that the joints take away
+  int contacts = 0;        ///< 0: they hold nothing
   Vec2 at = Vec2::Zero();  ///< in the world [m]
 };
 

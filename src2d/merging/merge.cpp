@@ -109,6 +109,7 @@ void merge(State& state, Scratch& scratch) {
   // Collections that sleep on a floor may be among those that are united.
   if (!pairs.empty() && mergingMethod(state).unites_on_floors) bringAllBack(state, scratch);
   if (!pairs.empty()) weldAll(state, scratch, pairs);
+  noteTwoFrames(state, scratch);
   layOutCollections(state);  // the next step starts from the layouts
   const bool released = releaseOpenRows(state, scratch, kDecided.kept_steps);
   if (!pairs.empty()) {

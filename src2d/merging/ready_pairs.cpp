@@ -30,6 +30,16 @@ class Refused {
   std::size_t next_ = 0;
 };
 
+/// A pair that joints alone make ready; they hold it when they count as contacts.
+void noteJoint(const State& state, Notes* notes, const JointEdge& joint) {
+  noteMerge(state, notes, {joint.a, joint.b, 0, 0},
+            {.criterion = "freedoms",
+             .equation = "Section 8.2",
+             .value = static_cast<double>(joint.freedoms),
+             .threshold = kFreedoms,
+             .verdict = joint.contacts > 0 ? "merge" : "wait"});
+}
+
 }  // namespace
 
 std::vector<Pin> MergeGraph::pinsOf(const std::vector<ReadyPair>& ready) const {
@@ -88,6 +98,8 @@ void listReadyPairs(const State& state, Scratch& scratch, const MergeGraph& grap
                              .contacts = activePoints(state, pair)});
   }
   for (const JointEdge& joint : readyJoints(state)) {
+    noteJoint(state, scratch.notes, joint);
+    if (joint.contacts == 0) continue;
     scratch.ready.push_back({.pair = {joint.a, joint.b, 0, 0},
                              .node_a = graph.node(joint.a),
                              .node_b = graph.node(joint.b),
@@ -96,6 +108,25 @@ void listReadyPairs(const State& state, Scratch& scratch, const MergeGraph& grap
   }
   std::stable_sort(scratch.ready.begin(), scratch.ready.end(),
                    [](const ReadyPair& x, const ReadyPair& y) { return keyOf(x) < keyOf(y); });
+}
+
+void noteTwoFrames(const State& state, Scratch& scratch) {
+  if (!scratch.notes) return;
+  const auto note = [&](BodyId one, BodyId other) {
+    const Rigid &a = state.rigid(one), &b = state.rigid(other);
+    if (a.floating() || b.floating() || sameFrame(a, b)) return;
+    scratch.notes->decisions.push_back({.a = one,
+                                        .b = other,
+                                        .stage = "Merge",
+                                        .criterion = "frames",
+                                        .equation = kOwnMerging,
+                                        .value = 2.0,
+                                        .threshold = 1.0,
+                                        .needed = state.settings.merging.steps,
+                                        .verdict = "apart"});
+  };
+  for (const BodyPair& pair : scratch.pairs) note(pair.a, pair.b);
+  for (const JointEdge& joint : readyJoints(state)) note(joint.a, joint.b);
 }
 
 std::vector<ReadyPair> pairsToJudge(const State& state, const Scratch& scratch,

@@ -42,6 +42,10 @@ void listReadyPairs(const State& state, Scratch& scratch, const MergeGraph& grap
 std::vector<ReadyPair> pairsToJudge(const State& state, const Scratch& scratch,
                                     const MergeGraph& graph);
 
+/// Writes down the pairs whose bodies are fixed to two frames: those stay apart however calm they
+/// are. For the end of the stage, as some came there by the welds of this step.
+void noteTwoFrames(const State& state, Scratch& scratch);
+
 /// Writes down whether a pair is welded, as far as one test knows.
 void noteMerge(const State& state, Notes* notes, const BodyPair& pair, Decision test);
 

@@ -82,6 +82,108 @@ TEST(Explain, SaysForHowLongAPairWaitsWhoseWeldBrokeEarly) {
   EXPECT_EQ(conditionOf(all.at(0)).steps, 7);
 }
 
+/// A plank lies on a block on the ground and on a step on a platform, which drives away too slowly
+/// for any criterion to see. All that merges is on the ground: the platform and the step never do.
+Scene plankOnTwoFrames(double speed = 0.001) {
+  Scene scene = onGround();
+  const auto drive = [&](double time) { return Vec2(6.0 + speed * time, -0.5); };
+  add(scene, named("platform", scripted(box(4, 1, drive(0)),
+                                        Keyframes{{{0, drive(0), 0}, {100, drive(100), 0}}})));
+  add(scene, named("block", box(1, 0.4, {0, 0.2})));
+  add(scene, named("step", box(1, 0.4, {6, 0.2})));
+  add(scene, named("plank", box(8, 0.2, {3, 0.5})));
+  return scene;
+}
+
+/// Adds two boxes at rest that a joint holds together.
+Scene joinedBoxes(Scene scene, JointKind kind, bool collide = false) {
+  const double x = collide ? 1.0 : 3.0;
+  JointDesc joint;
+  joint.kind = kind;
+  joint.a = scene.bodies.size();
+  joint.b = joint.a + 1;
+  joint.at = {0, 0.5};
+  joint.to = {x, 0.5};
+  joint.collide = collide;
+  add(scene, named("left", box(1, 1, {0, 0.5})));
+  add(scene, named("right", box(1, 1, {x, 0.5})));
+  scene.joints.push_back(joint);
+  return scene;
+}
+
+using Pairs = std::set<std::pair<BodyId, BodyId>>;
+
+Pairs welded(const Snapshot& s) {
+  Pairs pairs;
+  for (const WeldView& weld : s.welds) pairs.insert(std::minmax(weld.a, weld.b));
+  return pairs;
+}
+
+/// Runs a scene and compares the pairs that are told as merged with the welds and the events.
+void expectToldAsItIs(const Scene& scene, int steps) {
+  World world(scene, kAsking);
+  const Words words(world.bodies());
+  for (int i = 0; i < steps; ++i) {
+    world.step();
+    const Snapshot after = world.capture();
+    const Pairs welds = welded(after);
+    Pairs told;
+    for (const Explanation& e : explainStep(words, after)) {
+      if (e.outcome == Outcome::Waiting) {
+        EXPECT_THAT(e.text, testing::Not(HasSubstr("but only for 3 of 3"))) << e.text;
+      }
+      if (e.outcome != Outcome::Merged) continue;
+      told.emplace(e.a, e.b);
+      ASSERT_TRUE(welds.contains({e.a, e.b})) << e.text;
+    }
+    for (const Event& e : after.events) {
+      if (e.type != EventType::Merge) continue;
+      ASSERT_TRUE(told.contains({e.a, e.b}))
+          << words.pair(e.a, e.b) << " merged at step " << after.step;
+    }
+  }
+}
+
+TEST(Explain, TellsAPairAsMergedOnlyWhereItIsWelded) {
+  for (const CycleCriterion cycles :
+       {CycleCriterion::Off, CycleCriterion::Triangle, CycleCriterion::Rigid}) {
+    for (const Scene& made :
+         {plankOnTwoFrames(), wall(3, 3), joinedBoxes(onGround(), JointKind::Distance),
+          joinedBoxes(onGround(), JointKind::Revolute), joinedBoxes(onGround(), JointKind::Weld),
+          joinedBoxes(onGround(), JointKind::Distance, true),
+          joinedBoxes(onGround(), JointKind::Weld, true), loadScene("truss-arch"),
+          loadScene("books"), loadScene("wagon")}) {
+      Scene scene = made;
+      scene.settings.merging.cycles = cycles;
+      expectToldAsItIs(scene, 150);
+      scene.settings.merging.rule = MergingRule::Paper;
+      expectToldAsItIs(scene, 150);
+    }
+  }
+}
+
+TEST(Explain, SaysThatARodHoldsNoPair) {
+  World world(joinedBoxes(noGravity(), JointKind::Distance), kAsking);
+  runSteps(world, 5);
+  const std::string text =
+      textOf(explainStep(Words(world.bodies()), world.capture()), Outcome::Waiting);
+  EXPECT_EQ(text,
+            "left and right did not merge at step 5, though they passed every test for 3 steps: "
+            "their joints take away 1 of 3 freedoms, too few to hold them.");
+}
+
+TEST(Explain, SaysThatAPairIsOnTwoFrames) {
+  World world(plankOnTwoFrames(), kAsking);
+  runSteps(world, 100);
+  const Words words(world.bodies());
+  const auto all = explainStep(words, world.capture());
+  EXPECT_EQ(textOf(all, Outcome::Apart),
+            "platform and step stayed apart at step 100: they are on two frames, those of platform "
+            "and ground, which may move against each other.");
+  const auto told = std::ranges::find(all, Outcome::Apart, &Explanation::outcome);
+  EXPECT_EQ(conditionOf(*told).kind, Condition::Kind::OneFrame);
+}
+
 /// A column is pushed over at its top: welds end.
 Scene pushedColumn() {
   Scene scene = column(3);
@@ -152,6 +254,15 @@ TEST(WeldStory, TellsWhatKeepsAWeldFromForming) {
   EXPECT_THAT(story.ending(), HasSubstr("ground and body1 are not welded"));
   EXPECT_THAT(story.ending(), HasSubstr("the count never left 0 of 3"));
   EXPECT_THAT(story.ending(), HasSubstr("They merge when every test is passed for 3 steps."));
+}
+
+TEST(WeldStory, TellsThatAPairIsOnTwoFrames) {
+  World world(plankOnTwoFrames(), kAsking);
+  const Words words(world.bodies());
+  const WeldStory story = storyOf(world, words, idOf(world, "platform"), idOf(world, "step"), 100);
+  EXPECT_FALSE(story.welded());
+  EXPECT_THAT(story.ending(), HasSubstr("What mostly kept them apart, in "));
+  EXPECT_THAT(story.ending(), HasSubstr("they are on two frames, which may move"));
 }
 
 }  // namespace

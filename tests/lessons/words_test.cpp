@@ -98,6 +98,16 @@ TEST_F(WordsTest, TellsHowLongAPairThatPartedMustWait) {
             "their last weld broke too early, turned slowly, or was hit for long: 7 steps to wait");
 }
 
+TEST_F(WordsTest, TellsWhyAReadyPairIsNotTaken) {
+  EXPECT_EQ(said({.stage = "Merge", .criterion = "frames", .verdict = "apart"}),
+            "they are on two frames, which may move against each other");
+  Decision joints{
+      .stage = "Merge", .criterion = "freedoms", .value = 1, .threshold = 3, .verdict = "wait"};
+  EXPECT_EQ(said(joints), "their joints take away 1 of 3 freedoms, too few to hold them");
+  joints.value = 3, joints.verdict = "merge";
+  EXPECT_EQ(said(joints), "their joints take away 3 of 3 freedoms");
+}
+
 TEST(WordsOfGroups, AreAllTheBodiesOrSomeOfMany) {
   std::vector<BodyInfo> bodies(9);
   for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].name = std::string(1, char('a' + i));

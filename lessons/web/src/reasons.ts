@@ -4,6 +4,7 @@ import type { Reason } from './engine';
 import table from './reasons.json';
 
 type Test = Reason['tests'][number];
+const kRefusals = ['cycle', 'freedoms', 'patience'];
 type Sentences = (typeof table)['de'];
 
 /** Fills {name} with values. */
@@ -31,7 +32,10 @@ export function reasonIn(language: string, reason: Reason, decisive: Test | null
   const words = (table as Record<string, Sentences>)[language];
   if (!words) return null;
   const failing = reason.tests.filter((test) => ['unmerge', 'cut', 'apart'].includes(test.verdict));
-  const test = decisive ?? failing[0] ?? reason.tests[reason.tests.length - 1] ?? null;
+  // A pair that is ready waits for what is no number on a gauge.
+  const refusal = reason.outcome === 'waiting' && reason.tests.find((one) => one.verdict === 'wait' && kRefusals.includes(one.criterion));
+  const told = failing.length > 0 && decisive && !failing.includes(decisive) ? failing[0] : decisive;
+  const test = (refusal || told) ?? failing[0] ?? reason.tests[reason.tests.length - 1] ?? null;
   const others = failing.filter((one) => one !== test).length;
   const because = (test ? clause(words, test) : words.clause.user) + (others > 0 ? counted(words.more, others) : '');
   const { kind, measure, limit, steps } = reason.condition;

@@ -270,13 +270,23 @@ name = "step"
 at = [6, 0.2]
 box = [1, 0.4]
 )",
-                 Mode::Merge);
+                 Mode::Merge, {}, true);
+  int noted = 0;
   run.steps(400, [&] {
-    for (const CollectionView& c : run.now().collections) {
+    const Snapshot now = run.now();
+    for (const CollectionView& c : now.collections) {
       if (c.anchored) continue;
       ASSERT_FALSE(std::isnan(c.x.x()));
     }
+    std::set<std::pair<BodyId, BodyId>> welded;
+    for (const WeldView& weld : now.welds) welded.emplace(weld.a, weld.b);
+    for (const Decision& d : now.decisions) {
+      if (d.criterion != "frames") continue;
+      EXPECT_FALSE(welded.contains({d.a, d.b}));
+      ++noted;
+    }
   });
+  EXPECT_GT(noted, 0);
   const Pose ground = seenFrom(run.body("ground"), run.body("block"));
   EXPECT_NEAR(ground.position.x(), 0.0, 0.05);
 }
