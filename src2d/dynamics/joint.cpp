@@ -34,21 +34,22 @@ class JointBuilder {
 
   JointBlock build() {
     block_.lambda = joint_.lambda;
+    const Vec2 way = wayOf(place_);
     switch (joint_.kind) {
       case JointKind::Revolute:
-        hold(along(Vec2::UnitX()), offset().x());
-        hold(along(Vec2::UnitY()), offset().y());
+        hold(along(Vec2::UnitX()), way.x());
+        hold(along(Vec2::UnitY()), way.y());
         drive(turning(), place_.turn);
         break;
       case JointKind::Weld:
-        hold(along(Vec2::UnitX()), offset().x());
-        hold(along(Vec2::UnitY()), offset().y());
+        hold(along(Vec2::UnitX()), way.x());
+        hold(along(Vec2::UnitY()), way.y());
         hold(turning(), place_.turn);
         break;
       case JointKind::Prismatic:
-        hold(along(perpendicular(joint_.axis)), perpendicular(joint_.axis).dot(offset()));
+        hold(along(perpendicular(joint_.axis)), perpendicular(joint_.axis).dot(way));
         hold(turning(), place_.turn);
-        drive(along(joint_.axis), joint_.axis.dot(offset()));
+        drive(along(joint_.axis), joint_.axis.dot(way));
         break;
       case JointKind::Distance:
         distance();
@@ -59,18 +60,13 @@ class JointBuilder {
   }
 
  private:
-  /// From a's end to b's, in a's frame.
-  Vec2 offset() const { return place_.rotation_a.inverse() * (place_.p_b - place_.p_a); }
-
-  JointRow along(const Vec2& direction_in_a) const {
-    return rowAlong(place_.rotation_a * direction_in_a);
-  }
+  JointRow along(const Vec2& direction) const { return rowAlong(place_.axes * direction); }
   JointRow rowAlong(const Vec2& d) const {
     JointRow row;
     row.dx = d.x();
     row.dy = d.y();
-    row.arm_a = cross(place_.p_b - place_.x_a, d);
-    row.arm_b = cross(place_.p_b - place_.x_b, d);
+    row.arm_a = cross(place_.at - place_.x_a, d);
+    row.arm_b = cross(place_.at - place_.x_b, d);
     row.softness = softness_;
     return row;
   }
@@ -166,8 +162,9 @@ class JointBuilder {
   JointBlock block_;
 };
 
-/// The rows that carry a force; motors and limits of a revolute joint carry a torque.
-JointForce forceInA(const Joint& joint, const Vec2& direction) {
+/// Impulses along the joint's axes of the rows that carry a force, and about where it acts; motors
+/// and limits of a revolute joint carry a torque.
+JointForce loadOf(const Joint& joint, const Vec2& direction) {
   const auto& l = joint.lambda;
   switch (joint.kind) {
     case JointKind::Revolute:
@@ -185,7 +182,7 @@ JointForce forceInA(const Joint& joint, const Vec2& direction) {
 }  // namespace
 
 JointErrors errorsOf(const Joint& joint, const JointPlace& place) {
-  const Vec2 way = place.rotation_a.inverse() * (place.p_b - place.p_a);
+  const Vec2 way = wayOf(place);
   switch (joint.kind) {
     case JointKind::Revolute:
       return {way.x(), way.y(), 0.0, place.turn};
@@ -234,9 +231,11 @@ JointPlace placeOf(const State& state, const Joint& joint, const Pose& frame, co
   place.x_b = back * x_b;
   place.p_a = back * (a * joint.anchor_a);
   place.p_b = back * (joint.to_world ? joint.anchor_b : state.pose(joint.b) * joint.anchor_b);
-  place.rotation_a = back.rotation * a.rotation;
   const double angle_b = joint.to_world ? 0.0 : state.angle(joint.b);
   place.turn = angle_b - state.angle(joint.a) - joint.reference;
+  const bool rail = slidesOnWorld(joint);
+  place.at = rail ? place.p_a : place.p_b;
+  place.axes = back.rotation * (rail ? Rotation::of(-joint.reference) : a.rotation);
   return place;
 }
 
@@ -246,12 +245,12 @@ JointBlock makeJointBlock(const State& state, const Joint& joint, const JointPla
 }
 
 JointForce jointForce(const State& state, const Joint& joint) {
-  const Pose a = state.pose(joint.a);
-  const Vec2 p_b = joint.to_world ? joint.anchor_b : state.pose(joint.b) * joint.anchor_b;
-  const Vec2 way = a.rotation.inverse() * (p_b - a * joint.anchor_a);
+  const JointPlace place = placeOf(state, joint, {}, Vec2::Zero(), Vec2::Zero());
+  const Vec2 way = wayOf(place);
   const double length = way.norm();
-  const JointForce in_a = forceInA(joint, length > 0.0 ? Vec2(way / length) : Vec2::UnitX());
-  return {a.rotation * in_a.force / state.h, in_a.torque / state.h};
+  const JointForce load = loadOf(joint, length > 0.0 ? Vec2(way / length) : Vec2::UnitX());
+  const Vec2 impulse = place.axes * load.force;
+  return {impulse / state.h, (load.torque + cross(place.at - place.p_b, impulse)) / state.h};
 }
 
 bool breaks(const State& state, const Joint& joint) {

@@ -50,9 +50,20 @@ struct Joint {
 struct JointPlace {
   Vec2 x_a = Vec2::Zero(), x_b = Vec2::Zero();  ///< centres of mass of what responds [m]
   Vec2 p_a = Vec2::Zero(), p_b = Vec2::Zero();  ///< ends of the joint [m]
-  Rotation rotation_a;
-  double turn = 0.0;  ///< of b against a since the start [rad]
+  Vec2 at = Vec2::Zero();                       ///< where its force acts [m]
+  Rotation axes;                                ///< in which its directions are given: those of a
+  double turn = 0.0;                            ///< of b against a since the start [rad]
 };
+
+/// From a's end to b's, along the joint's axes [m].
+inline Vec2 wayOf(const JointPlace& place) {
+  return place.axes.inverse() * (place.p_b - place.p_a);
+}
+
+/// A rail of the world: it stays where it is, and the force acts where the slider is now.
+inline bool slidesOnWorld(const Joint& joint) {
+  return joint.to_world && joint.kind == JointKind::Prismatic;
+}
 
 /// How far a joint is from where it holds, row by row of its block; of a limit: where it stands [m,
 /// rad].
@@ -84,7 +95,8 @@ JointPlace placeOf(const State& state, const Joint& joint, const Pose& frame, co
 JointBlock makeJointBlock(const State& state, const Joint& joint, const JointPlace& place,
                           JointRows rows, const SolverVelocity& a, const SolverVelocity& b);
 
-/// Force [N] in the world's directions, and torque [N m], with which a joint acts on b.
+/// Force [N] in the world's directions, and torque about b's end [N m], with which a joint acts on
+/// b.
 struct JointForce {
   Vec2 force = Vec2::Zero();
   double torque = 0.0;

@@ -21,10 +21,9 @@ struct JointPull {
   double across = 0.0;
 };
 JointPull pullOf(const State& state, const Joint& joint) {
-  const Vec2 p_a = state.pose(joint.a) * joint.anchor_a;
-  JointPull pull{joint.to_world ? joint.anchor_b : state.pose(joint.b) * joint.anchor_b,
-                 jointForce(state, joint).force};
-  const Vec2 rod = pull.at - p_a;
+  const JointPlace place = placeOf(state, joint, {}, Vec2::Zero(), Vec2::Zero());
+  JointPull pull{place.at, jointForce(state, joint).force};
+  const Vec2 rod = place.p_b - place.p_a;
   if (joint.kind != JointKind::Distance || rod.squaredNorm() == 0.0) return pull;
   pull.across = std::max(0.0, -pull.force.dot(rod)) / rod.squaredNorm();
   return pull;
@@ -36,13 +35,13 @@ JointPlace placeIn(const State& state, const Joint& joint, const JointBlock& k) 
 }
 
 /// Where the ends are after a step with these velocities.
-JointPlace afterStep(const JointPlace& now, const SolverVelocity& a, const SolverVelocity& b,
-                     double h) {
+JointPlace afterStep(const Joint& joint, const JointPlace& now, const SolverVelocity& a,
+                     const SolverVelocity& b, double h) {
   const Rotation turn_a = Rotation::of(h * a.omega), turn_b = Rotation::of(h * b.omega);
   JointPlace then = now;
   then.p_a = now.x_a + h * Vec2(a.vx, a.vy) + turn_a * (now.p_a - now.x_a);
   then.p_b = now.x_b + h * Vec2(b.vx, b.vy) + turn_b * (now.p_b - now.x_b);
-  then.rotation_a = turn_a * now.rotation_a;
+  if (!slidesOnWorld(joint)) then.axes = turn_a * now.axes;
   then.turn += h * (b.omega - a.omega);
   return then;
 }
@@ -93,7 +92,7 @@ double beyondLimits(const Joint& joint, const JointPlace& place) {
 /// How far the joint is from where it holds, or beyond its limits, and how much of that came in
 /// this step: a motor may have turned it past a limit, and it must come back before it merges.
 void measureError(Joint& joint, const JointPlace& place) {
-  const Vec2 way = place.rotation_a.inverse() * (place.p_b - place.p_a);
+  const Vec2 way = wayOf(place);
   std::array<float, 3> error{static_cast<float>(way.x()), static_cast<float>(way.y()),
                              static_cast<float>(place.turn)};
   const auto beyond = static_cast<float>(beyondLimits(joint, place));
@@ -203,7 +202,7 @@ bool allowForBends(const State& state, std::span<JointBlock> joints,
     JointBlock& k = joints[j];
     const SolverVelocity &a = u[k.a], &b = u[k.b];
     const Joint& joint = state.joints[k.joint];
-    const JointPlace now = placeIn(state, joint, k), then = afterStep(now, a, b, state.h);
+    const JointPlace now = placeIn(state, joint, k), then = afterStep(joint, now, a, b, state.h);
     const double turn = joint.kind == JointKind::Distance
                             ? turnOfRod(now, then)
                             : state.h * std::max(std::abs(a.omega), std::abs(b.omega));
@@ -238,7 +237,7 @@ bool correctionHolds(const State& state, std::span<const JointBlock> joints,
     const SolverVelocity a = changeOf(u[k.a], before[j].a), b = changeOf(u[k.b], before[j].b);
     const JointPlace now = placeIn(state, joint, k);
     const JointErrors here = errorsOf(joint, now);
-    const JointErrors there = errorsOf(joint, afterStep(now, a, b, state.h));
+    const JointErrors there = errorsOf(joint, afterStep(joint, now, a, b, state.h));
     for (std::size_t i = 0; i < static_cast<std::size_t>(k.coupled); ++i) {
       const double straight = state.h * jointVelocity(k.rows[i], {}, a, b);
       bent = std::max(bent, std::abs(there[i] - here[i] - straight));

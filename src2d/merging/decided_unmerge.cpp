@@ -238,12 +238,13 @@ void keepTogether(const State& state, Scratch& scratch, Collection& c, const Ope
   proof.search = std::move(search);
 }
 
-/// Where the solve has not converged, only motion that is above its residual counts.
-void decideOne(State& state, Scratch& scratch, const OpenRegion& region) {
+/// Where the solve has not converged, only motion that is above its residual counts. True where no
+/// part comes off under a load that lasts.
+bool decideOne(State& state, Scratch& scratch, const OpenRegion& region) {
   Collection& c = state.collections[region.slot];
   LoadCertificate& proof = c.certificate.front();
   ProofSearch before = std::exchange(proof.search, {});
-  if (breakJointsInside(state, scratch, c)) return;
+  if (breakJointsInside(state, scratch, c)) return false;
   if (!c.joints.empty()) loosenJoints(state, c, scratch.sweep_u);
   Noted noted(scratch.notes);
   bool moves = cutMovers(state, scratch, c, region, before);
@@ -263,6 +264,15 @@ void decideOne(State& state, Scratch& scratch, const OpenRegion& region) {
     keepTogether(state, scratch, c, region, std::move(before));
   }
   restate(state, noted, "cut");
+  return !parting && !isHit(state, c);
+}
+
+bool hasJointsOutside(const State& state, const Collection& c) {
+  return std::ranges::any_of(state.joints, [&](const Joint& joint) {
+    const bool at =
+        state[joint.a].rigid == c.rigid || (!joint.to_world && state[joint.b].rigid == c.rigid);
+    return at && holds(state, joint) && !isInside(state, joint);
+  });
 }
 
 /// Whether nothing moves in a search. What may turn is looked at more closely, for one step more.
@@ -322,8 +332,14 @@ bool endSearch(State& state, Scratch& scratch, Collection& c) {
 void unmergeMovers(State& state, Scratch& scratch) {
   if (scratch.regions.empty()) return;
   listOuterLoads(state, scratch);
-  for (const OpenRegion& region : scratch.regions) decideOne(state, scratch, region);
+  bool stay = true, jointed = false;
+  for (const OpenRegion& region : scratch.regions) {
+    jointed |= hasJointsOutside(state, state.collections[region.slot]);
+    stay &= decideOne(state, scratch, region);
+  }
   closeOpened(state, scratch);
+  // The sum of momenta knows nothing of joints: what stays one body is solved once more, as one.
+  if (stay && jointed) scratch.solved = false;
 }
 
 }  // namespace merge2d

@@ -91,7 +91,7 @@ void listReadyPairs(const State& state, Scratch& scratch, const MergeGraph& grap
                  .threshold = static_cast<double>(needed),
                  .verdict = counted ? "merge" : "wait"});
     }
-    if (!counted) continue;
+    if (!counted || areOnTwoFrames(state.rigid(pair.a), state.rigid(pair.b))) continue;
     scratch.ready.push_back({.pair = pair,
                              .node_a = graph.node(pair.a),
                              .node_b = graph.node(pair.b),
@@ -99,7 +99,7 @@ void listReadyPairs(const State& state, Scratch& scratch, const MergeGraph& grap
   }
   for (const JointEdge& joint : readyJoints(state)) {
     noteJoint(state, scratch.notes, joint);
-    if (joint.contacts == 0) continue;
+    if (joint.contacts == 0 || areOnTwoFrames(state.rigid(joint.a), state.rigid(joint.b))) continue;
     scratch.ready.push_back({.pair = {joint.a, joint.b, 0, 0},
                              .node_a = graph.node(joint.a),
                              .node_b = graph.node(joint.b),

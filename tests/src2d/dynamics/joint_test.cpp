@@ -193,6 +193,33 @@ limits = [-5, 5]
   EXPECT_NEAR(cart.angle, 0.0, 0.01);  // a joint is as soft as a contact
 }
 
+/// The rail bears it where it is, not where it was at the start: the weight turned it more and
+/// more.
+TEST(Joint, ASliderHangsOnItsRailWhereverItIs) {
+  World world = running(R"(
+[[body]]
+name = "cart"
+at = [0, 0]
+box = [0.4, 0.2]
+mass = 20
+velocity = [10, 0]
+[[joint]]
+kind = "prismatic"
+bodies = ["cart"]
+at = [0, 0]
+axis = [1, 0]
+compliance = 1e-5
+)");
+  run(world, 5.0);
+  const BodyState cart = body(world, "cart");
+  EXPECT_NEAR(cart.x.x(), 50.0, 1e-6);
+  EXPECT_NEAR(cart.x.y(), -1e-5 * 20.0 * kGravity, 1e-6);
+  EXPECT_NEAR(cart.angle, 0.0, 1e-9);
+  const JointView rail = world.capture().joints.front();
+  EXPECT_NEAR(rail.force.y(), -20.0 * kGravity, 1e-3);      // on the world
+  EXPECT_NEAR(rail.torque, -20.0 * kGravity * 50.0, 1e-2);  // about where the rail begins
+}
+
 TEST(Joint, LimitsHold) {
   World world = running(R"(
 [[body]]

@@ -291,6 +291,58 @@ box = [1, 0.4]
   EXPECT_NEAR(ground.position.x(), 0.0, 0.05);
 }
 
+/// A disc in the groove between two blocks that are pressed together; the right one stands on a
+/// platform.
+std::string discInAGroove(const std::string& motion_of_platform) {
+  return R"(
+format = 1
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [-9, -0.5]
+box = [20, 1]
+[[body]]
+name = "platform"
+box = [10, 1]
+)" + motion_of_platform +
+         R"(
+[[body]]
+name = "left"
+at = [0, 0]
+polygon = [[-1, 0], [1, 0], [1, 0.5], [0, 1.5], [-1, 1.5]]
+[[body]]
+name = "right"
+at = [2, 0]
+polygon = [[1, 0], [1, 1.5], [0, 1.5], [-1, 0.5], [-1, 0]]
+[[body]]
+name = "disc"
+at = [1, 1.066]
+circle = 0.4
+[[force]]
+body = "left"
+at = [0, 0.25]
+force = [4, 0]
+[[force]]
+body = "right"
+at = [2, 0.25]
+force = [-4, 0]
+)";
+}
+
+/// One contact with each of two frames holds as little as one contact does, also where the blocks
+/// at which they are touch each other.
+TEST(Merge, ADiscBetweenTwoFramesIsHeldByNeither) {
+  Simulation one(discInAGroove("motion = \"pinned\"\nat = [6, -0.5]"), Mode::Merge);
+  one.until(3.0);
+  EXPECT_TRUE(one.anchored("disc"));
+  Simulation two(discInAGroove("motion = \"scripted\"\nscript = { keyframes = [[0, 6, -0.5, 0], "
+                               "[100, 6, -0.5, 0]] }"),
+                 Mode::Merge);
+  two.steps(300, [&] { ASSERT_FALSE(two.merged("disc")); });
+  EXPECT_TRUE(two.anchored("left"));
+  EXPECT_TRUE(two.anchored("right"));
+}
+
 // ---- moving frames: three boxes on a platform, two high ----
 
 std::string onPlatform(const std::string& script, const std::string& motion_of_boxes) {

@@ -56,7 +56,7 @@ void stepUntilSuspended(World& world) {
 
 TEST(ProofSearch, AWorldSavedInTheMiddleOfADirectSolveGoesOnWithTheSameBytes) {
   World straight = tiltingWall();
-  stepUntilSuspended(straight);
+  ASSERT_NO_FATAL_FAILURE(stepUntilSuspended(straight));
   for (int i = 0; i < 10; ++i) {
     World restored(straight.scene(), {.mode = Mode::Merge, .timings = false});
     restored.restore(straight.save(), "test");
@@ -67,7 +67,7 @@ TEST(ProofSearch, AWorldSavedInTheMiddleOfADirectSolveGoesOnWithTheSameBytes) {
 
 TEST(ProofSearch, ADirectSolveInPartsIsThatInOne) {
   World world = tiltingWall();
-  stepUntilSuspended(world);
+  ASSERT_NO_FATAL_FAILURE(stepUntilSuspended(world));
   StateOf inside(world);
   const State& state = inside.setup.state;
   const Collection& c = *inside.suspended();
