@@ -4,9 +4,9 @@
 
 #include "src2d/contact/parking.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/load_certificate.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/unmerge.h"
+#include "src2d/proofs/load_certificate.h"
 #include "src2d/setup.h"
 
 namespace merge2d {

@@ -10,8 +10,8 @@
 #include "src2d/contact/table.h"
 #include "src2d/core/error.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/load_certificate.h"
 #include "src2d/merging/unmerge.h"
+#include "src2d/proofs/load_certificate.h"
 
 namespace merge2d {
 namespace {

@@ -147,7 +147,7 @@ struct ProofSearch {
 
 inline constexpr std::int64_t kNever = -1000;  ///< a step long before the first
 
-/// Proofs that a collection holds (merging/load_certificate.h).
+/// Proofs that a collection holds (load_certificate.h).
 struct LoadCertificate {
   static constexpr std::size_t kMost = 8;  ///< witnesses
   using Weights = std::array<double, kMost>;
@@ -198,7 +198,7 @@ struct Collection {
   std::vector<BodyId> members;  ///< ascending; pinned and scripted bodies are never members
   std::vector<InternalContact> contacts;  ///< ascending by key
   /// One per contact, in the order of a sweep; none while nothing is sought inside
-  /// (merging/collection.h).
+  /// (collection.h).
   std::vector<ContactBlock> blocks;
   /// Which contact a block is; empty when contacts have left since.
   std::vector<std::uint32_t> block_contact;
@@ -224,7 +224,7 @@ struct Collection {
   }
 };
 
-/// Its blocks were put away (merging/collection.h).
+/// Its blocks were put away (collection.h).
 inline bool areBlocksAway(const Collection& c) {
   return c.blocks.empty() && !c.block_contact.empty();
 }

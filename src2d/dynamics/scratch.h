@@ -184,7 +184,7 @@ enum class Doubt : std::uint8_t {
 };
 
 /// The part of an open collection whose members the full solve takes on their own
-/// (merging/open_region.h).
+/// (open_region.h).
 struct OpenRegion {
   std::uint32_t slot = 0;                                  ///< of the collection
   bool whole = false;                                      ///< all members are inside

@@ -6,8 +6,8 @@
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
-#include "src2d/merging/proof_transfer.h"
 #include "src2d/merging/rule.h"
+#include "src2d/proofs/proof_transfer.h"
 
 namespace merge2d {
 namespace {

@@ -9,12 +9,12 @@
 #include "src2d/dynamics/contact_limits.h"
 #include "src2d/merging/cuts.h"
 #include "src2d/merging/joint_welds.h"
-#include "src2d/merging/load_certificate.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/open_region.h"
 #include "src2d/merging/open_solve.h"
 #include "src2d/merging/proof_search.h"
 #include "src2d/merging/sweep.h"
+#include "src2d/proofs/load_certificate.h"
 
 namespace merge2d {
 namespace {

@@ -5,7 +5,7 @@
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/proof_transfer.h"
+#include "src2d/proofs/proof_transfer.h"
 
 namespace merge2d {
 namespace {

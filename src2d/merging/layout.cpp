@@ -10,8 +10,8 @@
 #include "src2d/merging/collection.h"
 #include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/joint_welds.h"
-#include "src2d/merging/proof_transfer.h"
 #include "src2d/merging/rule.h"
+#include "src2d/proofs/proof_transfer.h"
 
 namespace merge2d {
 namespace {

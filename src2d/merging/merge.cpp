@@ -10,10 +10,10 @@
 #include "src2d/core/memory.h"
 #include "src2d/cycles/held_groups.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/decided_settings.h"
 #include "src2d/merging/group_notes.h"
 #include "src2d/merging/ready_pairs.h"
 #include "src2d/merging/rule.h"
+#include "src2d/proofs/decided_settings.h"
 
 namespace merge2d {
 namespace {

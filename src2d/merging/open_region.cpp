@@ -5,9 +5,9 @@
 
 #include "src2d/core/index_set.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/collection_load.h"
-#include "src2d/merging/decided_settings.h"
-#include "src2d/merging/load_certificate.h"
+#include "src2d/proofs/collection_load.h"
+#include "src2d/proofs/decided_settings.h"
+#include "src2d/proofs/load_certificate.h"
 
 namespace merge2d {
 namespace {

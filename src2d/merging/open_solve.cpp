@@ -4,11 +4,11 @@
 
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/collection.h"
-#include "src2d/merging/collection_load.h"
 #include "src2d/merging/momentum.h"
 #include "src2d/merging/open_region.h"
 #include "src2d/merging/relaxation.h"
 #include "src2d/merging/sweep.h"
+#include "src2d/proofs/collection_load.h"
 
 namespace merge2d {
 namespace {

@@ -4,8 +4,8 @@
 /// Velocities are those against the collection's frame, in its directions.
 
 #include "src2d/dynamics/state.h"
-#include "src2d/merging/decided_settings.h"
-#include "src2d/merging/load_certificate.h"
+#include "src2d/proofs/decided_settings.h"
+#include "src2d/proofs/load_certificate.h"
 
 namespace merge2d {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "src2d/core/memory.h"
-#include "src2d/merging/decided_settings.h"
 #include "src2d/merging/joint_welds.h"
 #include "src2d/merging/pair_metric.h"
 #include "src2d/merging/pair_readiness.h"
 #include "src2d/merging/sleep.h"
+#include "src2d/proofs/decided_settings.h"
 
 namespace merge2d {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "src2d/merging/block_sweeps.h"
-#include "src2d/merging/decided_settings.h"
+#include "src2d/proofs/decided_settings.h"
 
 namespace merge2d {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 #include "tests/support/scenes.h"
 
 namespace merge2d {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 #include "tests/support/modes_and_steps.h"
 
 namespace merge2d {

@@ -16,7 +16,7 @@
 #include "src2d/merging/unmerge.h"
 #include "src2d/merging/warm_start.h"
 #include "src2d/setup.h"
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 
 namespace merge2d {
 namespace {

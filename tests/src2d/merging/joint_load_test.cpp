@@ -1,6 +1,6 @@
 /// Forces of joints inside collections and between them.
 
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 
 namespace merge2d {
 namespace {

@@ -6,7 +6,7 @@
 #include "src2d/cycles/held_groups.h"
 #include "src2d/merging/parts.h"
 #include "src2d/merging/ready_pairs.h"
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 
 namespace merge2d {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "src2d/merging/collection.h"
 #include "src2d/state_file.h"
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 
 namespace merge2d {
 namespace {

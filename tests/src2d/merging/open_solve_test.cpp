@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 
 namespace merge2d {
 namespace {

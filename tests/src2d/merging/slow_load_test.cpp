@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 
 namespace merge2d {
 namespace {

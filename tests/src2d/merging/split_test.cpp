@@ -5,7 +5,7 @@
 
 #include "src2d/merging/collection.h"
 #include "src2d/setup.h"
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 #include "tests/support/random.h"
 
 namespace merge2d {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "src2d/merging/unmerge.h"
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 
 namespace merge2d {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "src2d/merging/group_notes.h"
 #include "src2d/state_file.h"
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 #include "tests/support/modes_and_steps.h"
 
 namespace merge2d {

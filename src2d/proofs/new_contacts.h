@@ -2,7 +2,7 @@
 /// Contacts that a collection has gained: in each proof they take over from forces outside what
 /// they can.
 
-#include "src2d/merging/load_certificate.h"
+#include "src2d/proofs/load_certificate.h"
 
 namespace merge2d {
 

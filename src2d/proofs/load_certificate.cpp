@@ -1,11 +1,11 @@
-#include "src2d/merging/load_certificate.h"
+#include "src2d/proofs/load_certificate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "src2d/core/nonnegative_fit.h"
-#include "src2d/merging/decided_settings.h"
+#include "src2d/proofs/decided_settings.h"
 
 namespace merge2d {
 namespace {

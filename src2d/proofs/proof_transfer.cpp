@@ -1,13 +1,13 @@
-#include "src2d/merging/proof_transfer.h"
+#include "src2d/proofs/proof_transfer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "src2d/merging/decided_settings.h"
-#include "src2d/merging/new_contacts.h"
-#include "src2d/merging/proof_columns.h"
+#include "src2d/proofs/decided_settings.h"
+#include "src2d/proofs/new_contacts.h"
+#include "src2d/proofs/proof_columns.h"
 
 namespace merge2d {
 namespace {

@@ -1,4 +1,4 @@
-#include "src2d/merging/proof_columns.h"
+#include "src2d/proofs/proof_columns.h"
 
 #include <algorithm>
 

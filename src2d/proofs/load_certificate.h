@@ -6,7 +6,7 @@
 /// cone, and equilibrium is linear: a load that is a non-negative combination of loads that were
 /// carried is carried by the same combination of their impulses.
 
-#include "src2d/merging/collection_load.h"
+#include "src2d/proofs/collection_load.h"
 
 namespace merge2d {
 

@@ -1,11 +1,11 @@
-#include "src2d/merging/load_certificate.h"
+#include "src2d/proofs/load_certificate.h"
 
 #include <bit>
 
 #include "src2d/merging/collection.h"
-#include "src2d/merging/decided_settings.h"
+#include "src2d/proofs/decided_settings.h"
 #include "src2d/state_file.h"
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 
 namespace merge2d {
 namespace {

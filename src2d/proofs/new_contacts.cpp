@@ -1,7 +1,7 @@
-#include "src2d/merging/new_contacts.h"
+#include "src2d/proofs/new_contacts.h"
 
 #include "src2d/core/nonnegative_fit.h"
-#include "src2d/merging/proof_columns.h"
+#include "src2d/proofs/proof_columns.h"
 
 namespace merge2d {
 

@@ -3,7 +3,7 @@
 /// collection or leaves it. Those between the body and the others become loads from
 /// outside, or no longer are.
 
-#include "src2d/merging/load_certificate.h"
+#include "src2d/proofs/load_certificate.h"
 
 namespace merge2d {
 

@@ -2,7 +2,7 @@
 /// The loads from outside in the proofs of a collection: one column for each member on which
 /// something outside acts in any of them.
 
-#include "src2d/merging/load_certificate.h"
+#include "src2d/proofs/load_certificate.h"
 
 namespace merge2d {
 

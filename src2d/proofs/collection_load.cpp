@@ -1,4 +1,4 @@
-#include "src2d/merging/collection_load.h"
+#include "src2d/proofs/collection_load.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "src2d/merging/proof_transfer.h"
+#include "src2d/proofs/proof_transfer.h"
 
 #include "src2d/merging/collection.h"
-#include "src2d/merging/decided_settings.h"
+#include "src2d/proofs/decided_settings.h"
 #include "src2d/state_file.h"
-#include "tests/src2d/merging/merging_testing.h"
+#include "tests/support/merging_testing.h"
 
 namespace merge2d {
 namespace {
