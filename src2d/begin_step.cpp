@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "src2d/collections/collection.h"
 #include "src2d/contact/parking.h"
-#include "src2d/merging/collection.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/unmerge.h"
 #include "src2d/proofs/load_certificate.h"

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "src2d/begin_step.h"
+#include "src2d/collections/collection.h"
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/error.h"
-#include "src2d/merging/collection.h"
 #include "src2d/merging/unmerge.h"
 #include "src2d/proofs/load_certificate.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "src2d/collections/collection.h"
 #include "src2d/edit.h"
-#include "src2d/merging/collection.h"
 #include "src2d/proofs/load_certificate.h"
 
 namespace merge2d {

@@ -10,6 +10,7 @@
 
 #include "src2d/begin_step.h"
 #include "src2d/body_arrays.h"
+#include "src2d/collections/collection.h"
 #include "src2d/contact/detection.h"
 #include "src2d/contact/parking.h"
 #include "src2d/core/error.h"
@@ -18,7 +19,6 @@
 #include "src2d/dynamics/solver.h"
 #include "src2d/dynamics/task_pool.h"
 #include "src2d/edit.h"
-#include "src2d/merging/collection.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/relative_motion.h"

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include "src2d/collections/cuts.h"
+#include "src2d/collections/joint_welds.h"
 #include "src2d/dynamics/contact_limits.h"
-#include "src2d/merging/cuts.h"
-#include "src2d/merging/joint_welds.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/open_region.h"
 #include "src2d/merging/open_solve.h"

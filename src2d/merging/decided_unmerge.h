@@ -4,8 +4,8 @@
 /// cut. Deviation from Sections 6.3 and 6.4, which decide from one sweep.
 /// Guarded by tests/src2d/merging/decided_unmerge_test.cpp.
 
+#include "src2d/collections/parts.h"
 #include "src2d/dynamics/state.h"
-#include "src2d/merging/parts.h"
 
 namespace merge2d {
 

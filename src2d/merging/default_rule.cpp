@@ -81,10 +81,10 @@ constinit const UnmergingMethod kDefaultUnmerging{
     .warmStart = findDoubts,
     .sweep = solveDoubted,
     .unmerge = unmergeMovers,
-    .parts = uncutParts,
-    .waitAfterSplit = waitUntilSeen,
-    .innerRows = rigidRows,
-    .enter = keepAllPoints,
+    .collections = {.enter = keepAllPoints,
+                    .innerRows = rigidRows,
+                    .parts = uncutParts,
+                    .waitAfterSplit = waitUntilSeen},
 };
 
 }  // namespace merge2d

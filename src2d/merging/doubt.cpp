@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "src2d/merging/collection.h"
+#include "src2d/collections/collection.h"
+#include "src2d/collections/joint_welds.h"
 #include "src2d/merging/decided_unmerge.h"
 #include "src2d/merging/disturbance.h"
-#include "src2d/merging/joint_welds.h"
 #include "src2d/merging/open_solve.h"
 #include "src2d/merging/proof_search.h"
 #include "src2d/merging/sweep.h"

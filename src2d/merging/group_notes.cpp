@@ -53,11 +53,6 @@ class GroupList {
 
 }  // namespace
 
-bool stillTogether(const State& state, BodyId a, BodyId b) {
-  const Rigid &ra = state.rigid(a), &rb = state.rigid(b);
-  return &ra == &rb || (!ra.floating() && ra.anchor == rb.anchor);
-}
-
 void noteGroups(const State& state, Scratch& scratch, const Groups& group) {
   if (!scratch.notes) return;
   const auto held = [&](const ReadyPair& edge) {

@@ -11,7 +11,4 @@ namespace merge2d {
 /// judged.
 void noteGroups(const State& state, Scratch& scratch, const Groups& group);
 
-/// True when the two bodies of a weld are still one rigid thing, or on one frame.
-bool stillTogether(const State& state, BodyId a, BodyId b);
-
 }  // namespace merge2d

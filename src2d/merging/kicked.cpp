@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "src2d/collections/collection.h"
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
-#include "src2d/merging/collection.h"
 #include "src2d/proofs/proof_transfer.h"
 
 namespace merge2d {

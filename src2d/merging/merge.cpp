@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <map>
 
+#include "src2d/collections/collection.h"
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
 #include "src2d/contact/parking.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
 #include "src2d/cycles/held_groups.h"
-#include "src2d/merging/collection.h"
 #include "src2d/merging/group_notes.h"
 #include "src2d/merging/ready_pairs.h"
 #include "src2d/merging/rule.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "src2d/collections/collection.h"
 #include "src2d/core/index_set.h"
-#include "src2d/merging/collection.h"
 #include "src2d/proofs/collection_load.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/load_certificate.h"

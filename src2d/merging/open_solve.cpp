@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "src2d/collections/collection.h"
+#include "src2d/collections/momentum.h"
 #include "src2d/dynamics/solver.h"
-#include "src2d/merging/collection.h"
-#include "src2d/merging/momentum.h"
 #include "src2d/merging/open_region.h"
 #include "src2d/merging/relaxation.h"
 #include "src2d/merging/sweep.h"

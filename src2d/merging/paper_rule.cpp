@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "src2d/collections/collection.h"
 #include "src2d/dynamics/solver.h"
-#include "src2d/merging/collection.h"
 #include "src2d/merging/ordering.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/merging/sweep.h"
@@ -90,10 +90,10 @@ constinit const UnmergingMethod kPaperUnmerging{
     .warmStart = warmStartSweep,
     .sweep = sweepByOrder,
     .unmerge = unmergeByContacts,
-    .parts = components,
-    .waitAfterSplit = waitsNever,
-    .innerRows = softRows,
-    .enter = discardInactive,
+    .collections = {.enter = discardInactive,
+                    .innerRows = softRows,
+                    .parts = components,
+                    .waitAfterSplit = waitsNever},
 };
 
 void sweepBreadthFirst(State& state, Scratch& scratch) {

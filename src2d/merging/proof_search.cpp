@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "src2d/collections/collection.h"
+#include "src2d/collections/momentum.h"
 #include "src2d/dynamics/newton.h"
-#include "src2d/merging/collection.h"
-#include "src2d/merging/momentum.h"
 #include "src2d/merging/relaxation.h"
 #include "src2d/merging/sweep.h"
 

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
-#include "src2d/merging/joint_welds.h"
+#include "src2d/collections/joint_welds.h"
 #include "src2d/merging/pair_readiness.h"
+#include "src2d/merging/ready_joints.h"
 
 namespace merge2d {
 namespace {

@@ -5,9 +5,9 @@
 #include <span>
 #include <utility>
 
+#include "src2d/collections/momentum.h"
 #include "src2d/core/index_set.h"
 #include "src2d/merging/block_sweeps.h"
-#include "src2d/merging/momentum.h"
 #include "src2d/merging/open_region.h"
 #include "src2d/merging/relaxation.h"
 #include "src2d/proofs/decided_settings.h"

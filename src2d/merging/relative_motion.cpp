@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "src2d/core/memory.h"
-#include "src2d/merging/joint_welds.h"
 #include "src2d/merging/pair_metric.h"
 #include "src2d/merging/pair_readiness.h"
+#include "src2d/merging/ready_joints.h"
 #include "src2d/merging/sleep.h"
 #include "src2d/proofs/decided_settings.h"
 

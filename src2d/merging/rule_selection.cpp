@@ -26,4 +26,8 @@ const UnmergingMethod& unmergingMethod(const State& state) {
   return kDefaultUnmerging;
 }
 
+const CollectionMethod& collectionMethod(const State& state) {
+  return unmergingMethod(state).collections;
+}
+
 }  // namespace merge2d

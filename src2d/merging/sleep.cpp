@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "src2d/collections/collection.h"
 #include "src2d/core/memory.h"
-#include "src2d/merging/collection.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/rule.h"
 

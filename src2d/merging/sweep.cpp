@@ -1,6 +1,6 @@
 #include "src2d/merging/sweep.h"
 
-#include "src2d/merging/joint_sweep.h"
+#include "src2d/collections/joint_sweep.h"
 #include "src2d/merging/rule.h"
 
 namespace merge2d {

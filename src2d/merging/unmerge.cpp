@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "src2d/collections/collection.h"
+#include "src2d/collections/cuts.h"
 #include "src2d/contact/detection.h"
 #include "src2d/dynamics/hits.h"
-#include "src2d/merging/collection.h"
-#include "src2d/merging/cuts.h"
 #include "src2d/merging/kicked.h"
 #include "src2d/merging/rule.h"
 
@@ -85,7 +85,7 @@ void releaseBouncing(State& state, Scratch& scratch, const std::vector<double>& 
       weld.cut = any = true;
       weld.reason = EventReason::RelativeMotion;
     }
-    if (any) splitAtCuts(state, scratch, c.rigid, unmergingMethod(state).parts(state, scratch, c));
+    if (any) splitAtCuts(state, scratch, c.rigid, collectionMethod(state).parts(state, scratch, c));
   }
 }
 
@@ -112,7 +112,7 @@ void releaseBody(State& state, Scratch& scratch, BodyId body) {
       any = true;
     }
     if (!any) continue;
-    splitAtCuts(state, scratch, c.rigid, unmergingMethod(state).parts(state, scratch, c));
+    splitAtCuts(state, scratch, c.rigid, collectionMethod(state).parts(state, scratch, c));
   }
   finishSplits(state, scratch);
   layOutCollections(state);

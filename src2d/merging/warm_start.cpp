@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "src2d/collections/collection.h"
+#include "src2d/collections/joint_sweep.h"
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/hits.h"
 #include "src2d/dynamics/solver.h"
-#include "src2d/merging/collection.h"
-#include "src2d/merging/joint_sweep.h"
 #include "src2d/merging/rule.h"
 #include "src2d/merging/sweep.h"
 

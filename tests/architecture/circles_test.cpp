@@ -1,7 +1,7 @@
 /// No circle of includes: neither of rooms, nor of headers, nor, inside the rooms of merging, of
 /// headers taken together with their sources. A header may name a function whose source lies beside
-/// it under another name: so the rules include merging/rule.h, and merging/rule_selection.cpp the
-/// rules.
+/// it under another name, or in a room above: so the rules include merging/rule.h and
+/// collections/collection_method.h, and merging/rule_selection.cpp the rules.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -129,7 +129,7 @@ TEST(Circles, NoHeadersIncludeEachOther) {
 }
 
 TEST(Circles, NoModulesOfMergingIncludeEachOther) {
-  const std::set<std::string> rooms = {"src2d/proofs", "src2d/merging"};
+  const std::set<std::string> rooms = {"src2d/proofs", "src2d/collections", "src2d/merging"};
   const auto module = [&](const std::string& path) {
     return rooms.contains(roomOf(path)) ? moduleOf(path) : std::string();
   };

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "src2d/merging/collection.h"
+#include "src2d/collections/collection.h"
 #include "src2d/setup.h"
 #include "tests/support/scenes.h"
 

@@ -5,10 +5,10 @@
 #include <numeric>
 
 #include "src2d/begin_step.h"
+#include "src2d/collections/collection.h"
 #include "src2d/contact/detection.h"
 #include "src2d/dynamics/integrate.h"
 #include "src2d/dynamics/solver.h"
-#include "src2d/merging/collection.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/relative_motion.h"

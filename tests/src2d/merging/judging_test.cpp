@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "src2d/collections/parts.h"
 #include "src2d/cycles/held_groups.h"
-#include "src2d/merging/parts.h"
 #include "src2d/merging/ready_pairs.h"
 #include "tests/support/merging_testing.h"
 

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "src2d/merging/group_notes.h"
+#include "src2d/collections/cuts.h"
 #include "src2d/state_file.h"
 #include "tests/support/merging_testing.h"
 #include "tests/support/modes_and_steps.h"

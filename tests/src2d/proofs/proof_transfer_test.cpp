@@ -1,6 +1,6 @@
 #include "src2d/proofs/proof_transfer.h"
 
-#include "src2d/merging/collection.h"
+#include "src2d/collections/collection.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/state_file.h"
 #include "tests/support/merging_testing.h"

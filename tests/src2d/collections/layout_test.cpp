@@ -1,6 +1,6 @@
 /// What a collection keeps of its layout when members and contacts come and go.
 
-#include "src2d/merging/collection.h"
+#include "src2d/collections/collection.h"
 #include "src2d/state_file.h"
 #include "tests/support/merging_testing.h"
 

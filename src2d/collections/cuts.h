@@ -3,11 +3,13 @@
 
 #include <string_view>
 
+#include "src2d/collections/parts.h"
 #include "src2d/dynamics/state.h"
-#include "src2d/merging/group_notes.h"
-#include "src2d/merging/parts.h"
 
 namespace merge2d {
+
+/// True when the two bodies of a weld are still one rigid thing, or on one frame.
+bool stillTogether(const State& state, BodyId a, BodyId b);
 
 /// Takes a collection apart into `parts`, and reports each weld that ends.
 void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts);

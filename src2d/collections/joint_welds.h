@@ -4,12 +4,37 @@
 /// joint counts as two contacts and holds alone; so do a strong enough brake and a limit that
 /// presses.
 
+#include <algorithm>
 #include <span>
+#include <utility>
+#include <vector>
 
-#include "src2d/cycles/held_groups.h"
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
+
+/// The two bodies of a joint, ascending.
+inline std::pair<BodyId, BodyId> pairOf(const Joint& joint) {
+  return std::minmax(joint.a, joint.b);
+}
+
+inline constexpr int kFreedoms = 3;  ///< of one body against another
+
+/// The relative freedoms that the joints of one pair take away.
+struct JointHold {
+  int freedoms = 0;
+  bool pivot = false;  ///< some point is shared
+
+  void add(JointKind kind, int taken) {
+    freedoms += taken;
+    pivot |= kind == JointKind::Revolute;
+  }
+  /// Counted in contacts: a pivot takes two of the three relative freedoms, two contacts take all.
+  int contacts() const {
+    if (freedoms >= kFreedoms) return 2;
+    return freedoms == 2 && pivot ? 1 : 0;
+  }
+};
 
 /// Adds a weld for each pair of bodies that has joints inside the collection, with the contacts
 /// that these count as just now. Welds stay ascending.
@@ -30,22 +55,5 @@ std::vector<std::uint32_t> takeOverloadedJoints(const State& state, Collection& 
 /// apart a joint acts once more, in this step's full solve unless that is over, and breaks then, as
 /// without merging; otherwise the blow that breaks it would not slow the bodies that it held.
 void breakWhatStaysInside(State& state, Scratch& scratch, std::span<const std::uint32_t> joints);
-
-/// Counts the steps in which the bodies of each joint could have merged: Eqs. (15)-(17), and the
-/// joint must have come to rest.
-void countQuietJoints(State& state, Scratch& scratch);
-
-inline constexpr int kFreedoms = 3;  ///< of one body against another
-
-/// A pair of bodies that joints alone hold together, as so many contacts would.
-struct JointEdge {
-  BodyId a{}, b{};
-  int freedoms = 0;        ///< those that the joints take away
-  int contacts = 0;        ///< 0: they hold nothing
-  Vec2 at = Vec2::Zero();  ///< in the world [m]
-};
-
-/// The pairs whose joints were quiet for `merging.steps` steps, ascending.
-std::vector<JointEdge> readyJoints(const State& state);
 
 }  // namespace merge2d

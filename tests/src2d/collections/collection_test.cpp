@@ -1,4 +1,4 @@
-#include "src2d/merging/collection.h"
+#include "src2d/collections/collection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "src2d/merging/parts.h"
+#include "src2d/collections/parts.h"
 
 namespace merge2d {
 

@@ -1,12 +1,12 @@
-#include "src2d/merging/collection.h"
+#include "src2d/collections/collection.h"
 
 #include <algorithm>
 #include <optional>
 
+#include "src2d/collections/collection_method.h"
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
-#include "src2d/merging/rule.h"
 #include "src2d/proofs/proof_transfer.h"
 
 namespace merge2d {
@@ -263,7 +263,7 @@ void absorbContacts(State& state) {
       inner.watch[i].active = p.lambda_n > 0.0 || isHeld(state, contact);
     }
     if (contact.count == 1) inner.points[1].lambda_t = rollingImpulse(state, contact);
-    unmergingMethod(state).enter(inner);
+    collectionMethod(state).enter(inner);
     reserveTightly(c.contacts, c.contacts.size() + 1);
     c.contacts.push_back(inner);
     return true;

@@ -1,4 +1,4 @@
-#include "src2d/merging/momentum.h"
+#include "src2d/collections/momentum.h"
 
 namespace merge2d {
 

@@ -1,4 +1,4 @@
-#include "src2d/merging/joint_sweep.h"
+#include "src2d/collections/joint_sweep.h"
 
 #include <algorithm>
 

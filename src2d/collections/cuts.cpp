@@ -1,8 +1,8 @@
-#include "src2d/merging/cuts.h"
+#include "src2d/collections/cuts.h"
 
-#include "src2d/merging/collection.h"
-#include "src2d/merging/joint_welds.h"
-#include "src2d/merging/rule.h"
+#include "src2d/collections/collection.h"
+#include "src2d/collections/collection_method.h"
+#include "src2d/collections/joint_welds.h"
 
 namespace merge2d {
 namespace {
@@ -17,6 +17,11 @@ void reportCuts(const State& state, const Collection& before, Scratch& scratch) 
 }
 
 }  // namespace
+
+bool stillTogether(const State& state, BodyId a, BodyId b) {
+  const Rigid &ra = state.rigid(a), &rb = state.rigid(b);
+  return &ra == &rb || (!ra.floating() && ra.anchor == rb.anchor);
+}
 
 void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts) {
   Collection before;
@@ -37,7 +42,7 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
 bool breakJointsInside(State& state, Scratch& scratch, Collection& c) {
   if (!anyJointBreaks(state, c)) return false;
   const std::vector<std::uint32_t> joints = takeOverloadedJoints(state, c);
-  const Parts parts = unmergingMethod(state).parts(state, scratch, c);
+  const Parts parts = collectionMethod(state).parts(state, scratch, c);
   if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, c.rigid, parts);
   breakWhatStaysInside(state, scratch, joints);
   scratch.split = true;  // to be laid out anew

@@ -6,11 +6,11 @@
 #include <numeric>
 #include <utility>
 
+#include "src2d/collections/collection.h"
+#include "src2d/collections/collection_method.h"
+#include "src2d/collections/joint_sweep.h"
+#include "src2d/collections/joint_welds.h"
 #include "src2d/core/memory.h"
-#include "src2d/merging/collection.h"
-#include "src2d/merging/joint_sweep.h"
-#include "src2d/merging/joint_welds.h"
-#include "src2d/merging/rule.h"
 #include "src2d/proofs/proof_transfer.h"
 
 namespace merge2d {
@@ -149,7 +149,7 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   BlockGeometry g;
   g.normal = contact.normal;
   g.count = contact.count;
-  const InnerRows rows = unmergingMethod(state).innerRows(state, contact, ua, ub);
+  const InnerRows rows = collectionMethod(state).innerRows(state, contact, ua, ub);
   g.softness = rows.softness;
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
     g.arm_a[i] = contact.points[i].position - origin(contact.key.a);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "src2d/collections/collection.h"
+#include "src2d/collections/collection_method.h"
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
-#include "src2d/merging/collection.h"
-#include "src2d/merging/rule.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/proof_transfer.h"
 
@@ -203,7 +203,7 @@ class Split {
         continue;
       }
       const Weld* cut = cutByTest(c, inner);
-      released_.push_back({inner, unmergingMethod(state_).waitAfterSplit(state_, inner, cut),
+      released_.push_back({inner, collectionMethod(state_).waitAfterSplit(state_, inner, cut),
                            cut ? cut->motion : 0.0F});
     }
     c.contacts.resize(staying);

@@ -2,7 +2,7 @@
 /// How a collection moves as one body.
 
 #include "src2d/dynamics/state.h"
-#include "src2d/merging/metric.h"
+#include "src2d/dynamics/velocity_field.h"
 
 namespace merge2d {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "src2d/merging/collection.h"
+#include "src2d/collections/collection.h"
 #include "tests/support/random.h"
 
 namespace merge2d {

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "src2d/merging/collection.h"
+#include "src2d/collections/collection.h"
 #include "src2d/setup.h"
 #include "tests/support/merging_testing.h"
 #include "tests/support/random.h"
