@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "src2d/merging/sleep.h"
+#include "src2d/sleeping/sleep.h"
 #include "src2d/state_archive.h"
 
 namespace merge2d {

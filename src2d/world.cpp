@@ -22,7 +22,7 @@
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/merge.h"
 #include "src2d/merging/relative_motion.h"
-#include "src2d/merging/sleep.h"
+#include "src2d/merging/sleep_stage.h"
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/unmerge.h"
 #include "src2d/merging/warm_start.h"

@@ -8,7 +8,7 @@
 #include "src2d/merging/doubt.h"
 #include "src2d/merging/open_solve.h"
 #include "src2d/merging/proof_search.h"
-#include "src2d/merging/sleep.h"
+#include "src2d/sleeping/sleep.h"
 
 namespace merge2d {
 namespace {

@@ -5,9 +5,9 @@
 #include "src2d/collections/collection.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/ordering.h"
-#include "src2d/merging/sleep.h"
 #include "src2d/merging/sweep.h"
 #include "src2d/merging/warm_start.h"
+#include "src2d/sleeping/sleep.h"
 
 namespace merge2d {
 namespace {

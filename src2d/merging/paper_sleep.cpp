@@ -1,7 +1,7 @@
 /// Section 7 to the letter.
 
 #include "src2d/merging/paper_rule.h"
-#include "src2d/merging/sleep.h"
+#include "src2d/sleeping/sleep.h"
 
 namespace merge2d {
 

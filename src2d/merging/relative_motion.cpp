@@ -6,8 +6,8 @@
 #include "src2d/merging/pair_metric.h"
 #include "src2d/merging/pair_readiness.h"
 #include "src2d/merging/ready_joints.h"
-#include "src2d/merging/sleep.h"
 #include "src2d/proofs/decided_settings.h"
+#include "src2d/sleeping/sleep.h"
 
 namespace merge2d {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "src2d/merging/sleep.h"
+#include "src2d/sleeping/sleep.h"
 #include "tests/support/modes_and_steps.h"
 
 namespace merge2d {

@@ -1,16 +1,15 @@
 #pragma once
-/// SleepAndWake (Section 7). Which things sleep and wake together is a matter of the rule (rule.h).
+/// Falling asleep and waking, for islands and for each rigid thing (Section 7). Which things do so
+/// together is a matter of the rule.
 
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
 
-void sleepAndWake(State& state, Scratch& scratch);
-
 /// Per island of rigid things that touch. Deviation: the paper lets each body of B sleep by itself.
 /// Here an island sleeps when all of it is at rest and the forces inside its collections have
 /// settled, and wakes as a whole: a sleeper is never left hanging when its support wakes. Guarded
-/// by tests/src2d/merging/sleep_test.cpp.
+/// by tests/src2d/sleeping/sleep_test.cpp.
 void sleepByIslands(State& state, Scratch& scratch);
 
 /// True for a rigid thing that the stage may put to sleep: it floats, or is a collection.

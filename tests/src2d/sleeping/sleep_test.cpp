@@ -1,4 +1,4 @@
-#include "src2d/merging/sleep.h"
+#include "src2d/sleeping/sleep.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,9 @@
-#include "src2d/merging/sleep.h"
+#include "src2d/sleeping/sleep.h"
 
 #include <algorithm>
 
 #include "src2d/collections/collection.h"
 #include "src2d/core/memory.h"
-#include "src2d/merging/merge.h"
-#include "src2d/merging/rule.h"
 
 namespace merge2d {
 namespace {
@@ -204,18 +202,6 @@ void sleepByIslands(State& state, Scratch& scratch) {
     if (asleep && stays_awake) wakeUp(state, scratch, id);
     if (!asleep && !stays_awake) fallAsleep(state, scratch, id);
   }
-}
-
-void sleepAndWake(State& state, Scratch& scratch) {
-  if (!sleeps(state.mode)) return;
-  const std::size_t before = scratch.events.size();
-  unmergingMethod(state).sleepAndWake(state, scratch);
-  const bool any =
-      std::any_of(scratch.events.begin() + static_cast<std::ptrdiff_t>(before),
-                  scratch.events.end(), [](const Event& e) { return e.type == EventType::Sleep; });
-  if (!any) return;
-  releaseRows(state, scratch);
-  releaseOpenRows(state, scratch, 1);
 }
 
 }  // namespace merge2d
