@@ -222,6 +222,10 @@ RigidId anchorRigid(State& state, RigidId id, BodyId anchor) {
   return id;
 }
 
+bool isSwept(const State& state, const Collection& c) {
+  return c.id != kNoCollection && !state[c.rigid].asleep;
+}
+
 FrameId frameOf(const State& state, BodyId body) { return state[rigidOf(body)].anchor; }
 
 namespace {

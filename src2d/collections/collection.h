@@ -67,6 +67,9 @@ void freeCollection(State& state, RigidId id);
 /// Shortens the tables where the last slots are free.
 void dropFreeSlots(State& state);
 
+/// True for a collection whose inner forces may be sought in this step: it is there and awake.
+bool isSwept(const State& state, const Collection& collection);
+
 /// The frame that a pinned or scripted body belongs to.
 FrameId frameOf(const State& state, BodyId body);
 

@@ -10,11 +10,10 @@
 #include "src2d/collections/joint_welds.h"
 #include "src2d/dynamics/contact_limits.h"
 #include "src2d/merging/metric.h"
-#include "src2d/merging/open_region.h"
-#include "src2d/merging/open_solve.h"
-#include "src2d/merging/proof_search.h"
-#include "src2d/merging/sweep.h"
 #include "src2d/proofs/load_certificate.h"
+#include "src2d/relaxation/open_region.h"
+#include "src2d/relaxation/open_solve.h"
+#include "src2d/relaxation/proof_search.h"
 
 namespace merge2d {
 namespace {

@@ -6,8 +6,8 @@
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/decided_unmerge.h"
 #include "src2d/merging/doubt.h"
-#include "src2d/merging/open_solve.h"
-#include "src2d/merging/proof_search.h"
+#include "src2d/relaxation/open_solve.h"
+#include "src2d/relaxation/proof_search.h"
 #include "src2d/sleeping/sleep.h"
 
 namespace merge2d {

@@ -6,10 +6,9 @@
 #include "src2d/collections/joint_welds.h"
 #include "src2d/merging/decided_unmerge.h"
 #include "src2d/merging/disturbance.h"
-#include "src2d/merging/open_solve.h"
-#include "src2d/merging/proof_search.h"
-#include "src2d/merging/sweep.h"
 #include "src2d/proofs/load_certificate.h"
+#include "src2d/relaxation/open_solve.h"
+#include "src2d/relaxation/proof_search.h"
 
 namespace merge2d {
 namespace {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src2d/collections/collection.h"
 #include "src2d/collections/cuts.h"
 #include "src2d/collections/joint_welds.h"
 #include "src2d/dynamics/contact_limits.h"
 #include "src2d/merging/metric.h"
 #include "src2d/merging/paper_rule.h"
-#include "src2d/merging/sweep.h"
 
 namespace merge2d {
 namespace {

@@ -28,10 +28,6 @@ void keepFixedContacts(State& state, const Scratch& scratch) {
 
 }  // namespace
 
-bool isSwept(const State& state, const Collection& c) {
-  return c.id != kNoCollection && !state[c.rigid].asleep;
-}
-
 void sweepCollections(State& state, Scratch& scratch) {
   if (scratch.sweeping) unmergingMethod(state).sweep(state, scratch);
 }

@@ -26,9 +26,6 @@ inline void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, Sol
 /// Updates the impulses inside collections.
 void sweepCollections(State& state, Scratch& scratch);
 
-/// True for a collection whose inner forces may be sought in this step: it is there and awake.
-bool isSwept(const State& state, const Collection& collection);
-
 /// For the rules that sweep: `inside` updates the impulses inside; the impulses outside that only
 /// the sweep knows are kept.
 void sweepAround(State& state, Scratch& scratch, void (*inside)(State& state, Scratch& scratch));

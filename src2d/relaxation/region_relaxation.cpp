@@ -7,10 +7,10 @@
 
 #include "src2d/collections/momentum.h"
 #include "src2d/core/index_set.h"
-#include "src2d/merging/block_sweeps.h"
-#include "src2d/merging/open_region.h"
-#include "src2d/merging/relaxation.h"
 #include "src2d/proofs/decided_settings.h"
+#include "src2d/relaxation/block_sweeps.h"
+#include "src2d/relaxation/open_region.h"
+#include "src2d/relaxation/relaxation.h"
 
 namespace merge2d {
 namespace {

@@ -1,4 +1,4 @@
-#include "src2d/merging/proof_search.h"
+#include "src2d/relaxation/proof_search.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,10 +7,8 @@
 #include <utility>
 
 #include "src2d/collections/collection.h"
-#include "src2d/collections/momentum.h"
 #include "src2d/dynamics/newton.h"
-#include "src2d/merging/relaxation.h"
-#include "src2d/merging/sweep.h"
+#include "src2d/relaxation/relaxation.h"
 
 namespace merge2d {
 

@@ -1,14 +1,13 @@
-#include "src2d/merging/open_solve.h"
+#include "src2d/relaxation/open_solve.h"
 
 #include <algorithm>
 
 #include "src2d/collections/collection.h"
 #include "src2d/collections/momentum.h"
 #include "src2d/dynamics/solver.h"
-#include "src2d/merging/open_region.h"
-#include "src2d/merging/relaxation.h"
-#include "src2d/merging/sweep.h"
 #include "src2d/proofs/collection_load.h"
+#include "src2d/relaxation/open_region.h"
+#include "src2d/relaxation/relaxation.h"
 
 namespace merge2d {
 namespace {

@@ -1,4 +1,4 @@
-#include "src2d/merging/proof_search.h"
+#include "src2d/relaxation/proof_search.h"
 
 #include "src2d/dynamics/newton.h"
 #include "src2d/state_file.h"

@@ -1,11 +1,11 @@
-#include "src2d/merging/relaxation.h"
+#include "src2d/relaxation/relaxation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "src2d/merging/block_sweeps.h"
 #include "src2d/proofs/decided_settings.h"
+#include "src2d/relaxation/block_sweeps.h"
 
 namespace merge2d {
 namespace {

@@ -1,4 +1,4 @@
-#include "src2d/merging/open_region.h"
+#include "src2d/relaxation/open_region.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "src2d/merging/open_solve.h"
+#include "src2d/relaxation/open_solve.h"
 
 #include <gtest/gtest.h>
 

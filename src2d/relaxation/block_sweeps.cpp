@@ -1,4 +1,4 @@
-#include "src2d/merging/block_sweeps.h"
+#include "src2d/relaxation/block_sweeps.h"
 
 #include <algorithm>
 
