@@ -137,10 +137,16 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
   if (source.count() == 1 && k.hits == 0) {
     k.setRolling(rollingOf(state, contact.key.a, contact.key.b), rollingImpulse(state, contact));
   }
+  // Between two frames nothing sinks in any further, as inside a collection: with a feedback of the
+  // overlap the contact would let go of what it bore when the two merged. Guarded by
+  // SlowLoad.AFrameBearsWhatItBoreWhenItBeginsToMove.
+  const bool frozen = areOnTwoFrames(state.rigid(contact.key.a), state.rigid(contact.key.b));
+  for (int i = 0; frozen && i < k.count; ++i) k.bias[i] = std::max(0.0, k.bias[i]);
   // Only contacts that rest breathe: compliance would take speed from a bounce.
-  const double softness = rests ? std::min(ownSoftness(state, contact.key.a, contact.key.b),
-                                           mostUnderABlow(state, scratch, contact.key, k))
-                                : 0.0;
+  const double softness = rests && !frozen
+                              ? std::min(ownSoftness(state, contact.key.a, contact.key.b),
+                                         mostUnderABlow(state, scratch, contact.key, k))
+                              : 0.0;
   fillMasses(k, softness, scratch.u[k.a], scratch.u[k.b]);
   if (k.count < source.count()) {  // the second is too close to the first to count
     ContactPoint& point = state.contacts.point(source.points[1]);

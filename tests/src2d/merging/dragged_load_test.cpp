@@ -109,5 +109,43 @@ TEST(SlowLoad, ColumnsOnARailStandAsInTheReference) {
   }
 }
 
+/// A wall of three columns and six rows; the last brick of the second row is drawn out from 2 s on.
+std::string wallWithADrawnBrick() {
+  std::string toml = "format = 1\n[material]\nfriction = 0.47\n" + kGround.substr(12);
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      const bool drawn = row == 1 && column == 2;
+      toml += fmt::format("[[body]]\nname = \"brick{}{}\"\nbox = [0.5, 0.2]\n", column, row);
+      const double x = -0.55 + 0.5 * column + 0.1 * (row % 2), y = 0.1 + 0.2 * row;
+      toml += drawn ? fmt::format(
+                          "motion = \"scripted\"\nscript = {{ keyframes = [[0, {0}, {2}, 0], "
+                          "[2, {0}, {2}, 0], [13.6, {1}, {2}, 0]] }}\n",
+                          x, x + 0.6, y)
+                    : fmt::format("at = [{}, {}]\n", x, y);
+    }
+  }
+  return toml;
+}
+
+/// Where rows begin to act between two frames they go on from what was borne before they merged:
+/// the overlap of that moment, which nothing deepens any more, asked for less.
+TEST(SlowLoad, AFrameBearsWhatItBoreWhenItBeginsToMove) {
+  Simulation run(wallWithADrawnBrick(), Mode::Merge);
+  const auto borne = [&] {
+    double sum = 0.0;
+    for (const ContactView& c : run.now().contacts) {
+      if (c.a == run.id("brick21") && c.b == run.id("brick22")) sum += c.lambda_n;
+    }
+    return sum;
+  };
+  run.until(1.9);
+  ASSERT_TRUE(run.anchored("brick22"));
+  const double before = borne();
+  run.until(2.05);
+  ASSERT_TRUE(run.anchored("brick22"));
+  EXPECT_GT(before, 0.0);
+  EXPECT_NEAR(borne(), before, 0.03 * before);
+}
+
 }  // namespace
 }  // namespace merge2d
