@@ -94,7 +94,7 @@ Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
 /// Nothing has been sought inside for so long that its blocks are put away in this step.
 bool isLongQuiet(const State& state, const Collection& c) {
   const LoadCertificate& proof = c.certificate.front();
-  return state.step - std::max(proof.last_doubt, proof.since) == kDecided.kept_steps;
+  return state.step - std::max(proof.last_doubt, proof.since) == kDecided.past_steps;
 }
 
 void lengthen(HitRun& run, std::int64_t step) {

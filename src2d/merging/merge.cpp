@@ -111,7 +111,7 @@ void merge(State& state, Scratch& scratch) {
   if (!pairs.empty()) weldAll(state, scratch, pairs);
   noteTwoFrames(state, scratch);
   layOutCollections(state);  // the next step starts from the layouts
-  const bool released = releaseOpenRows(state, scratch, kDecided.kept_steps);
+  const bool released = releaseOpenRows(state, scratch, kDecided.past_steps);
   if (!pairs.empty()) {
     dropFreeSlots(state);
     compactContacts(state.contacts);
