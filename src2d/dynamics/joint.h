@@ -51,8 +51,8 @@ struct JointPlace {
   Vec2 x_a = Vec2::Zero(), x_b = Vec2::Zero();  ///< centres of mass of what responds [m]
   Vec2 p_a = Vec2::Zero(), p_b = Vec2::Zero();  ///< ends of the joint [m]
   Vec2 at = Vec2::Zero();                       ///< where its force acts [m]
-  Rotation axes;                                ///< in which its directions are given: those of a
-  double turn = 0.0;                            ///< of b against a since the start [rad]
+  Rotation axes;      ///< of its directions: those of a, or of the world's rail
+  double turn = 0.0;  ///< of b against a since the start [rad]
 };
 
 /// From a's end to b's, along the joint's axes [m].

@@ -138,7 +138,7 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
     k.setRolling(rollingOf(state, contact.key.a, contact.key.b), rollingImpulse(state, contact));
   }
   // Between two frames nothing sinks in any further, as inside a collection: with a feedback of the
-  // overlap the contact would let go of what it bore when the two merged. Guarded by
+  // overlap the contact would let go of the load that it bore when the two merged. Guarded by
   // SlowLoad.AFrameBearsWhatItBoreWhenItBeginsToMove.
   const bool frozen = areOnTwoFrames(state.rigid(contact.key.a), state.rigid(contact.key.b));
   for (int i = 0; frozen && i < k.count; ++i) k.bias[i] = std::max(0.0, k.bias[i]);

@@ -337,7 +337,7 @@ void unmergeMovers(State& state, Scratch& scratch) {
     stay &= decideOne(state, scratch, region);
   }
   closeOpened(state, scratch);
-  // The sum of momenta knows nothing of joints: what stays one body is solved once more, as one.
+  // The sum of momenta knows nothing of joints: a collection that stays whole is solved once more.
   if (stay && jointed) scratch.solved = false;
 }
 

@@ -114,8 +114,7 @@ void listReadyPairs(const State& state, Scratch& scratch, const MergeGraph& grap
 void noteTwoFrames(const State& state, Scratch& scratch) {
   if (!scratch.notes) return;
   const auto note = [&](BodyId one, BodyId other) {
-    const Rigid &a = state.rigid(one), &b = state.rigid(other);
-    if (a.floating() || b.floating() || sameFrame(a, b)) return;
+    if (!areOnTwoFrames(state.rigid(one), state.rigid(other))) return;
     scratch.notes->decisions.push_back({.a = one,
                                         .b = other,
                                         .stage = "Merge",

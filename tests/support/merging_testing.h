@@ -143,4 +143,40 @@ inline int events(const Simulation& run, EventType type, EventReason reason) {
   return count;
 }
 
+/// A cart on two springs, which swings for ever with up to 0.2 m/s² on a rail without friction.
+inline const std::string kCartOnSprings = R"(
+[[body]]
+name = "rail"
+motion = "pinned"
+at = [0, -1]
+box = [60, 1]
+friction = 0
+[[body]]
+name = "cart"
+at = [0, 0]
+box = [8, 1]
+mass = 200
+friction = 0.8
+velocity = [0.2, 0]
+[[spring]]
+body = "cart"
+to = [-20, 0]
+stiffness = 120
+[[spring]]
+body = "cart"
+to = [20, 0]
+stiffness = 120
+)";
+
+/// The step in which a body becomes a member, or 0 within `limit` steps.
+inline std::int64_t mergeStep(const std::string& toml, const std::string& body,
+                              const Overrides& overrides = {}, int limit = 500) {
+  Simulation run(toml, Mode::Merge, overrides);
+  for (int i = 0; i < limit; ++i) {
+    run.steps(1);
+    if (run.merged(body)) return run.world().steps();
+  }
+  return 0;
+}
+
 }  // namespace merge2d

@@ -32,7 +32,7 @@ export function reasonIn(language: string, reason: Reason, decisive: Test | null
   const words = (table as Record<string, Sentences>)[language];
   if (!words) return null;
   const failing = reason.tests.filter((test) => ['unmerge', 'cut', 'apart'].includes(test.verdict));
-  // A pair that is ready waits for what is no number on a gauge.
+  // A ready pair that waits is told the refusal, which no gauge shows as a number.
   const refusal = reason.outcome === 'waiting' && reason.tests.find((one) => one.verdict === 'wait' && kRefusals.includes(one.criterion));
   const told = failing.length > 0 && decisive && !failing.includes(decisive) ? failing[0] : decisive;
   const test = (refusal || told) ?? failing[0] ?? reason.tests[reason.tests.length - 1] ?? null;

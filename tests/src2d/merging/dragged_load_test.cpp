@@ -90,7 +90,7 @@ std::string columnsOnARail() {
   return toml;
 }
 
-/// What merged moves as one body along its rail, also where its inside was asked in the full solve:
+/// A collection moves as one body along its rail, also where it was opened in the full solve:
 /// the sum of its members' momenta turned it by a little in each step, and the columns fell.
 TEST(SlowLoad, ColumnsOnARailStandAsInTheReference) {
   for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {

@@ -10,34 +10,13 @@
 namespace merge2d {
 namespace {
 
-/// A cart on two springs, which swings for ever with up to 0.2 m/s². On it stand boxes, and discs
-/// in the gaps between them, with rolling resistance.
+/// On a cart that swings stand boxes, and discs in the gaps between them, with rolling resistance.
 const std::string kSwingingCart = R"(
 format = 1
 [material]
 friction = 0.8
 rolling = 0.05
-[[body]]
-name = "rail"
-motion = "pinned"
-at = [0, -1]
-box = [60, 1]
-friction = 0
-[[body]]
-name = "cart"
-at = [0, 0]
-box = [8, 1]
-mass = 200
-friction = 0.8
-velocity = [0.2, 0]
-[[spring]]
-body = "cart"
-to = [-20, 0]
-stiffness = 120
-[[spring]]
-body = "cart"
-to = [20, 0]
-stiffness = 120
+)" + kCartOnSprings + R"(
 [[body]]
 name = "box"
 at = [-1.65, 0.75]

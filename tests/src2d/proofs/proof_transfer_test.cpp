@@ -8,47 +8,17 @@
 namespace merge2d {
 namespace {
 
-/// A cart on two springs, which swings for ever, or a platform that is moved to and fro; on it
-/// stands a wall.
+/// A cart that swings on its springs, or a platform that is moved to and fro; on it stands a wall.
 std::string swinging(bool floats) {
-  const std::string base = floats ? R"(
-format = 1
-[material]
-friction = 0.8
+  const std::string platform = R"(
 [[body]]
-name = "rail"
-motion = "pinned"
-at = [0, -1]
-box = [60, 1]
-friction = 0
-[[body]]
-name = "base"
-at = [0, 0]
-box = [8, 1]
-mass = 200
-friction = 0.8
-velocity = [0.2, 0]
-[[spring]]
-body = "base"
-to = [-20, 0]
-stiffness = 120
-[[spring]]
-body = "base"
-to = [20, 0]
-stiffness = 120
-)"
-                                  : R"(
-format = 1
-[material]
-friction = 0.8
-[[body]]
-name = "base"
+name = "platform"
 at = [0, 0]
 box = [8, 1]
 motion = "scripted"
 script = { axis = [1, 0], amplitude = 0.15, period = 5 }
 )";
-  return base + R"(
+  return "format = 1\n[material]\nfriction = 0.8\n" + (floats ? kCartOnSprings : platform) + R"(
 [[body]]
 name = "box"
 at = [-3.1, 0.75]
