@@ -217,7 +217,7 @@ class Split {
         newPart(state_, members_[p], std::move(kept_[p]), whole_, anchor_, anchored_[p] != 0);
     // The hit has cut its movers already: the part is shaken, but no longer hit, and its run of
     // hits begins anew.
-    state_.collection(id).hits.blow = std::min(last_blow_, state_.step - kDecided.hit_steps);
+    state_.collection(id).hits.blow = std::min(last_blow_, state_.step - hitSteps(state_));
     return id;
   }
 

@@ -127,7 +127,7 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRe
                const ProofSearch& search) {
   const WeldMotions motions(state, c, scratch.trial_u);
   const double residual = c.hits.blow == state.step ? 0.0 : c.residual;
-  const bool moves = search.start.empty() || turns(c, motions, kDecided.sure * residual);
+  const bool moves = search.start.empty() || turns(c, motions, residual / kDecided.tolerance);
   bool any = false;
   for (const std::uint32_t i : weldsAt(c, region.members)) {
     Weld& weld = c.welds[i];
@@ -153,7 +153,7 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRe
 /// For how long it has been hit without a break: it stays open for some steps after the last hit
 /// [s].
 double hitTime(const State& state, const Collection& c) {
-  return static_cast<double>(c.hits.last - c.hits.first + 2 - kDecided.hit_steps) * state.h;
+  return static_cast<double>(c.hits.last - c.hits.first + 2 - hitSteps(state)) * state.h;
 }
 
 /// A collection that steps back (DecidedSettings::hit_time); one of which a hit opens but a part
@@ -177,7 +177,7 @@ void stepBack(const State& state, Scratch& scratch, Collection& c) {
     }
     if (!weld.cut) weld.reason = reasonOf(c, weld);
     weld.cut = true;
-    weld.motion = static_cast<float>(state.settings.merging.velocity / kDecided.longest_wait);
+    weld.motion = static_cast<float>(state.settings.merging.velocity / kDecided.past_steps);
   }
   c.hits.endRun();
 }
@@ -196,7 +196,7 @@ void prove(const State& state, Collection& c, Witness&& witness) {
   const bool goes_on = proof.inherited < proof.witnesses.size() &&
                        state.step - proof.since >= state.settings.merging.steps;
   Witness load = goes_on ? witness : Witness();
-  remember(c, std::move(witness));
+  remember(state, c, std::move(witness));
   if (!goes_on) return;
   double way = 0.0;
   Witness next = beyond(proof, load, kDecided.overshoot, way);
@@ -318,7 +318,7 @@ bool endSearch(State& state, Scratch& scratch, Collection& c) {
   if (rests) search.load.motion = fastestOf(state, scratch, c);
   if (search.ahead) {
     c.settled = true;
-    if (rests) remember(c, std::move(search.load));
+    if (rests) remember(state, c, std::move(search.load));
     return true;
   }
   if (!rests) proof.search.movers = moversOf(state, scratch, c);

@@ -125,7 +125,7 @@ void spreadDoubts(State& state, Scratch& scratch) {
     const Collection& c = state.collections[i];
     if (!isSwept(state, c) || !isHit(state, c)) continue;
     hit[sets.find(i)] = 1;
-    if (state.step - c.hits.met < kDecided.hit_steps) met[sets.find(i)] = 1;
+    if (state.step - c.hits.met < hitSteps(state)) met[sets.find(i)] = 1;
   }
   for (std::uint32_t i = 0; i < slots; ++i) {
     if (!isSwept(state, state.collections[i]) || !hit[sets.find(i)]) continue;

@@ -60,12 +60,16 @@ struct Projection {
 
 using Gram = std::array<double, kWitnesses * kWitnesses>;
 
+/// So little may be left over of any load [m/s]: one member gains no more by it than a search
+/// leaves.
+double leftOfRest(const State& state) { return kOuterWeight * toleratedResidual(state); }
+
 /// The nearest combination of the first `n` loads of `gram` to one of products `b` and square `ll`.
-/// Loads are known but for as little as may be left over of any: one of nothing but rounding must
-/// not get a weight.
-Projection project(Gram gram, const LoadCertificate::Weights& b, std::size_t n, double ll) {
+/// Loads are known but for `rounding` [m/s]: one of nothing else must not get a weight.
+Projection project(Gram gram, const LoadCertificate::Weights& b, std::size_t n, double ll,
+                   double rounding) {
   for (std::size_t i = 0; i < n; ++i) {
-    gram[i * kWitnesses + i] += kDecided.left_of_rest * kDecided.left_of_rest;
+    gram[i * kWitnesses + i] += rounding * rounding;
   }
   Projection p{nonNegativeFit(gram, b, n), ll};
   for (std::size_t i = 0; i < n; ++i) {
@@ -83,11 +87,10 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
   LoadCertificate& proof = c.certificate.front();
   const std::size_t n = proof.witnesses.size();
   if (n == 0) return false;
-  const auto most = [](double part, double norm) {
-    return std::max(kDecided.left_of_rest, part * norm);
-  };
-  const double frame = most(kDecided.left_of_frame, load.norm);
-  const double outer = frame + most(kDecided.left_of_outer, kOuterWeight * load.outer_norm);
+  const double least = leftOfRest(state);
+  const auto most = [&](double norm) { return std::max(least, kDecided.left_over * norm); };
+  const double frame = most(load.norm);
+  const double outer = frame + most(kOuterWeight * load.outer_norm);
   const double scale = frame * frame / (outer * outer);  // of the loads from outside
   Gram gram{};
   LoadCertificate::Weights b{};
@@ -101,7 +104,7 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
     }
   }
   const double ll = load.norm * load.norm;
-  const Projection p = project(gram, b, n, ll + scale * (square(load) - ll));
+  const Projection p = project(gram, b, n, ll + scale * (square(load) - ll), least);
   if (!(p.left <= frame * frame)) return false;  // nor where they are no numbers
   double motion = 0.0;
   for (std::size_t i = 0; i < n; ++i) motion += p.weights[i] * proof.witnesses[i].motion;
@@ -131,7 +134,7 @@ void fillGram(LoadCertificate& proof) {
 }
 
 /// How far a witness is from the cone of the others, squared.
-double worthOf(const LoadCertificate& proof, std::size_t which) {
+double worthOf(const LoadCertificate& proof, std::size_t which, double rounding) {
   Gram gram{};
   LoadCertificate::Weights b{};
   const std::size_t all = proof.witnesses.size();
@@ -145,17 +148,17 @@ double worthOf(const LoadCertificate& proof, std::size_t which) {
     b[n++] = proof.gram[i * all + which];
   }
   const double xx = proof.gram[which * all + which];
-  return project(gram, b, n, xx).left / xx;
+  return project(gram, b, n, xx, rounding).left / xx;
 }
 
 /// Drops the witness without which the others lose least; inherited ones first.
-void makePlace(LoadCertificate& proof) {
+void makePlace(LoadCertificate& proof, double rounding) {
   if (proof.witnesses.size() < kWitnesses) return;
   std::size_t least = 0;
   double worth = 1e300;
   const std::size_t end = proof.inherited > 0 ? proof.inherited : proof.witnesses.size();
   for (std::size_t i = 0; i < end; ++i) {
-    const double of = worthOf(proof, i);
+    const double of = worthOf(proof, i, rounding);
     if (of < worth) {
       worth = of;
       least = i;
@@ -268,10 +271,10 @@ void predictImpulses(const Collection& c, Witness& load) {
   limitImpulses(c, load);
 }
 
-void remember(Collection& c, Witness&& witness) {
+void remember(const State& state, Collection& c, Witness&& witness) {
   writeImpulses(c);
   LoadCertificate& proof = c.certificate.front();
-  makePlace(proof);
+  makePlace(proof, leftOfRest(state));
   proof.witnesses.push_back(std::move(witness));
   fillGram(proof);
   proof.weights = {};

@@ -43,7 +43,7 @@ void swapImpulses(Collection& c, Witness& with);
 void predictImpulses(const Collection& c, Witness& load);
 
 /// Keeps a witness.
-void remember(Collection& c, Witness&& witness);
+void remember(const State& state, Collection& c, Witness&& witness);
 
 /// Drops all proofs, and has others sought for any load.
 void forgetProofs(Collection& c);

@@ -74,8 +74,7 @@ class RegionRelaxation {
 
   double run() {
     double residual = choose(region_.members);
-    double left =
-        std::max(kDecided.row_sweeps, kDecided.full_sweeps * static_cast<double>(blocks_.size()));
+    double left = rowSweeps(state_, blocks_.size());
     int sweeps = 0;
     while (residual > sweeps_of_.tolerance && sweeps < kDecided.most_sweeps && left > 0.0) {
       constexpr int kRound = 10;
@@ -155,9 +154,9 @@ double relaxWhole(State& state, Scratch& scratch, OpenRegion& region) {
   if (residual <= tolerance) return residual;
   ProofSearch& search = c.certificate.front().search;
   ProofSearch waiting;
-  if (isLarge(c)) std::swap(waiting, search);
+  if (isLarge(state, c)) std::swap(waiting, search);
   const double left = relax(state, scratch, c, tolerance);
-  if (isLarge(c)) std::swap(waiting, search);
+  if (isLarge(state, c)) std::swap(waiting, search);
   return left;
 }
 
@@ -170,7 +169,7 @@ void relaxOpen(State& state, Scratch& scratch, OpenRegion& region) {
   scratch.trial_u.resize(state.bodies.size() + 1);
   scratch.trial_u.back() = {};
   for (const BodyId b : c.members) scratch.trial_u[index(b)] = {};
-  const bool local = isHit(state, c) && isLarge(c);
+  const bool local = isHit(state, c) && isLarge(state, c);
   if (!local) addAll(state, scratch, region);
   for (const std::uint32_t m : region.members) {
     const SolverVelocity& u = scratch.sweep_u[index(c.members[m])];

@@ -19,8 +19,7 @@ class Relaxation {
         c_(c),
         sweeps_of_(scratch, c, tolerance),
         tolerance_(tolerance),
-        left_(std::max(kDecided.row_sweeps,
-                       kDecided.full_sweeps * static_cast<double>(c.blocks.size()))) {
+        left_(rowSweeps(state, c.blocks.size())) {
     if (isSearch()) {
       left_ = std::min(left_, std::ldexp(kDecided.first_row_sweeps, search().steps));
     }

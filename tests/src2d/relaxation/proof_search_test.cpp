@@ -21,7 +21,7 @@ script = { velocity = [0, 0], spin = 2 }
 [[body]]
 at = [-3.5, 0.5]
 box = [1, 1]
-repeat = { count = [8, 24], spacing = [1, 1], stagger = 0.5 }
+repeat = { count = [8, 32], spacing = [1, 1], stagger = 0.5 }
 )";
 
 World tiltingWall() {
