@@ -81,6 +81,35 @@ Projection project(Gram gram, const LoadCertificate::Weights& b, std::size_t n, 
   return p;
 }
 
+/// |ℓ − Σ βᵢ ℓᵢ|² with the weights that there are, and loads from outside in that scale: in most
+/// steps these cover the load still.
+double leftByWeights(const State& state, const Collection& c, const CollectionLoad& load,
+                     double scale) {
+  const LoadCertificate& proof = c.certificate.front();
+  const std::size_t n = proof.witnesses.size();
+  FrameLoad frame = load.frame;
+  double left = square(load);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double weight = proof.weights[i];
+    if (weight == 0.0) continue;
+    const Witness& witness = proof.witnesses[i];
+    for (std::size_t k = 0; k < frame.size(); ++k) frame[k] -= weight * witness.frame[k];
+    left -= 2.0 * weight * product(state, c, load, witness);
+    for (std::size_t j = 0; j < n; ++j) left += weight * proof.weights[j] * proof.gram[i * n + j];
+  }
+  const double of_frame = dot(frame, frame);
+  return of_frame + scale * (left - of_frame);
+}
+
+/// How fast members move under the impulses of a combination [m/s].
+double motionOf(const LoadCertificate& proof, const LoadCertificate::Weights& weights) {
+  double motion = 0.0;
+  for (std::size_t i = 0; i < proof.witnesses.size(); ++i) {
+    motion += weights[i] * proof.witnesses[i].motion;
+  }
+  return motion;
+}
+
 }  // namespace
 
 bool covers(const State& state, Collection& c, const CollectionLoad& load) {
@@ -92,6 +121,10 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
   const double frame = most(load.norm);
   const double outer = frame + most(kOuterWeight * load.outer_norm);
   const double scale = frame * frame / (outer * outer);  // of the loads from outside
+  if (leftByWeights(state, c, load, scale) <= frame * frame &&
+      motionOf(proof, proof.weights) <= cutSpeed(state)) {
+    return true;
+  }
   Gram gram{};
   LoadCertificate::Weights b{};
   for (std::size_t i = 0; i < n; ++i) {
@@ -106,9 +139,7 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
   const double ll = load.norm * load.norm;
   const Projection p = project(gram, b, n, ll + scale * (square(load) - ll), least);
   if (!(p.left <= frame * frame)) return false;  // nor where they are no numbers
-  double motion = 0.0;
-  for (std::size_t i = 0; i < n; ++i) motion += p.weights[i] * proof.witnesses[i].motion;
-  if (motion > cutSpeed(state)) return false;
+  if (motionOf(proof, p.weights) > cutSpeed(state)) return false;
   proof.lambda_stale |= p.weights != proof.weights;
   proof.weights = p.weights;
   return true;

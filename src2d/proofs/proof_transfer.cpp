@@ -192,24 +192,6 @@ double ProofTransfer::motionOf(const Witness& witness,
   return most;
 }
 
-/// Drops the forces from outside that the new contacts have not taken over: nothing gives them.
-/// Returns the speed that they would have given [m/s].
-double ProofTransfer::dropForcesOutside(Witness& witness) const {
-  LoadCertificate& proof = c_.certificate.front();
-  const double size = sizeOf(state_, c_);
-  double speed = 0.0;
-  for (const std::uint32_t i : fresh_) {
-    for (const std::uint32_t body : {c_.blocks[i].a, c_.blocks[i].b}) {
-      if (!hasColumn(state_, c_, body)) continue;
-      const BodyId b{body};
-      const Twist outer = std::exchange(witness.outer[columnOf(proof, b)], Twist{});
-      const double reach = state_.extent(rigidOf(b)).box.half.norm();
-      speed += std::hypot(outer.vx, outer.vy) + reach * std::abs(outer.omega) / size;
-    }
-  }
-  return speed;
-}
-
 void ProofTransfer::finish() {
   if (!survives()) {
     c_.certificate.clear();
@@ -223,9 +205,7 @@ void ProofTransfer::finish() {
   for (Witness& witness : proof.witnesses) express(witness);
   holdNewContacts();
   const std::vector<std::uint32_t> near_by = blocksNearBy();
-  for (Witness& witness : proof.witnesses) {
-    witness.motion = motionOf(witness, near_by) + dropForcesOutside(witness);
-  }
+  for (Witness& witness : proof.witnesses) witness.motion = motionOf(witness, near_by);
   const auto isProof = [&](const Witness& w) { return w.motion <= cutSpeed(state_); };
   const auto found = proof.witnesses.begin() + static_cast<std::ptrdiff_t>(proof.inherited);
   const auto old = std::count_if(proof.witnesses.begin(), found, isProof);

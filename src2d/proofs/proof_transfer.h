@@ -32,7 +32,6 @@ class ProofTransfer {
   void express(Witness& witness) const;
   void holdNewContacts();
   std::vector<std::uint32_t> blocksNearBy() const;
-  double dropForcesOutside(Witness& witness) const;
   double motionOf(const Witness& witness, const std::vector<std::uint32_t>& blocks) const;
 
   const State& state_;
