@@ -147,6 +147,40 @@ TEST(LoadCertificate, PredictsTheImpulsesOfALoadThatItKnows) {
   }
 }
 
+/// The load of a proof, times a factor. On a cart with springs nothing but the cart itself, the
+/// heaviest member, is loaded from outside.
+CollectionLoad timesTheLoadOf(const Witness& witness, double factor) {
+  CollectionLoad load;
+  load.frame = witness.frame;
+  double square = 0.0;
+  for (double& q : load.frame) {
+    q *= factor;
+    square += q * q;
+  }
+  load.norm = std::sqrt(square);
+  return load;
+}
+
+TEST(LoadCertificate, WeightsStayWhileTheyCoverTheLoad) {
+  const World world = quietCart();
+  Inside inside(world);
+  Collection& cart = inside.cart();
+  LoadCertificate& proof = cart.certificate.front();
+  const auto isCovered = [&](double factor) {
+    proof.lambda_stale = false;
+    return covers(inside.setup.state, cart, timesTheLoadOf(proof.witnesses.front(), factor));
+  };
+  ASSERT_TRUE(isCovered(0.8));
+  const LoadCertificate::Weights weights = proof.weights;
+  EXPECT_TRUE(isCovered(0.8 * (1.0 + 0.5 * kDecided.left_over)));
+  EXPECT_EQ(proof.weights, weights);
+  EXPECT_FALSE(proof.lambda_stale) << "nothing is to be written";
+  EXPECT_TRUE(isCovered(0.8 * (1.0 + 2.0 * kDecided.left_over)));
+  EXPECT_NE(proof.weights, weights);
+  EXPECT_TRUE(proof.lambda_stale);
+  EXPECT_FALSE(isCovered(-0.8)) << "not in the cone of what was carried";
+}
+
 /// Brought back by a blow that comes later, the blocks are those that the straight run has.
 TEST(LoadCertificate, AWorldSavedWhileTheBlocksAreAwayGoesOnWithTheSameBytes) {
   World straight = quietCart();
