@@ -15,9 +15,13 @@ struct Measure {
   std::string_view criterion, name, unit;
 };
 constexpr Measure kMeasures[] = {
-    {"relative-motion", "relative motion", "m/s"}, {"sliding", "slip", "m/s"},
-    {"breathing", "change of overlap", "m"},       {"motion", "relative motion", "m/s"},
-    {"rest", "motion in the world", "m/s"},        {"hits", "time of hits", "s"},
+    {"relative-motion", "relative motion", "m/s"},
+    {"sliding", "slip", "m/s"},
+    {"breathing", "change of overlap", "m"},
+    {"motion", "relative motion", "m/s"},
+    {"rest", "motion in the world", "m/s"},
+    {"hits", "time of hits", "s"},
+    {"load", "change of load", "1/s"},
 };
 
 const Measure* measureOf(std::string_view criterion) {

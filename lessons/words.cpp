@@ -181,6 +181,11 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
     return fmt::format("their joints take away {:.0f} of {:.0f} freedoms{}", d.value, d.threshold,
                        d.verdict == "wait" ? ", too few to hold them" : "");
   }
+  if (c == "load") {
+    return fmt::format("what they bear changes by {:.2g} of itself in a second, {} {:.2g} ({})",
+                       d.value, d.value < d.threshold ? "below" : "above", d.threshold,
+                       equationName(d.equation));
+  }
   if (c == "hits") {
     return fmt::format(
         "hits have gone on for {:.3g} s (bodies are simulated one by one after {} s; {})", d.value,

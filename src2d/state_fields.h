@@ -76,8 +76,8 @@ void fields(Ar& ar, Some<ContactPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Contact> auto& c) {
-  auto& [key, normal, count, quiet_steps, parting, apart, points] = c;
-  ar(key, normal, count, quiet_steps, parting, apart, points);
+  auto& [key, normal, count, quiet_steps, parting, borne, apart, points] = c;
+  ar(key, normal, count, quiet_steps, parting, borne, apart, points);
 }
 template <class Ar>
 void fields(Ar& ar, Some<IdlePair> auto& p) {

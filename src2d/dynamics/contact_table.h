@@ -49,6 +49,7 @@ struct Contact {
   int quiet_steps = 0;
   /// Where it waits: the velocity that its bodies gained in the step in which they parted [m/s].
   float parting = 0.0F;
+  std::array<float, 2> borne{};  ///< its impulse in the last step, along normal and tangent [N s]
   float apart = 0.0F;  ///< without points: the shapes are at least this far from each other [m]
   /// Of a single point, the second's lambda_t holds the impulse against rolling (contact_block.h).
   std::array<ContactPoint, 2> points;

@@ -72,6 +72,7 @@ int waitUntilSeen(const State& state, const InternalContact& contact, const Weld
 
 constinit const MergingMethod kDefaultMerging{
     .refuses_edge = true,
+    .waits_for_load = true,
     .unites_on_floors = false,
     .cycles = asSet,
 };

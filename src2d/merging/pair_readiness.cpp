@@ -6,6 +6,7 @@
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/pair_metric.h"
 #include "src2d/merging/rule.h"
+#include "src2d/proofs/decided_settings.h"
 
 namespace merge2d {
 namespace {
@@ -76,7 +77,30 @@ bool aboutToSlide(const State& state, const BodyPair& pair) {
          std::all_of(tangents.begin(), tangents.end(), [&](const auto& r) { return along(r) < 0; });
 }
 
+/// How fast the impulse between two bodies changes, seen from the first, as a part of itself [1/s]:
+/// a frame that turns steadily changes nothing.
+double changeOfLoad(const State& state, const BodyPair& pair) {
+  Vec2 now = Vec2::Zero(), before = Vec2::Zero();
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& contact = state.contacts[state.contacts.order[i]];
+    const Vec2 n = contact.normal, t = perpendicular(n), impulse = impulseOf(contact);
+    now += impulse.x() * n + impulse.y() * t;
+    before += static_cast<double>(contact.borne[0]) * n + static_cast<double>(contact.borne[1]) * t;
+  }
+  const double change = (now - before).norm();
+  return change > 0.0 ? change / (state.h * std::max(now.norm(), before.norm())) : 0.0;
+}
+
 }  // namespace
+
+Vec2 impulseOf(const Contact& contact) {
+  Vec2 sum = Vec2::Zero();
+  for (int k = 0; k < contact.count; ++k) {
+    const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
+    sum += Vec2(p.lambda_n, p.lambda_t);
+  }
+  return sum;
+}
 
 int activePoints(const State& state, const BodyPair& pair) { return lookAt(state, pair).active; }
 
@@ -96,6 +120,10 @@ bool PairTest::ready() {
   if (!ok && !notes_) return false;
   ok &= below("sliding", "(18)", seen.fastest_slip, scale * m.sliding);
   ok &= below("breathing", "Section 5.3", seen.largest_breath, scale * m.breathing);
+  if (!ok && !notes_) return false;
+  if (mergingMethod(state_).waits_for_load) {
+    ok &= below("load", kOwnMerging, changeOfLoad(state_, pair_), kDecided.settling_rate);
+  }
   if (!ok && !notes_) return false;
   const double motion = relativeMotion(state_, pair_, notes_);
   return below("relative-motion", "(17)", motion, scale * m.velocity) && ok;

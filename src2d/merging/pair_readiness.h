@@ -10,6 +10,9 @@ namespace merge2d {
 /// Contact points of a pair that carry a force.
 int activePoints(const State& state, const BodyPair& pair);
 
+/// The impulse of a contact in this step, along its normal and tangent [N s].
+Vec2 impulseOf(const Contact& contact);
+
 /// Tests the merge criteria of one pair, and writes them down when somebody asks.
 class PairTest {
  public:

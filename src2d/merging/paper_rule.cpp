@@ -81,6 +81,7 @@ void sweepByOrder(State& state, Scratch& scratch) {
 
 constinit const MergingMethod kPaperMerging{
     .refuses_edge = false,
+    .waits_for_load = false,
     .unites_on_floors = true,
     .cycles = noCycles,
 };

@@ -53,6 +53,8 @@ void countQuietPairs(State& state, Scratch& scratch) {
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
       Contact& contact = state.contacts[state.contacts.order[i]];
       contact.quiet_steps = now;
+      const Vec2 impulse = impulseOf(contact);
+      contact.borne = {static_cast<float>(impulse.x()), static_cast<float>(impulse.y())};
     }
   }
 }

@@ -40,7 +40,7 @@ TEST_F(ExplainCommand, GivesAPairWithEachOfItsTestsAsJson) {
 }
 
 TEST_F(ExplainCommand, NamesAllBodiesOfTheGroupThatHoldsAPair) {
-  const Words arguments{"explain", "truss-arch", "--at", "5", "--pair", "left-leg", "right-leg"};
+  const Words arguments{"explain", "truss-arch", "--at", "6", "--pair", "left-leg", "right-leg"};
   EXPECT_THAT(run(arguments).out, HasSubstr("the rigid group of ground, left-leg and right-leg"));
   Words with_json = arguments;
   with_json.push_back("--json");

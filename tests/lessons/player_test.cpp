@@ -96,7 +96,7 @@ TEST_F(PlayerTest, EveryStageHasATable) {
 TEST_F(PlayerTest, ShowsABodyAndAPair) {
   say("step");
   EXPECT_THAT(say("body body1"), StartsWith("body1: free; mass 1.00 kg"));
-  EXPECT_THAT(say("pair body2 body1"), HasSubstr("body1 and body2 wait at step 1"));
+  EXPECT_THAT(say("pair body2 body1"), HasSubstr("body1 and body2 stayed apart at step 1"));
   EXPECT_THAT(refused("body bdy1"), HasSubstr("did you mean 'body1'?"));
   EXPECT_THAT(refused("pair body1"), HasSubstr("two names"));
 }

@@ -59,6 +59,11 @@ TEST_F(WordsTest, TellsValueThresholdAndByHowMuch) {
       "relative motion 0.0040 m/s is below 0.010 m/s (40 %; Eq. 17)");
 }
 
+TEST_F(WordsTest, TellsHowFastALoadChanges) {
+  EXPECT_EQ(said({.criterion = "load", .equation = "(17)", .value = 5.0, .threshold = 2.0}),
+            "what they bear changes by 5 of itself in a second, above 2 (Eq. 17)");
+}
+
 TEST_F(WordsTest, TellsSmallThresholdsInMillimetres) {
   EXPECT_EQ(said({.criterion = "breathing",
                   .equation = "Section 5.3",

@@ -57,7 +57,7 @@ auto calmCases(const std::vector<CalmCase>& cases) {
 }
 
 const std::vector<CalmCase> kCalmAtRest = {
-    {"arch", "keystone", {{0.5, 8.0}}},
+    {"arch", "keystone", {{1.0, 8.0}}},
     {"books", "sequel", {{0.6, 0.99}, {5.8, 8.0}}},
     {"box-on-points", "box", {{0.3, 0.9}, {1.6, 6.0}}},
     {"dominoes", "domino[40,0]", {{0.3, 0.99}, {9.8, 12.0}}},

@@ -112,9 +112,9 @@ TEST(Recorder, APairCountsUpToTheThresholdAndThenMerges) {
     EXPECT_EQ(d.needed, 3) << d.criterion;
     EXPECT_LT(d.value, d.threshold) << d.criterion;
   }
-  EXPECT_THAT(criteria,
-              ElementsAre("edge", "sliding", "breathing", "relative-motion", "count", "cycle"));
-  EXPECT_THAT(verdicts, ElementsAre("below", "below", "below", "below", "merge", "merge"));
+  EXPECT_THAT(criteria, ElementsAre("edge", "sliding", "breathing", "load", "relative-motion",
+                                    "count", "cycle"));
+  EXPECT_THAT(verdicts, ElementsAre("below", "below", "below", "below", "below", "merge", "merge"));
 }
 
 TEST(Recorder, APairThatFailsOneTestLosesItsWholeCount) {

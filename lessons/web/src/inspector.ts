@@ -10,6 +10,7 @@ const kNames: Record<string, [string, string]> = {
   motion: ['Fastest relative motion', 'm/s'],
   sliding: ['Slip', 'm/s'],
   breathing: ['Breathing: change of overlap', 'm'],
+  load: ['Change of load', '1/s'],
   edge: ['On the edge of the friction cone', ''],
   broken: ['Normal impulse', 'N s'],
   count: ['Calm steps', ''],

@@ -102,6 +102,69 @@ TEST(Merge, WaitsWhileTheContactBreathes) {
   EXPECT_GE(normal, loose);
 }
 
+/// Per pair of bodies, the impulse along the normals of their contacts [N s].
+std::map<std::pair<BodyId, BodyId>, double> borneByPairs(const Snapshot& now) {
+  std::map<std::pair<BodyId, BodyId>, double> borne;
+  for (const ContactView& c : now.contacts) borne[{c.a, c.b}] += c.lambda_n;
+  return borne;
+}
+
+/// The least that any pair of a wall bears when it merges, as a part of what it bears in the end.
+/// All bricks are put in their places without weight.
+double leastBorneAtMerge(const Overrides& overrides) {
+  Simulation run(kGround + R"(
+[[body]]
+name = "brick"
+at = [-9.5, 0.5]
+box = [1, 1]
+repeat = { count = [20, 40], spacing = [1.0, 1], stagger = 0.5 }
+)",
+                 Mode::Merge, overrides);
+  std::map<std::pair<BodyId, BodyId>, double> then, before;
+  run.steps(400, [&] {
+    for (const Event& e : run.world().events()) {
+      if (e.type == EventType::Merge) then[{e.a, e.b}] = before[{e.a, e.b}];
+    }
+    before = borneByPairs(run.now());
+  });
+  double least = 1.0;
+  for (const auto& [pair, in_the_end] : before) {
+    constexpr double kWeight = 9.81 * 0.01;  // of a brick in a step [N s]
+    if (in_the_end <= kWeight || !then.contains(pair)) continue;
+    least = std::min(least, then[pair] / in_the_end);
+  }
+  return least;
+}
+
+TEST(Merge, APairWaitsUntilWhatItBearsHasSettled) {
+  EXPECT_GT(leastBorneAtMerge({}), 0.5);
+  EXPECT_LT(leastBorneAtMerge(kPaper), 0.1);
+}
+
+/// What holds the box on its circle turns faster than a load may change.
+TEST(Merge, ABoxThatADrumSwingsAroundMerges) {
+  Simulation run(R"(
+format = 1
+gravity = [0, 0]
+step = 0.001
+[[body]]
+name = "drum"
+motion = "scripted"
+at = [0, 0]
+shapes = [{ box = [0.5, 4], at = [2.5, 0] }, { box = [0.5, 4], at = [-2.5, 0] }]
+script = { velocity = [0, 0], spin = 150 }
+[[body]]
+name = "box"
+at = [1.75, 0]
+box = [1, 1]
+velocity = [0, 4.58149]
+spin = 150
+)",
+                 Mode::Merge);
+  run.until(1.0);
+  EXPECT_TRUE(run.anchored("box"));
+}
+
 // A box on a slope of 31°, a little steeper than arctan 0.6 = 30.96°: it slides off at 7 mm/s².
 const std::string kSteep = R"(
 format = 1

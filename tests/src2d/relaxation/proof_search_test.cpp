@@ -19,9 +19,9 @@ at = [0, -0.5]
 box = [30, 1]
 script = { velocity = [0, 0], spin = 2 }
 [[body]]
-at = [-3.5, 0.5]
+at = [-5.5, 0.5]
 box = [1, 1]
-repeat = { count = [8, 32], spacing = [1, 1], stagger = 0.5 }
+repeat = { count = [12, 48], spacing = [1, 1], stagger = 0.5 }
 )";
 
 World tiltingWall() {
