@@ -146,11 +146,11 @@ test('the time step can be changed in a run of one’s own, and time goes on fro
 test('a gauge shows the value of the paper beside a limit that is another one', async () => {
   const change = (line) => `&do=${encodeURIComponent(`0 set ${line}`)}`;
   const bodies = '&bodies=cookbook%26diary';
-  const { page, close } = await open('books', {}, `#step=2&fork=0${change('merging.velocity=0.05')}${change('merging.breathing=0.0001')}${bodies}`);
+  const { page, close } = await open('books', {}, `#step=2&fork=0${change('merging.velocity=0.05')}${change('merging.breathing=1e-9')}${bodies}`);
   await page.waitForSelector('html.taken-over');
   await page.waitForSelector('.gauge .second-tick', { state: 'attached' });
   const [limit, paper] = await page.$$eval('.gauge text:not(.value)', (texts) => texts.map((text) => text.textContent));
-  assert.match(limit, /^limit (0\.05|1\.0·10⁻⁴)$/);
+  assert.match(limit, /^limit (0\.05|1\.0·10⁻⁹)$/);
   assert.match(paper, /^paper (0\.01|1\.0·10⁻⁵)$/);
   assert.match(await page.getAttribute('.gauge svg', 'aria-label'), /limit .*, paper /);
   await close();

@@ -231,7 +231,7 @@ test('collections are counted from C1, in the page as in files and the terminal'
   assert.equal(row[4], 1);
   await page.locator('.slider').fill(String(row[0]));
   assert.match(await page.locator('.picture.interactive .labels').textContent(), /C1\b/);
-  assert.match(await page.textContent('.now .events'), /merged into C1\b/);
+  assert.match(await page.innerText('.now .events'), /merged into C1\b/);
   const told = execFileSync(merge2d, ['explain', 'books', '--at', String(row[0])], { encoding: 'utf8' });
   assert.match(told, /into C1\b/);
   const trace = execFileSync(merge2d, ['run', 'books', '--steps', String(row[0]), '--trace', '-', '--quiet'], { encoding: 'utf8' });
