@@ -141,7 +141,7 @@ TEST(Merge, APairWaitsUntilWhatItBearsHasSettled) {
   EXPECT_LT(leastBorneAtMerge(kPaper), 0.1);
 }
 
-/// What holds the box on its circle turns faster than a load may change.
+/// The force that holds the box on its circle turns faster than a load may change.
 TEST(Merge, ABoxThatADrumSwingsAroundMerges) {
   Simulation run(R"(
 format = 1
