@@ -182,9 +182,9 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
                        d.verdict == "wait" ? ", too few to hold them" : "");
   }
   if (c == "load") {
-    return fmt::format("what they bear changes by {:.2g} of itself in a second, {} {:.2g} ({})",
-                       d.value, d.value < d.threshold ? "below" : "above", d.threshold,
-                       equationName(d.equation));
+    return fmt::format(
+        "the impulse between them changes by {:.2g} of itself in a second, {} {:.2g} ({})", d.value,
+        d.value < d.threshold ? "below" : "above", d.threshold, equationName(d.equation));
   }
   if (c == "hits") {
     return fmt::format(

@@ -13,7 +13,7 @@ namespace merge2d {
 struct MergingMethod {
   /// A pair all of whose contacts are on the edge of their cones, Eq. (20), is not ready.
   bool refuses_edge;
-  /// A pair is not ready while what it bears still changes.
+  /// A pair is not ready while the impulse between its bodies still changes.
   bool waits_for_load;
   /// Collections on one pinned or scripted body are one collection.
   bool unites_on_floors;

@@ -10,10 +10,11 @@ namespace merge2d {
 
 /// The numbers of the default rule, with the experiments that chose them.
 struct DecidedSettings {
-  /// A pair merges once what it bears changes by less than so many times itself in a second [1/s].
+  /// A pair merges once the impulse between its bodies changes by less than so many times itself in
+  /// a second [1/s].
   /// Without, walls merge while all still sinks in, and bricks rock at their top later: a wall of
   /// 5,000 on a swinging platform takes hundreds of times as long on average, and the wagon's books
-  /// part twice as often. With 1 `bench/tilts` has 5 late walls of 80 instead of 3.
+  /// part twice as often. With 1 `bench/tilts` has 5 late walls of 80 instead of 2.
   double settling_rate = 2.0;
   /// Bodies of a weld that gain velocity against each other faster than this part [m/s²]: a
   /// two-thousandth of gravity. A see-saw that is 0.7 mm out of balance gains 0.008.

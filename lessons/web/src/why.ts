@@ -66,7 +66,7 @@ function tests(reason: Reason): HTMLElement {
       h('td', {}, test.equation), h('td', {}, relation(test)), h('td', {}, test.verdict)))));
 }
 
-const kWords: Record<string, RegExp> = { 'relative-motion': /relative motion|moved|against/, sliding: /slip/, breathing: /overlap/, load: /bears/, motion: /relative motion/ };
+const kWords: Record<string, RegExp> = { 'relative-motion': /relative motion|moved|against/, sliding: /slip/, breathing: /overlap/, load: /impulse between/, motion: /relative motion/ };
 
 /** Of several reasons the one that the gauge shows, with the number of the others; the table has them all. */
 function shortened(text: string, test: Test | null): string {

@@ -109,7 +109,7 @@ std::map<std::pair<BodyId, BodyId>, double> borneByPairs(const Snapshot& now) {
   return borne;
 }
 
-/// The least that any pair of a wall bears when it merges, as a part of what it bears in the end.
+/// The smallest impulse of a pair of a wall when it merges, as a part of its impulse in the end.
 /// All bricks are put in their places without weight.
 double leastBorneAtMerge(const Overrides& overrides) {
   Simulation run(kGround + R"(
@@ -136,7 +136,7 @@ repeat = { count = [20, 40], spacing = [1.0, 1], stagger = 0.5 }
   return least;
 }
 
-TEST(Merge, APairWaitsUntilWhatItBearsHasSettled) {
+TEST(Merge, APairWaitsUntilItsImpulseHasSettled) {
   EXPECT_GT(leastBorneAtMerge({}), 0.5);
   EXPECT_LT(leastBorneAtMerge(kPaper), 0.1);
 }
