@@ -11,7 +11,14 @@ class IndexSet {
  public:
   explicit IndexSet(std::size_t bound) : words_(bound / kBits + 1, 0) {}
 
-  void add(std::uint32_t index) { words_[index / kBits] |= std::uint64_t{1} << index % kBits; }
+  /// False where it is in the set already.
+  bool add(std::uint32_t index) {
+    const std::uint64_t bit = std::uint64_t{1} << index % kBits;
+    std::uint64_t& word = words_[index / kBits];
+    const bool is_new = (word & bit) == 0;
+    word |= bit;
+    return is_new;
+  }
 
   std::vector<std::uint32_t> ascending() const {
     std::vector<std::uint32_t> indices;

@@ -143,6 +143,9 @@ struct ProofSearch {
   double way = 0.0;        ///< from where it began, if ahead
   std::int16_t steps = 0;  ///< that it has taken so far
   bool ahead = false;      ///< beyond the loads that there were: nothing depends on it
+
+  /// Its sweeps have come to take all rows, as more than a part of them had a residual.
+  bool isInAllRows() const { return nncg.previous > 0.0; }
 };
 
 inline constexpr std::int64_t kNever = -1000;  ///< a step long before the first

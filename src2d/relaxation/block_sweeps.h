@@ -2,6 +2,7 @@
 /// The engine's own block sweeps inside the conjugate gradient (dynamics/nncg.h), over chosen rows
 /// inside one collection, with the velocities in `scratch.trial_u`.
 
+#include <algorithm>
 #include <span>
 
 #include "src2d/dynamics/state.h"
@@ -19,6 +20,12 @@ class BlockSweeps {
   double residual(std::uint32_t block) const {
     const ContactBlock& k = c_.blocks[block];
     return residualOf(k, k.nx, k.ny, u_[k.a], u_[k.b]);
+  }
+
+  double largestResidual(std::span<const std::uint32_t> blocks) const {
+    double most = 0.0;
+    for (const std::uint32_t i : blocks) most = std::max(most, residual(i));
+    return most;
   }
 
   /// At most so many sweeps over `blocks`, ascending, at the members `bodies`; fewer where all of

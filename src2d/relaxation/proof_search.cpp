@@ -82,7 +82,8 @@ void beginSearch(const State& state, Collection& c, const CollectionLoad& load) 
 bool isSuspended(const ProofSearch& search) { return !search.newton.unknowns.empty(); }
 
 bool isDirect(const ProofSearch& search) {
-  return !search.ahead && !isSuspended(search) && search.steps >= kDecided.direct_from &&
+  return search.isInAllRows() && !search.ahead && !isSuspended(search) &&
+         search.steps >= kDecided.direct_from &&
          std::has_single_bit(static_cast<std::uint16_t>(search.steps));
 }
 

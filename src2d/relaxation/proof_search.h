@@ -15,7 +15,8 @@ bool isLookedAt(const State& state, const Collection& collection);
 /// Begins a search for impulses that carry a load.
 void beginSearch(const State& state, Collection& collection, const CollectionLoad& load);
 
-/// Whether Newton's method takes part in this step, as sweeps have not ended the search.
+/// Whether Newton's method takes part in this step, as sweeps over all rows have not ended the
+/// search.
 bool isDirect(const ProofSearch& search);
 
 /// Whether Newton's method has more to do than one step may spend, and goes on in the next.

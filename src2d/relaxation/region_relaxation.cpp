@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "src2d/collections/momentum.h"
-#include "src2d/core/index_set.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/relaxation/block_sweeps.h"
 #include "src2d/relaxation/open_region.h"
+#include "src2d/relaxation/reached_rows.h"
 #include "src2d/relaxation/relaxation.h"
 
 namespace merge2d {
@@ -61,76 +61,29 @@ double toleranceFor(const State& state, const Collection& c,
   return kDecided.tolerance * slowest;
 }
 
-/// A hit is followed as far as it moves anything: after each round only the rows are looked at that
-/// it may have changed.
-class RegionRelaxation {
- public:
-  RegionRelaxation(State& state, Scratch& scratch, OpenRegion& region)
-      : state_(state),
-        scratch_(scratch),
-        region_(region),
-        c_(state.collections[region.slot]),
-        sweeps_of_(scratch, c_, toleranceFor(state, c_, region.members)) {}
-
-  double run() {
-    double residual = choose(region_.members);
-    double left = rowSweeps(state_, blocks_.size());
-    int sweeps = 0;
-    while (residual > sweeps_of_.tolerance && sweeps < kDecided.most_sweeps && left > 0.0) {
-      constexpr int kRound = 10;
-      const int done = sweeps_of_.run(kRound, blocks_, bodies_, scratch_.nncg, false);
-      sweeps += done;
-      left -= done * static_cast<double>(blocks_.size());
-      residual = choose(std::vector(members_));
-    }
-    return residual;
+/// A hit is followed as far as it moves anything.
+double relaxRegion(State& state, Scratch& scratch, OpenRegion& region) {
+  Collection& c = state.collections[region.slot];
+  BlockSweeps sweeps_of(scratch, c, toleranceFor(state, c, region.members));
+  ReachedRows reached(sweeps_of, c, [&](std::uint32_t member) {
+    if (scratch.open[index(c.members[member])] != 0) return;
+    const double own = kDecided.tolerance * slowestCut(state, c, member);
+    sweeps_of.tolerance = std::min(sweeps_of.tolerance, own);
+    addMember(state, scratch, region, member);
+    startRelaxed(state, scratch, c, member, {});
+  });
+  double residual = reached.look(blocksAt(c, region.members));
+  double left = rowSweeps(state, reached.blocks().size());
+  int sweeps = 0;
+  while (residual > sweeps_of.tolerance && sweeps < kDecided.most_sweeps && left > 0.0) {
+    const int done =
+        sweeps_of.run(ReachedRows::kRound, reached.blocks(), reached.bodies(), scratch.nncg, false);
+    sweeps += done;
+    left -= done * static_cast<double>(reached.blocks().size());
+    residual = reached.lookAgain();
   }
-
- private:
-  /// Chooses the rows at members at which some row of `members` has a residual; returns the
-  /// largest [m/s].
-  double choose(const std::vector<std::uint32_t>& members) {
-    double most = 0.0;
-    IndexSet hot(c_.members.size());
-    for (const std::uint32_t i : blocksAt(c_, members)) {
-      const double residual = sweeps_of_.residual(i);
-      most = std::max(most, residual);
-      if (residual > sweeps_of_.tolerance) addEnds(i, hot);
-    }
-    blocks_ = blocksAt(c_, hot.ascending());
-    IndexSet ends(c_.members.size());
-    for (const std::uint32_t i : blocks_) addEnds(i, ends);
-    members_ = ends.ascending();
-    bodies_.clear();
-    for (const std::uint32_t m : members_) {
-      if (scratch_.open[index(c_.members[m])] == 0) admit(m);
-      bodies_.push_back(c_.members[m]);
-    }
-    return most;
-  }
-
-  void addEnds(std::uint32_t block, IndexSet& members) const {
-    const Weld& weld = c_.welds[c_.contacts[c_.block_contact[block]].weld];
-    for (const std::uint32_t m : {weld.node_a, weld.node_b}) {
-      if (m < c_.members.size()) members.add(m);
-    }
-  }
-
-  void admit(std::uint32_t member) {
-    const double own = kDecided.tolerance * slowestCut(state_, c_, member);
-    sweeps_of_.tolerance = std::min(sweeps_of_.tolerance, own);
-    addMember(state_, scratch_, region_, member);
-    startRelaxed(state_, scratch_, c_, member, {});
-  }
-
-  State& state_;
-  Scratch& scratch_;
-  OpenRegion& region_;
-  Collection& c_;
-  BlockSweeps sweeps_of_;
-  std::vector<std::uint32_t> blocks_, members_;  ///< that are swept
-  std::vector<BodyId> bodies_;                   ///< the same members
-};
+  return residual;
+}
 
 /// A load that lasts may move any member.
 void addAll(State& state, Scratch& scratch, OpenRegion& region) {
@@ -140,17 +93,14 @@ void addAll(State& state, Scratch& scratch, OpenRegion& region) {
   }
 }
 
-double residualInside(Scratch& scratch, Collection& c) {
-  const BlockSweeps sweeps(scratch, c, 0.0);
-  double most = 0.0;
-  for (std::uint32_t i = 0; i < c.blocks.size(); ++i) most = std::max(most, sweeps.residual(i));
-  return most;
-}
-
 double relaxWhole(State& state, Scratch& scratch, OpenRegion& region) {
   Collection& c = state.collections[region.slot];
   const double tolerance = toleranceFor(state, c, region.members);
-  const double residual = residualInside(scratch, c);
+  const BlockSweeps sweeps(scratch, c, tolerance);
+  double residual = 0.0;
+  for (std::uint32_t i = 0; i < c.blocks.size(); ++i) {
+    residual = std::max(residual, sweeps.residual(i));
+  }
   if (residual <= tolerance) return residual;
   ProofSearch& search = c.certificate.front().search;
   ProofSearch waiting;
@@ -176,7 +126,7 @@ void relaxOpen(State& state, Scratch& scratch, OpenRegion& region) {
     const Vec2 v = back * Vec2(Vec2(u.vx, u.vy) - one.at(armOf(state, c, c.members[m])));
     startRelaxed(state, scratch, c, m, {v.x(), v.y(), u.omega - one.omega});
   }
-  c.residual = static_cast<float>(local ? RegionRelaxation(state, scratch, region).run()
+  c.residual = static_cast<float>(local ? relaxRegion(state, scratch, region)
                                         : relaxWhole(state, scratch, region));
   for (const std::uint32_t m : region.members) {
     const BodyId b = c.members[m];
