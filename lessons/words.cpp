@@ -172,9 +172,8 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
     return cycle(d, d.group < 0 ? "its own" : name(BodyId{static_cast<std::uint32_t>(d.group)}));
   }
   if (c == "patience") {
-    return fmt::format(
-        "their last weld broke too early, turned slowly, or was hit for long: {} to wait",
-        counted(static_cast<std::size_t>(d.value), "step", "steps"));
+    return fmt::format("their last weld turned slowly, or was hit for long: {} to wait",
+                       counted(static_cast<std::size_t>(d.value), "step", "steps"));
   }
   if (c == "frames") return "they are on two frames, which may move against each other";
   if (c == "freedoms") {

@@ -24,7 +24,7 @@ struct CollectionMethod {
   Parts (*parts)(const State& state, Scratch& scratch, const Collection& collection);
   /// How many steps a contact waits that leaves its collection, before its pair may merge again.
   /// `cut` is its weld when a test of this step cut it, else null.
-  int (*waitAfterSplit)(const State& state, const InternalContact& contact, const Weld* cut);
+  int (*waitAfterSplit)(const State& state, const Weld* cut);
 };
 
 /// That of the rule in force. Defined above this room, in merging/rule_selection.cpp: a pointer in

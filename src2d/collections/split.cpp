@@ -203,8 +203,8 @@ class Split {
         continue;
       }
       const Weld* cut = cutByTest(c, inner);
-      released_.push_back({inner, collectionMethod(state_).waitAfterSplit(state_, inner, cut),
-                           cut ? cut->motion : 0.0F});
+      released_.push_back(
+          {inner, collectionMethod(state_).waitAfterSplit(state_, cut), cut ? cut->motion : 0.0F});
     }
     c.contacts.resize(staying);
     releaseFromProofs(state_, c);

@@ -55,17 +55,11 @@ void keepAllPoints(InternalContact&) {}
 
 Parts uncutParts(const State&, Scratch&, const Collection& c) { return componentsOf(c); }
 
-/// Deviation: a weld that broke soon after it had formed waits for the rest of this time before its
-/// contacts are looked at again, or the pair would merge and part in turn while it barely moves.
-/// Guarded by Unmerge.AWeldThatBrokeAtOnceDoesNotFormAtOnce. And one that moved slowly waits for
-/// as long as it would still seem at rest. Guarded by
-/// Seesaw.BarelyOutOfBalanceTipsAsInTheReference.
-int waitUntilSeen(const State& state, const InternalContact& contact, const Weld* cut) {
-  const auto age = state.step - contact.since;
-  const auto rest = std::max(std::int64_t{0}, kDecided.flicker_steps - age);
-  if (!cut || cut->motion <= 0.0F) return static_cast<int>(rest);
-  const double seen = stepsUntilSeen(state, static_cast<double>(cut->motion));
-  return std::max(static_cast<int>(rest), static_cast<int>(seen));
+/// Deviation: a pair that parted slowly waits for as long as it would still seem at rest. Guarded
+/// by Seesaw.BarelyOutOfBalanceTipsAsInTheReference.
+int waitUntilSeen(const State& state, const Weld* cut) {
+  if (!cut || cut->motion <= 0.0F) return 0;
+  return static_cast<int>(stepsUntilSeen(state, static_cast<double>(cut->motion)));
 }
 
 }  // namespace

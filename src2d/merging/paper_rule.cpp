@@ -44,7 +44,7 @@ void discardInactive(InternalContact& contact) {
   contact.count = 1;
 }
 
-int waitsNever(const State&, const InternalContact&, const Weld*) { return 0; }
+int waitsNever(const State&, const Weld*) { return 0; }
 
 Parts components(const State& state, Scratch&, const Collection& c) {
   return connectedParts(state, c);

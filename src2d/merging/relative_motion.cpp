@@ -12,7 +12,7 @@
 namespace merge2d {
 namespace {
 
-/// A pair that parted soon after it had merged may not be looked at yet.
+/// A pair that parted slowly may not be looked at yet.
 void notePatience(Notes* notes, const BodyPair& pair, int count) {
   if (!notes) return;
   notes->decisions.push_back({.a = pair.a,
@@ -26,13 +26,14 @@ void notePatience(Notes* notes, const BodyPair& pair, int count) {
 }
 
 /// A pair that waits, as it parted slowly, and does not move half as fast as it would by now with
-/// the gain of that step: a load that swings, or was near the edge of what its contacts carry, has
-/// gone back. Guarded by Merge.APairThatPartedSlowlyAndStoppedWaitsNoLonger.
+/// the gain of that step, after a tenth of the longest wait: a load that swings, or was
+/// near the edge of what its contacts carry, has gone back. Guarded by
+/// Merge.APairThatPartedSlowlyAndStoppedWaitsNoLonger.
 bool hasStopped(const State& state, const BodyPair& pair, const Contact& contact) {
   if (contact.parting <= 0.0F || contact.quiet_steps >= -1) return false;
   const auto gain = static_cast<double>(contact.parting);
   const double steps = stepsUntilSeen(state, gain) + contact.quiet_steps;
-  return steps >= kDecided.flicker_steps &&
+  return steps >= kDecided.tolerance * kDecided.past_steps &&
          relativeMotion(state, pair, nullptr) < 0.5 * steps * gain;
 }
 

@@ -59,9 +59,6 @@ struct DecidedSettings {
   /// would still seem at rest, at most so many steps, unless it is found to gain less by then. And
   /// a search: the memory of its rows is given back, though not at once, as loads come again.
   int past_steps = 200;
-  /// A pair whose weld broke sooner after it had formed waits for the rest of these steps before it
-  /// may merge again, or it would merge and part in turn while it barely moves.
-  int flicker_steps = 20;
 };
 inline constexpr DecidedSettings kDecided;
 

@@ -61,7 +61,7 @@ TEST(Explain, SaysThatAPairIsStillCounting) {
   EXPECT_THAT(text, HasSubstr("they passed every test, but only for 1 of 3 steps."));
 }
 
-TEST(Explain, SaysForHowLongAPairWaitsWhoseWeldBrokeEarly) {
+TEST(Explain, SaysForHowLongAPairWaitsThatPartedSlowly) {
   const Decision patience{.a = BodyId{0},
                           .b = BodyId{1},
                           .stage = "AccumulateRelativeMotion",
@@ -76,8 +76,7 @@ TEST(Explain, SaysForHowLongAPairWaitsWhoseWeldBrokeEarly) {
   const World world(column(1));
   const std::vector<Explanation> all = explainStep(Words(world.bodies()), after);
   EXPECT_EQ(textOf(all, Outcome::Waiting),
-            "ground and body1 wait at step 20: their last weld broke too early, turned slowly, or "
-            "was hit for long: "
+            "ground and body1 wait at step 20: their last weld turned slowly, or was hit for long: "
             "7 steps to wait.");
   EXPECT_EQ(conditionOf(all.at(0)).steps, 7);
 }

@@ -100,7 +100,7 @@ TEST_F(WordsTest, TellsHowLongHitsHaveGoneOn) {
 
 TEST_F(WordsTest, TellsHowLongAPairThatPartedMustWait) {
   EXPECT_EQ(said({.stage = "AccumulateRelativeMotion", .criterion = "patience", .value = 7.0}),
-            "their last weld broke too early, turned slowly, or was hit for long: 7 steps to wait");
+            "their last weld turned slowly, or was hit for long: 7 steps to wait");
 }
 
 TEST_F(WordsTest, TellsWhyAReadyPairIsNotTaken) {
