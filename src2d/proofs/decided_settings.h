@@ -39,8 +39,8 @@ struct DecidedSettings {
   /// three times as long on average.
   double when_open = 4.0;
   /// After so many steps of a search, a power of two, and after each twice as many, the direct
-  /// solver takes part, with the load of that step. With 64 a wall of 1,000 bricks on a swinging
-  /// platform costs more than its reference; with 8 `bench/tilts` falls a little later.
+  /// solver takes part, with the load of that step, where all rows are swept. With 64 a wall of
+  /// 1,000 bricks on a swinging platform costs more than its reference; with 16 a wall slips late.
   int direct_from = 8;
   /// A carried load is followed by one this part further from the mean of the witnesses [1]: a wall
   /// on a swinging platform then needs one search, not one per new extreme.

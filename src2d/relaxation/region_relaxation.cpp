@@ -96,11 +96,7 @@ void addAll(State& state, Scratch& scratch, OpenRegion& region) {
 double relaxWhole(State& state, Scratch& scratch, OpenRegion& region) {
   Collection& c = state.collections[region.slot];
   const double tolerance = toleranceFor(state, c, region.members);
-  const BlockSweeps sweeps(scratch, c, tolerance);
-  double residual = 0.0;
-  for (std::uint32_t i = 0; i < c.blocks.size(); ++i) {
-    residual = std::max(residual, sweeps.residual(i));
-  }
+  const double residual = BlockSweeps(scratch, c, tolerance).largestResidual();
   if (residual <= tolerance) return residual;
   ProofSearch& search = c.certificate.front().search;
   ProofSearch waiting;

@@ -40,7 +40,7 @@ class Relaxation {
       whole_ |= quiet || 2 * reached_.blocks().size() >= c_.blocks.size();
       if (whole_) {
         sweepAll(quiet ? BlockSweeps::kLookEvery : affordable(c_.blocks.size()));
-        residual = sweeps_of_.largestResidual(all_);
+        residual = sweeps_of_.largestResidual();
       } else {
         sweep(ReachedRows::kRound, reached_.blocks(), reached_.bodies());
         residual = reached_.lookAgain();
