@@ -102,12 +102,10 @@ TEST(Merge, WaitsWhileTheContactBreathes) {
   EXPECT_GE(normal, loose);
 }
 
-/// Per pair of bodies one above the other, the impulse along the normals of their contacts [N s].
+/// Per pair of bodies, the impulse along the normals of their contacts [N s].
 std::map<std::pair<BodyId, BodyId>, double> borneByPairs(const Snapshot& now) {
   std::map<std::pair<BodyId, BodyId>, double> borne;
-  for (const ContactView& c : now.contacts) {
-    if (std::abs(c.normal.y()) > 0.9) borne[{c.a, c.b}] += c.lambda_n;
-  }
+  for (const ContactView& c : now.contacts) borne[{c.a, c.b}] += c.lambda_n;
   return borne;
 }
 

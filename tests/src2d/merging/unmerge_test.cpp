@@ -210,6 +210,34 @@ TEST(Unmerge, AProjectileMovesAsManyBodiesAsInTheReference) {
 
 // ---- no flicker ----
 
+TEST(Unmerge, AWeldThatBrokeAtOnceDoesNotFormAtOnce) {
+  // A box is knocked as soon as it has merged, and comes to rest again within a few steps.
+  const auto stepsApart = [](const Overrides& overrides) {
+    Simulation run(kGround + R"(
+[[body]]
+name = "box"
+at = [0, 0.5]
+box = [1, 1]
+)",
+                   Mode::Merge, overrides);
+    std::int64_t parted = 0, again = 0;
+    bool kicked = false;
+    run.steps(100, [&] {
+      const bool merged = run.merged("box");
+      const std::int64_t step = run.world().steps();
+      if (merged && !kicked) run.kick("box", {0.1, 0.0}, {0.0, -0.4});
+      if (!merged && kicked && parted == 0) parted = step;
+      if (merged && parted > 0 && again == 0) again = step;
+      kicked |= merged;
+    });
+    EXPECT_GT(parted, 0);
+    EXPECT_GT(again, parted);
+    return again - parted;
+  };
+  EXPECT_GE(stepsApart({}), 20);
+  EXPECT_LT(stepsApart(kPaper), 15);
+}
+
 int wallEvents(const Scene& scene) {
   Simulation run(scene, Mode::Merge);
   run.until(5.0);
