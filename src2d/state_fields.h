@@ -76,13 +76,13 @@ void fields(Ar& ar, Some<ContactPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Contact> auto& c) {
-  auto& [key, normal, count, quiet_steps, parting, borne, apart, points] = c;
-  ar(key, normal, count, quiet_steps, parting, borne, apart, points);
+  auto& [key, normal, count, quiet_steps, parting, borne, points] = c;
+  ar(key, normal, count, quiet_steps, parting, borne, points);
 }
 template <class Ar>
 void fields(Ar& ar, Some<IdlePair> auto& p) {
-  auto& [key, apart] = p;
-  ar(key, apart);
+  auto& [key, apart] = p;  // found anew: what it is depends on when a contact became idle
+  ar(key);
 }
 template <class Ar>
 void fields(Ar& ar, Some<ContactTable> auto& t) {

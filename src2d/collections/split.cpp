@@ -115,7 +115,7 @@ void releaseContacts(State& state, const std::vector<Released>& released) {
   std::vector<Contact> contacts;
   for (const auto& [inner, patience, parting] : released) {
     Contact& contact = contacts.emplace_back(inner.released());
-    contact.quiet_steps = -patience;
+    contact.quiet_steps = static_cast<std::int16_t>(-patience);
     contact.parting = parting;
     updateManifold(state, contact, farthestPoint(inner));
   }

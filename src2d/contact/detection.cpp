@@ -108,14 +108,8 @@ double followContact(const State& state, const Approaches& approaches, Contact& 
   const Rigid &a = state.rigid(key.a), &b = state.rigid(key.b);
   const bool fixed = resting(a) && resting(b);
   if (fixed) holdBreath(contact);
-  if (fixed || (contact.count == 0 && sameFrame(a, b))) {
-    contact.apart = 0.0F;  // earlier motion does not count from here on
-  } else if (contact.count == 0 && staysApart(state, approaches, key, contact.apart)) {
-    loseTouch(contact);
-  } else {
-    return findManifold(state, approaches, contact);
-  }
-  return kDone;
+  if (fixed || (contact.count == 0 && sameFrame(a, b))) return kDone;
+  return findManifold(state, approaches, contact);
 }
 
 /// Follows the contacts that there are. Casts share a list, and are few.
@@ -145,10 +139,9 @@ Contact lookAt(const State& state, const Approaches& approaches, IdlePair& pair)
   contact.key = pair.key;
   const Rigid &a = state.rigid(pair.key.a), &b = state.rigid(pair.key.b);
   if ((resting(a) && resting(b)) || sameFrame(a, b)) {
-    pair.apart = 0.0F;  // as above
+    pair.apart = 0.0F;  // earlier motion does not count from here on
   } else if (!staysApart(state, approaches, pair.key, pair.apart)) {
     findManifold(state, approaches, contact);
-    pair.apart = contact.apart;
   }
   return contact;
 }
@@ -157,7 +150,6 @@ Contact lookAt(const State& state, const Approaches& approaches, IdlePair& pair)
 void castIdle(const State& state, Scratch& scratch, const Approaches& approaches, IdlePair& pair,
               Contact& contact, std::vector<SoftHit>& soft) {
   castContact(state, scratch, contact, approaches.between(pair.key.a, pair.key.b), soft);
-  pair.apart = contact.apart;
   if (contact.count > 0) scratch.touching.push_back(contact);
 }
 
@@ -202,8 +194,7 @@ bool isHeldAtOneEnd(const State& state, const ContactKey& key, const Manifold& m
 void updateManifold(const State& state, Contact& contact, double ahead) {
   const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
   const double margin = reach(state, ahead);
-  contact.apart = static_cast<float>(boxDistance(state, contact.key, b_in_a));
-  if (contact.apart > margin) return loseTouch(contact);
+  if (boxDistance(state, contact.key, b_in_a) > margin) return loseTouch(contact);
   const Collider& a = state.collider(contact.key.shape_a);
   const Collider& b = state.collider(contact.key.shape_b);
   Manifold manifold = collide(a, b, b_in_a, margin);

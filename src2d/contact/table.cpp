@@ -97,7 +97,7 @@ void retireContacts(ContactTable& table, Upkeep when) {
   reserveTightly(table.idle, known + static_cast<std::size_t>(count));
   dropContacts(table, [&](const Contact& contact) {
     if (!retires(contact)) return false;
-    table.idle.push_back({contact.key, contact.apart});
+    table.idle.push_back({contact.key});
     return true;
   });
   mergeTail(table.idle, known, &IdlePair::key);

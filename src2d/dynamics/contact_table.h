@@ -45,12 +45,12 @@ struct Contact {
   ContactKey key;
   Vec2 normal = Vec2::UnitX();  ///< from a to b, in a's frame; inside a collection in its frame
   std::int16_t count = 0;
-  /// Consecutive steps in which the pair could have merged; below 0 it may not yet.
-  int quiet_steps = 0;
+  /// Consecutive steps in which the pair could have merged (setting merging.steps); below 0 it may
+  /// not yet.
+  std::int16_t quiet_steps = 0;
   /// Where it waits: the velocity that its bodies gained in the step in which they parted [m/s].
   float parting = 0.0F;
   std::array<float, 2> borne{};  ///< its impulse in the last step, along normal and tangent [N s]
-  float apart = 0.0F;  ///< without points: the shapes are at least this far from each other [m]
   /// Of a single point, the second's lambda_t holds the impulse against rolling (contact_block.h).
   std::array<ContactPoint, 2> points;
 };
@@ -58,7 +58,7 @@ struct Contact {
 /// Two shapes near each other that do not touch: all that is kept of most pairs of a heap.
 struct IdlePair {
   ContactKey key;
-  float apart = 0.0F;  ///< as in Contact
+  float apart = 0.0F;  ///< they are at least this far from each other [m]
 };
 
 /// A point of a contact in the table: twice its slot, plus which of the two it is.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -150,30 +151,27 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRe
   return any;
 }
 
-/// For how long it has been hit without a break: it stays open for some steps after the last hit
-/// [s].
-double hitTime(const State& state, const Collection& c) {
-  return static_cast<double>(c.hits.last - c.hits.first + 2 - hitSteps(state)) * state.h;
+/// For how many steps it has been hit without a break: it stays open for some after the last hit.
+std::int64_t stepsOfHits(const State& state, const Collection& c) {
+  return c.hits.last - c.hits.first + 2 - hitSteps(state);
 }
 
-/// A collection that steps back (DecidedSettings::hit_time); one of which a hit opens but a part
+/// A collection that steps back (DecidedSettings::lasting); one of which a hit opens but a part
 /// stays.
 bool isHitForLong(const State& state, const Collection& c) {
-  constexpr double kRounding = 1.0 - 1e-9;
-  return c.hits.last == state.step && hitTime(state, c) >= kRounding * kDecided.hit_time &&
-         !opensInPart(state, c);
+  return c.hits.last == state.step && lasts(state, stepsOfHits(state, c)) && !opensInPart(state, c);
 }
 
 /// Cuts all welds but those that joints alone hold rigid: the bodies are simulated one by one, and
 /// a pair of them waits as one does that parted slowly. Guarded by
 /// StepBack.BodiesThatAreHitForLongAreSimulatedOneByOne.
 void stepBack(const State& state, Scratch& scratch, Collection& c) {
-  const double time = hitTime(state, c);
+  const double time = static_cast<double>(stepsOfHits(state, c)) * state.h;
   constexpr int kRigid = 2;
   for (Weld& weld : c.welds) {
     if (weld.expected || weld.joints >= kRigid) continue;
     if (scratch.notes) {
-      scratch.notes->decisions.push_back(decide(weld, "hits", time, kDecided.hit_time, true));
+      scratch.notes->decisions.push_back(decide(weld, "hits", time, kDecided.lasting, true));
     }
     if (!weld.cut) weld.reason = reasonOf(c, weld);
     weld.cut = true;

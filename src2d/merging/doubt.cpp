@@ -70,7 +70,7 @@ Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
   c.settled = false;
   if (!isLookedAt(state, c)) return Doubt::None;
   const bool searches = !proof.search.start.empty();
-  if (searches && !proof.search.ahead && !isDirect(proof.search)) return Doubt::Search;
+  if (searches && !proof.search.ahead && !isDirect(state, proof.search)) return Doubt::Search;
   const CollectionLoad load = loadOn(state, scratch, c);
   if (searches && !proof.search.ahead) {
     renewLoad(state, c, load);

@@ -1,6 +1,8 @@
 #include "src2d/merging/relative_motion.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 #include "src2d/core/memory.h"
 #include "src2d/merging/pair_metric.h"
@@ -37,6 +39,8 @@ bool hasStopped(const State& state, const BodyPair& pair, const Contact& contact
          relativeMotion(state, pair, nullptr) < 0.5 * steps * gain;
 }
 
+constexpr int kMostSteps = std::numeric_limits<std::int16_t>::max();  ///< that are counted
+
 void countQuietPairs(State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
@@ -49,11 +53,12 @@ void countQuietPairs(State& state, Scratch& scratch) {
     PairTest test(state, pair, scratch.notes);
     const bool ready = test.ready();
     // The last step of a wait counts: at 0 a pair would seem not to wait for anything, and sleep.
-    const int now = ready ? (count == -1 ? 1 : count + 1) : std::min(0, count + 1);
+    const int now =
+        ready ? std::min(kMostSteps, count == -1 ? 1 : count + 1) : std::min(0, count + 1);
     test.noteCount(count, now);
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
       Contact& contact = state.contacts[state.contacts.order[i]];
-      contact.quiet_steps = now;
+      contact.quiet_steps = static_cast<std::int16_t>(now);
       const Vec2 impulse = impulseOf(contact);
       contact.borne = {static_cast<float>(impulse.x()), static_cast<float>(impulse.y())};
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "src2d/dynamics/state.h"
 
@@ -38,20 +39,19 @@ struct DecidedSettings {
   /// Times as many where a search has found motion: without, a wall of 5,000 that swings takes
   /// three times as long on average.
   double when_open = 4.0;
-  /// After so many steps of a search, a power of two, and after each twice as many, the direct
-  /// solver takes part, with the load of that step, where all rows are swept. With 64 a wall of
-  /// 1,000 bricks on a swinging platform costs more than its reference; with 16 a wall slips late.
-  int direct_from = 8;
+  /// What goes on for so long lasts [s]. A search: from then on the direct solver takes part, with
+  /// the load of the step, in steps of the search that are powers of two, where all rows are swept.
+  /// After 0.64 s a wall of 1,000 bricks on a swinging platform costs more than its reference;
+  /// after 0.16 s a wall slips late. And hits without a break: the collection steps back, as its
+  /// bodies cost less one by one. A tower of 20,000 that buckles takes two thirds of the time, and
+  /// a struck one loses as many bricks as the reference; with 0.2 s 3% fewer.
+  double lasting = 0.08;
   /// A carried load is followed by one this part further from the mean of the witnesses [1]: a wall
   /// on a swinging platform then needs one search, not one per new extreme.
   double overshoot = 0.5;
   /// A load is covered where the witnesses leave this part of the frame's motion over, and of the
   /// forces from outside. These weigh less, as they act on one member each [1].
   double left_over = 0.9e-3, outer_weight = 0.05;
-  /// A collection that is hit for so long without a break [s] steps back: its bodies cost less one
-  /// by one. A tower of 20,000 that buckles takes two thirds of the time, and a struck one loses as
-  /// many bricks as the reference; with 0.2 s 3% fewer.
-  double hit_time = 0.08;
   /// Steps after which something is past. A hit: until then a collection is looked at once in as
   /// many steps as a pair must be quiet for before it merges, as a heap into which bodies fall
   /// changes before a search could end; the filling funnel and the collapsing tower-platform take
@@ -97,6 +97,12 @@ inline double cutSpeed(const State& state, const Collection& c, const Weld& weld
   const double friction = frictionOf(state, weld.a, weld.b);
   const double slip = std::sqrt(2.0 * friction * state.gravity.norm() * kDecided.slip_in_hit);
   return std::max(slip, cutSpeed(state));
+}
+
+/// Whether what goes on for so many steps lasts.
+inline bool lasts(const State& state, std::int64_t steps) {
+  constexpr double kRounding = 1.0 - 1e-9;
+  return static_cast<double>(steps) * state.h >= kRounding * kDecided.lasting;
 }
 
 /// Steps after which a pair no longer seems at rest that parts with this gain per step [m/s].

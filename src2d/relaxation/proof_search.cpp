@@ -81,9 +81,9 @@ void beginSearch(const State& state, Collection& c, const CollectionLoad& load) 
 
 bool isSuspended(const ProofSearch& search) { return !search.newton.unknowns.empty(); }
 
-bool isDirect(const ProofSearch& search) {
+bool isDirect(const State& state, const ProofSearch& search) {
   return search.isInAllRows() && !search.ahead && !isSuspended(search) &&
-         search.steps >= kDecided.direct_from &&
+         lasts(state, search.steps) &&
          std::has_single_bit(static_cast<std::uint16_t>(search.steps));
 }
 
@@ -107,7 +107,7 @@ void beginSearchAhead(const State& state, Collection& c, Witness&& load, double 
 void continueSearch(const State& state, Scratch& scratch, Collection& c, double tolerance) {
   ProofSearch& search = c.certificate.front().search;
   if (search.ahead) swapImpulses(c, search.load);
-  const bool begins = isDirect(search) && c.residual > toleratedResidual(state);
+  const bool begins = isDirect(state, search) && c.residual > toleratedResidual(state);
   if ((begins || isSuspended(search)) && !solveDirectly(state, scratch, c)) return;
   startMembers(state, scratch, c, true);
   c.residual = static_cast<float>(relax(state, scratch, c, tolerance));

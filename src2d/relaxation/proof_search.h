@@ -17,7 +17,7 @@ void beginSearch(const State& state, Collection& collection, const CollectionLoa
 
 /// Whether Newton's method takes part in this step, as sweeps over all rows have not ended the
 /// search.
-bool isDirect(const ProofSearch& search);
+bool isDirect(const State& state, const ProofSearch& search);
 
 /// Whether Newton's method has more to do than one step may spend, and goes on in the next.
 bool isSuspended(const ProofSearch& search);

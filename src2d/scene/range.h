@@ -19,6 +19,7 @@ inline constexpr Range kPositive{1e-12, SceneLimits::kNumber, "positive (1e-12 t
 inline constexpr Range kNotNegative{0, SceneLimits::kNumber, "0 or more"};
 inline constexpr Range kFraction{0, 1, "between 0 and 1"};
 inline constexpr Range kAtLeastOne{1, 1e6, "between 1 and 1000000"};
+inline constexpr Range kCountedSteps{1, 3e4, "between 1 and 30000"};
 inline constexpr Range kSeed{0, 9.2e18, "between 0 and 9.2e18"};
 inline constexpr Range kStep{1e-6, 1.0, "between 1e-6 and 1 s"};
 inline constexpr Range kDuration{1e-6, 1e6, "between 1e-6 and 1e6 s"};

@@ -26,7 +26,7 @@ void forEachSetting(S& settings, F&& f) {
   f("merging", "velocity", merging.velocity, kNotNegative);
   f("merging", "breathing", merging.breathing, kNotNegative);
   f("merging", "sliding", merging.sliding, kNotNegative);
-  f("merging", "steps", merging.steps, kAtLeastOne);
+  f("merging", "steps", merging.steps, kCountedSteps);
   f("merging", "cycles", merging.cycles, kAnyNumber);
   f("merging", "metric", merging.metric, kAnyNumber);
 
@@ -34,7 +34,7 @@ void forEachSetting(S& settings, F&& f) {
   f("unmerging", "rule", unmerging.rule, kAnyNumber);
   f("unmerging", "velocity", unmerging.velocity, kNotNegative);
   f("unmerging", "sliding", unmerging.sliding, kNotNegative);
-  f("unmerging", "steps", unmerging.steps, kAtLeastOne);
+  f("unmerging", "steps", unmerging.steps, kCountedSteps);
   f("unmerging", "sweeps", unmerging.sweeps, kAtLeastOne);
   f("unmerging", "ordering", unmerging.ordering, kAnyNumber);
 

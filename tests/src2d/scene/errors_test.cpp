@@ -140,6 +140,8 @@ TEST(Errors, NumbersMustBeWithinTheirLimits) {
        "2:14: 'iterations' in [solver] must be between 1 and 1000000, but is 0"},
       {"[solver]\niterations = 1000000000",
        "2:14: 'iterations' in [solver] must be between 1 and 1000000, but is 1000000000"},
+      {"[merging]\nsteps = 30001",
+       "2:9: 'steps' in [merging] must be between 1 and 30000, but is 30001"},
       {"seed = 9223372036854775807",
        "1:8: 'seed' in the scene must be between 0 and 9.2e18, but is 9223372036854775807"},
       {"[material]\nfriction = -1", "2:12: 'friction' in [material] must be 0 or more, but is -1"},
