@@ -81,7 +81,7 @@ void fields(Ar& ar, Some<Contact> auto& c) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<IdlePair> auto& p) {
-  auto& [key, apart] = p;  // found anew: what it is depends on when a contact became idle
+  auto& [key, apart] = p;  // found anew: it depends on when a contact became idle
   ar(key);
 }
 template <class Ar>

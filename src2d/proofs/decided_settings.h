@@ -43,8 +43,8 @@ struct DecidedSettings {
   /// the load of the step, in steps of the search that are powers of two, where all rows are swept.
   /// After 0.64 s a wall of 1,000 bricks on a swinging platform costs more than its reference;
   /// after 0.16 s a wall slips late. And hits without a break: the collection steps back, as its
-  /// bodies cost less one by one. A tower of 20,000 that buckles takes two thirds of the time, and
-  /// a struck one loses as many bricks as the reference; with 0.2 s 3% fewer.
+  /// bodies cost less one by one. A tower of 20,000 that is struck loses as many bricks as the
+  /// reference; with 0.2 s 3% fewer.
   double lasting = 0.08;
   /// A carried load is followed by one this part further from the mean of the witnesses [1]: a wall
   /// on a swinging platform then needs one search, not one per new extreme.
