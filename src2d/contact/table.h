@@ -19,7 +19,8 @@ enum class Upkeep : std::uint8_t { WhenMany, Now };
 /// Makes contacts without points idle. Those that have more to remember stay.
 void retireContacts(ContactTable& table, Upkeep when = Upkeep::WhenMany);
 
-/// Gives back the memory of dropped contacts; slots move.
+/// Gives back the memory of dropped contacts, and puts the others in the order of their keys; slots
+/// move.
 void compactContacts(ContactTable& table, Upkeep when = Upkeep::WhenMany);
 
 /// The slot of a contact in `order`, or nullptr.

@@ -87,6 +87,38 @@ TEST(ContactTable, CompactingKeepsEachContactUnderItsKey) {
   }
 }
 
+/// Contacts that came into the slots of others lie anywhere: a walk by key would jump.
+TEST(ContactTable, CompactingPutsScatteredContactsInTheOrderOfTheirKeys) {
+  ContactTable table;
+  std::vector<Contact> even, odd;
+  for (unsigned i = 0; i < 100; ++i) {
+    even.push_back(touching(2 * i));
+    odd.push_back(touching(2 * i + 1));
+  }
+  addContacts(table, even);
+  dropContacts(table, [](const Contact& c) { return c.key.shape_b < 100; });
+  addContacts(table, odd);
+  ASSERT_FALSE(std::ranges::is_sorted(table.order));
+  compactContacts(table);
+  EXPECT_TRUE(std::ranges::is_sorted(table.order));
+  EXPECT_EQ(table.order.size(), 150u);
+  for (const unsigned shape : contactsOf(table)) {
+    EXPECT_EQ(table[*findContact(table, keyOf(shape))].points[0].lambda_n, shape);
+  }
+}
+
+/// The bytes of a state tell the order of slots: it must not change without need.
+TEST(ContactTable, CompactingLeavesFewScatteredContactsWhereTheyAre) {
+  ContactTable table;
+  std::vector<Contact> even;
+  for (unsigned i = 0; i < 100; ++i) even.push_back(touching(2 * i));
+  addContacts(table, even);
+  addContacts(table, {touching(7), touching(21)});
+  const auto before = table.order;
+  compactContacts(table);
+  EXPECT_EQ(table.order, before);
+}
+
 /// What the table must know, kept as two sets.
 struct Model {
   std::set<unsigned> contacts, idle;
