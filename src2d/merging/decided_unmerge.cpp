@@ -328,7 +328,6 @@ bool endSearch(State& state, Scratch& scratch, Collection& c) {
 
 void unmergeMovers(State& state, Scratch& scratch) {
   if (scratch.regions.empty()) return;
-  listOuterLoads(state, scratch);
   bool stay = true, jointed = false;
   for (const OpenRegion& region : scratch.regions) {
     jointed |= hasJointsOutside(state, state.collections[region.slot]);
