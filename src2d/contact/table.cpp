@@ -50,13 +50,13 @@ It seek(It at, It end, const ContactKey& key, KeyOf&& keyOf) {
   return std::ranges::lower_bound(at, at + std::min(stride + 1, end - at), key, {}, keyOf);
 }
 
-/// Behind the last of an ascending list whose key is not greater: quick where that is near its end.
+/// The first of an ascending list whose key is not less: quick where it is near the end.
 template <class It, class KeyOf>
 It seekBack(It begin, It end, const ContactKey& key, KeyOf&& keyOf) {
   It at = end;
   std::ptrdiff_t stride = 1;
   for (; at - begin > stride && key < std::invoke(keyOf, at[-stride]); stride *= 2) at -= stride;
-  return std::ranges::upper_bound(at - std::min(stride, at - begin), at, key, {}, keyOf);
+  return std::ranges::lower_bound(at - std::min(stride, at - begin), at, key, {}, keyOf);
 }
 
 /// Puts what stands behind `middle` in its place, by key. Few among many are compared with few.
