@@ -59,7 +59,8 @@ It seekBack(It begin, It end, const ContactKey& key, KeyOf&& keyOf) {
   return std::ranges::lower_bound(at - std::min(stride, at - begin), at, key, {}, keyOf);
 }
 
-/// Puts what stands behind `middle` in its place, by key. Few among many are compared with few.
+/// Merges the elements behind `middle` into the ascending ones before it, by key. Few of them are
+/// compared with few.
 template <class T, class KeyOf>
 void mergeTail(std::vector<T>& list, std::size_t middle, KeyOf&& keyOf) {
   const auto begin = list.begin();
