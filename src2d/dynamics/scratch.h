@@ -193,7 +193,8 @@ struct OpenRegion {
   /// Per member, where some are outside: the velocity that the impulses inside leave of its load,
   /// too slow for a hit to see.
   std::vector<Twist> imbalance;
-  int rings = 2;  ///< of neighbours that are added next
+  int rings = 2;        ///< of neighbours that are added next
+  bool passes = false;  ///< what hits it may be passed on to the frame (load_path.h)
 };
 
 /// The change of all impulses in the last sweep, squared, beside the impulses themselves [N² s²].
@@ -257,7 +258,6 @@ struct Scratch {
 
   // WarmStart
   std::vector<OuterLoad> outer_loads;     ///< ascending by slot, then by member
-  std::vector<OuterLoad> known_loads;     ///< those before the solve
   std::vector<std::uint32_t> load_place;  ///< per body: one more than its place there, or 0
   std::vector<Doubt> doubts;              ///< per collection slot, where welds are decided
 

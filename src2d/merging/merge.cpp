@@ -152,7 +152,6 @@ bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
   release(scratch.open_rows);
   release(scratch.open);
   release(scratch.outer_loads);
-  release(scratch.known_loads);
   release(scratch.trial_u);
   scratch.newton.clear();
   return true;

@@ -140,19 +140,6 @@ Twist gainOf(const State& state, const Collection& c, const CollectionLoad& load
   return {v.x(), v.y(), outer.moment / body.inertia * load.size};
 }
 
-double speedOfNewLoad(const State& state, const Scratch& scratch, const OuterLoad& outer) {
-  const auto place = [](const OuterLoad& l) { return packed(l.slot, l.member); };
-  const auto known = std::ranges::lower_bound(scratch.known_loads, place(outer), {}, place);
-  OuterLoad change = outer;
-  if (known != scratch.known_loads.end() && place(*known) == place(outer)) {
-    change.impulse -= known->impulse;
-    change.moment -= known->moment;
-  }
-  const BodyId b = state.collections[outer.slot].members[outer.member];
-  const double reach = state.extent(rigidOf(b)).box.half.norm();
-  return change.impulse.norm() / state[b].mass + reach * std::abs(change.moment) / state[b].inertia;
-}
-
 CollectionLoad loadOn(const State& state, const Scratch& scratch, const Collection& c) {
   const auto slot = static_cast<std::uint32_t>(state.collections.slotOf(c));
   const auto& all = scratch.outer_loads;

@@ -34,10 +34,6 @@ double sizeOf(const State& state, const Collection& c);
 Twist gainOf(const State& state, const Collection& c, const CollectionLoad& load,
              const OuterLoad& outer);
 
-/// How fast the part of an outer load moves its member, at most, that is not among
-/// `scratch.known_loads` [m/s].
-double speedOfNewLoad(const State& state, const Scratch& scratch, const OuterLoad& outer);
-
 /// The velocity that the motion of the frame gives a member at a place in the frame.
 Twist velocityAt(const State& state, const Collection& c, const FrameLoad& load, const Vec2& local);
 

@@ -8,6 +8,7 @@
 #include "src2d/proofs/collection_load.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/load_certificate.h"
+#include "src2d/relaxation/region_loads.h"
 
 namespace merge2d {
 namespace {
@@ -25,48 +26,21 @@ bool wasSearched(const Collection& c) { return !c.certificate.front().search.mov
 
 bool isFrame(const Collection& c, std::uint32_t node) { return node == c.members.size(); }
 
-/// The frame counts as inside.
-bool isInside(const Scratch& scratch, const Collection& c, std::uint32_t node) {
-  return isFrame(c, node) || scratch.open[index(c.members[node])] != 0;
-}
-
 std::uint32_t otherEnd(const Weld& weld, std::uint32_t node) {
   return weld.node_a == node ? weld.node_b : weld.node_a;
 }
 
-void addIfOutside(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member) {
-  const Collection& c = state.collections[region.slot];
-  if (!isInside(scratch, c, member)) addMember(state, scratch, region, member);
-}
-
-void addHit(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
+/// Members that must be on their own: only then they have rows against other frames, and an impulse
+/// of the user acts on them alone.
+void addOwn(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
   const auto touch = [&](BodyId b) {
     if (state[b].rigid == c.rigid) addIfOutside(state, scratch, region, state[rigidOf(b)].member);
   };
-  for (const Meeting& meeting : scratch.meetings) {
-    touch(scratch.pairs[meeting.pair].a);
-    touch(scratch.pairs[meeting.pair].b);
-  }
   for (const Kick& kick : scratch.kicks) touch(kick.body);
-  for (const BodyPair& pair : scratch.pairs) {  // only members on their own have rows for these
+  for (const BodyPair& pair : scratch.pairs) {
     if (!areOnTwoFrames(state.rigid(pair.a), state.rigid(pair.b))) continue;
     touch(pair.a);
     touch(pair.b);
-  }
-}
-
-void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
-  loadMembers(state, c, loadOn(state, scratch, c), region.imbalance);
-  layOutPush(state, c);
-  for (std::uint32_t m = 0; m < region.imbalance.size(); ++m) {
-    Twist& left = region.imbalance[m];
-    const Twist& push = c.push[m];
-    left = {left.vx + push.vx, left.vy + push.vy, left.omega + push.omega};
-    const double reach = state.extent(rigidOf(c.members[m])).box.half.norm();
-    const double speed = Vec2(left.vx, left.vy).norm() + reach * std::abs(left.omega);
-    if (speed <= cutSpeed(state) || speed <= slowestCut(state, c, m)) continue;
-    left = {};
-    addIfOutside(state, scratch, region, m);
   }
 }
 
@@ -127,6 +101,15 @@ void pushFromOutside(State& state, const Scratch& scratch, const Collection& c,
 
 }  // namespace
 
+bool isInside(const Scratch& scratch, const Collection& c, std::uint32_t node) {
+  return isFrame(c, node) || scratch.open[index(c.members[node])] != 0;
+}
+
+void addIfOutside(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member) {
+  const Collection& c = state.collections[region.slot];
+  if (!isInside(scratch, c, member)) addMember(state, scratch, region, member);
+}
+
 SolverVelocity solvedVelocity(const State& state, const Scratch& scratch, BodyId b) {
   const RigidId mover = moverOf(state, scratch, b);
   SolverVelocity u = scratch.u[index(mover)];
@@ -172,7 +155,7 @@ void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& regi
     for (std::uint32_t m = 0; m < c.members.size(); ++m) addMember(state, scratch, region, m);
     return;
   }
-  addHit(state, scratch, c, region);
+  addOwn(state, scratch, c, region);
   addUnbalanced(state, scratch, c, region);
 }
 
@@ -190,19 +173,6 @@ void listRegion(State& state, Scratch& scratch, OpenRegion& region) {
     scratch.open_rows.push_back(RowSource::inside(region.slot, block));
   }
 }
-
-namespace {
-
-/// The members to which something outside gives another impulse than the one that was known.
-void addDisturbed(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
-  for (const OuterLoad& load : loadOn(state, scratch, c).outer) {
-    if (isInside(scratch, c, load.member)) continue;
-    if (speedOfNewLoad(state, scratch, load) <= slowestCut(state, c, load.member)) continue;
-    addMember(state, scratch, region, load.member);
-  }
-}
-
-}  // namespace
 
 bool widen(State& state, Scratch& scratch, OpenRegion& region) {
   const Collection& c = state.collections[region.slot];

@@ -2,8 +2,8 @@
 /// The part of an open collection that a hit reaches. Its members take part in the full solve on
 /// their own. The rest stays one body that moves with its frame; the contacts between the two push
 /// with the impulses that they hold. After a solve the region is widened beyond each of them that
-/// has a residual, and by each member that something outside pushes anew: no momentum ends at its
-/// border.
+/// has a residual, and by each member that something outside pushes anew, unless contacts can pass
+/// that on to the frame (region_loads.h): no momentum ends at its border.
 
 #include <span>
 
@@ -14,23 +14,27 @@ namespace merge2d {
 /// The velocity of a body in the full solve.
 SolverVelocity solvedVelocity(const State& state, const Scratch& scratch, BodyId b);
 
-/// The region that a solve begins with: the members that something hits, and those that the
-/// impulses inside do not keep at rest; all of them where the collection floats or was opened by a
-/// search. The loads from outside must be listed.
+/// The region that a solve begins with: the members that an impulse of the user moves, and those
+/// that the impulses inside do not keep at rest; all of them where the collection floats or was
+/// opened by a search. The loads from outside must be listed.
 void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& region);
 
 /// Slower than this no weld of a member parts [m/s].
 double slowestCut(const State& state, const Collection& c, std::uint32_t member);
 
+/// Whether a member is on its own in this step; the frame counts as such.
+bool isInside(const Scratch& scratch, const Collection& c, std::uint32_t node);
+
 /// One more member, which has moved with its collection so far.
 void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member);
+void addIfOutside(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member);
 
 /// Adds the members and rows of the region to those of the full solve.
 void listRegion(State& state, Scratch& scratch, OpenRegion& region);
 
 /// After the solve: true where a contact at the border had a residual, or something outside pushes
-/// a member as it did not before, and the region is wider now. The loads from outside must be
-/// listed again.
+/// a member by more than contacts carry, and the region is wider now. The loads from outside must
+/// be listed again.
 bool widen(State& state, Scratch& scratch, OpenRegion& region);
 
 /// The welds and the blocks at some members, ascending.

@@ -67,9 +67,6 @@ Doubt doubtAbout(const State& state, const Scratch& scratch, const Collection& c
 
 void solveOpened(State& state, Scratch& scratch) {
   open(state, scratch);
-  if (!std::ranges::all_of(scratch.regions, &OpenRegion::whole)) {
-    scratch.known_loads = scratch.outer_loads;
-  }
   scratch.last_sweep = state.step;
   for (bool wider = true; wider;) {
     listRegions(state, scratch);

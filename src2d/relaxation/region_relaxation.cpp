@@ -110,12 +110,16 @@ double relaxWhole(State& state, Scratch& scratch, OpenRegion& region) {
 
 void relaxOpen(State& state, Scratch& scratch, OpenRegion& region) {
   Collection& c = state.collections[region.slot];
+  const bool local = isHit(state, c) && isLarge(state, c);
+  if (local && region.members.empty()) {
+    c.residual = 0.0F;
+    return;
+  }
   const OneBody one = motionOf(state, scratch, c);
   const Rotation turn = state[c.rigid].rotation, back = turn.inverse();
   scratch.trial_u.resize(state.bodies.size() + 1);
   scratch.trial_u.back() = {};
   for (const BodyId b : c.members) scratch.trial_u[index(b)] = {};
-  const bool local = isHit(state, c) && isLarge(state, c);
   if (!local) addAll(state, scratch, region);
   for (const std::uint32_t m : region.members) {
     const SolverVelocity& u = scratch.sweep_u[index(c.members[m])];

@@ -152,5 +152,24 @@ circle = 0.3
   EXPECT_NEAR(run.body("upper[7,0]").v.norm(), 0.0, 1e-12);
 }
 
+/// Contacts pass the blow of each box on to the ground, so that no brick comes free, also where a
+/// box falls flat on two bricks at once.
+TEST(OpenRegion, BoxesThatFallFlatOnAWallPartNothing) {
+  Scene scene = wall(6, 24);
+  scene.settings.solver.iterations = 100;
+  for (const double x : {-8.25, -3.5, 1.0, 6.6}) {
+    BodyDesc drop = box(1, 1, {x, 9.0});
+    drop.pinned_until = 3.0;
+    add(scene, drop);
+  }
+  Simulation run(scene, Mode::Merge);
+  run.until(3.0);
+  const int before = run.count(EventType::Unmerge);
+  const Snapshot start = run.now();
+  run.until(6.0);
+  EXPECT_EQ(run.count(EventType::Unmerge), before);
+  EXPECT_EQ(moved(start, run.now(), 0.01), 4) << "the boxes";
+}
+
 }  // namespace
 }  // namespace merge2d

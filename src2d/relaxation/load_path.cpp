@@ -1,0 +1,131 @@
+#include "src2d/relaxation/load_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace merge2d {
+
+LoadPath::LoadPath(const State& state, const Scratch& scratch, const Collection& c)
+    : state_(state), scratch_(scratch), c_(c) {}
+
+bool LoadPath::find(std::uint32_t member, const Twist& gain, double tolerance) {
+  tolerance_ = tolerance;
+  const double speed = Vec2(gain.vx, gain.vy).norm();
+  const Vec2 along = speed > 0.0 ? Vec2(Vec2(gain.vx, gain.vy) / speed) : Vec2(Vec2::UnitX());
+  return find(member, gain, along) || find(member, gain, -along);
+}
+
+void LoadPath::apply(Collection& c) const {
+  for (const Change& change : changes_) {
+    ContactBlock& k = c.blocks[change.block];
+    k.lambda_n(change.point) += change.n;
+    k.lambda_t(change.point) += change.t;
+  }
+}
+
+bool LoadPath::find(std::uint32_t member, const Twist& gain, const Vec2& along) {
+  ++attempt_;
+  nodes_.resize(c_.members.size());
+  along_ = along;
+  front_.clear();
+  changes_.clear();
+  const Body& body = state_[c_.members[member]];
+  const double moment = body.inertia * gain.omega;
+  add(member, {body.mass * gain.vx, body.mass * gain.vy, moment / nodeOf(member).size});
+  while (!front_.empty()) {
+    if (!passOn(takeFirst())) return false;
+  }
+  return true;
+}
+
+/// To the bodies behind its contacts. False where these cannot take it.
+bool LoadPath::passOn(std::uint32_t member) {
+  const Node& node = nodes_[member];
+  const auto isSlow = [&](const Wrench& w) {
+    return node.inv_mass * std::sqrt(w.x * w.x + w.y * w.y) + node.turn * std::abs(w.spin) <=
+           tolerance_;
+  };
+  if (isSlow(node.load)) return true;
+  listEdges(member);
+  if (!isSlow(balance(edges_, node.load))) return false;
+  for (const ConeEdge& edge : edges_) {
+    if (edge.change == 0.0) continue;
+    changes_.push_back({edge.block, edge.point, edge.change, edge.slope * edge.change});
+    if (!isFrame(edge.other)) add(edge.other, edge.change * edge.on_other);
+  }
+  return true;
+}
+
+void LoadPath::add(std::uint32_t member, const Wrench& load) {
+  Node& node = nodeOf(member);
+  node.load += load;
+  if (std::exchange(node.waits, true)) return;
+  front_.push_back(member);
+  std::ranges::push_heap(front_, [&](auto a, auto b) { return isBefore(b, a); });
+}
+
+std::uint32_t LoadPath::takeFirst() {
+  std::ranges::pop_heap(front_, [&](auto a, auto b) { return isBefore(b, a); });
+  const std::uint32_t member = front_.back();
+  front_.pop_back();
+  return member;
+}
+
+void LoadPath::listEdges(std::uint32_t member) {
+  edges_.clear();
+  for (const std::uint32_t w : c_.welds_of[member]) {
+    const Weld& weld = c_.welds[w];
+    const std::uint32_t other = weld.node_a == member ? weld.node_b : weld.node_a;
+    if (weld.expected) continue;
+    if (!isFrame(other)) {
+      nodeOf(other);
+      if (!isBefore(member, other) || isOpen(other)) continue;
+    }
+    for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+      listEdges(c_.contacts[i].block, member, other);
+    }
+  }
+}
+
+/// Points that may not have met yet take nothing.
+void LoadPath::listEdges(std::uint32_t block, std::uint32_t member, std::uint32_t other) {
+  const ContactBlock& k = c_.blocks[block];
+  if (k.bilateral) return;
+  const bool is_b = k.b == index(c_.members[member]);
+  const double size = nodes_[member].size, other_size = isFrame(other) ? 1.0 : nodes_[other].size;
+  const double per_a = 1.0 / (is_b ? other_size : size), per_b = 1.0 / (is_b ? size : other_size);
+  for (int i = 0; i < k.count; ++i) {
+    if (k.bias[i] != 0.0) continue;
+    for (const double s : {k.mu, -k.mu}) {
+      const double x = k.nx - s * k.ny, y = k.ny + s * k.nx;
+      const Wrench on_a{-x, -y, -per_a * (k.arm_an[i] + s * k.arm_at[i])};
+      const Wrench on_b{x, y, per_b * (k.arm_bn[i] + s * k.arm_bt[i])};
+      edges_.push_back({.on = is_b ? on_b : on_a,
+                        .on_other = is_b ? on_a : on_b,
+                        .slope = s,
+                        .held = heldAlong(s, k.lambda_n(i), k.lambda_t(i)),
+                        .other = other,
+                        .block = block,
+                        .point = i});
+    }
+  }
+}
+
+LoadPath::Node& LoadPath::nodeOf(std::uint32_t member) {
+  Node& node = nodes_[member];
+  if (node.seen == attempt_) return node;
+  const Body& body = state_[c_.members[member]];
+  if (node.seen == 0) {
+    node.size = state_.extent(rigidOf(c_.members[member])).box.half.norm();
+    node.inv_mass = 1.0 / body.mass;
+    node.turn = node.size * node.size / body.inertia;
+  }
+  node.seen = attempt_;
+  node.depth = along_.dot(body.local);
+  node.load = {};
+  node.waits = false;
+  return node;
+}
+
+}  // namespace merge2d

@@ -1,0 +1,69 @@
+#pragma once
+/// The way of a load through a collection to the frame that it is fixed to.
+///
+/// Where the contacts on the way can take their parts, nothing moves: admissible impulses form a
+/// convex cone, and those of the load are added to those that there are.
+
+#include <vector>
+
+#include "src2d/dynamics/state.h"
+#include "src2d/relaxation/cone_impulses.h"
+
+namespace merge2d {
+
+/// Passes the load on a member from body to body, each farther along it than the one before.
+class LoadPath {
+ public:
+  /// Members of open regions take nothing. The welds must be listed by member.
+  LoadPath(const State& state, const Scratch& scratch, const Collection& c);
+
+  /// Whether the contacts can pass a change of velocity of a member on to the frame, along it, or
+  /// against it where impulses end, so that no body on the way keeps more than the velocity
+  /// `tolerance` [m/s]. False tells nothing: there may be other ways.
+  bool find(std::uint32_t member, const Twist& gain, double tolerance);
+
+  /// Adds the impulses of the way that was found to the blocks.
+  void apply(Collection& c) const;
+
+ private:
+  /// A member, when something is passed on to it.
+  struct Node {
+    Wrench load;
+    double depth = 0.0;                 ///< of its centre along the way [m]
+    double size = 1.0;                  ///< by which moments are divided [m]
+    double inv_mass = 0.0, turn = 0.0;  ///< speed at its corners that a wrench gives [1/kg]
+    std::uint32_t seen = 0;             ///< the attempt in which the above holds
+    bool waits = false;                 ///< has a load that it has not passed on
+  };
+  struct Change {
+    std::uint32_t block = 0;
+    int point = 0;
+    double n = 0.0, t = 0.0;
+  };
+
+  bool find(std::uint32_t member, const Twist& gain, const Vec2& along);
+  bool passOn(std::uint32_t member);
+  void add(std::uint32_t member, const Wrench& load);
+  std::uint32_t takeFirst();
+  void listEdges(std::uint32_t member);
+  void listEdges(std::uint32_t block, std::uint32_t member, std::uint32_t other);
+  Node& nodeOf(std::uint32_t member);
+  bool isFrame(std::uint32_t node) const { return node == c_.members.size(); }
+  bool isOpen(std::uint32_t member) const { return scratch_.open[index(c_.members[member])] != 0; }
+  bool isBefore(std::uint32_t a, std::uint32_t b) const {
+    return nodes_[a].depth < nodes_[b].depth || (nodes_[a].depth == nodes_[b].depth && a < b);
+  }
+
+  const State& state_;
+  const Scratch& scratch_;
+  const Collection& c_;
+  double tolerance_ = 0.0;
+  Vec2 along_ = Vec2::UnitX();
+  std::uint32_t attempt_ = 0;
+  std::vector<Node> nodes_;           ///< per member
+  std::vector<std::uint32_t> front_;  ///< a heap: members that have not passed their load on
+  std::vector<ConeEdge> edges_;       ///< of the body in question
+  std::vector<Change> changes_;
+};
+
+}  // namespace merge2d

@@ -1,0 +1,107 @@
+#include "src2d/relaxation/region_loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "src2d/collections/collection.h"
+#include "src2d/proofs/collection_load.h"
+#include "src2d/proofs/decided_settings.h"
+#include "src2d/relaxation/load_path.h"
+#include "src2d/relaxation/open_region.h"
+#include "src2d/relaxation/outer_pushes.h"
+
+namespace merge2d {
+namespace {
+
+/// The velocity of a member that the impulses inside leave over.
+struct Unbalanced {
+  std::uint32_t member = 0;
+  Twist left;
+};
+
+Twist leftOver(const Collection& c, std::uint32_t member, const Twist& load) {
+  const Twist& push = c.push[member];
+  return {load.vx + push.vx, load.vy + push.vy, load.omega + push.omega};
+}
+
+/// Whether a weld of the member parts at that velocity.
+bool isFast(const State& state, const Collection& c, std::uint32_t member, const Twist& u) {
+  const double reach = state.extent(rigidOf(c.members[member])).box.half.norm();
+  const double speed = Vec2(u.vx, u.vy).norm() + reach * std::abs(u.omega);
+  return speed > cutSpeed(state) && speed > slowestCut(state, c, member);
+}
+
+/// Whether contacts can pass it on, but for a residual.
+bool findPath(const State& state, const Collection& c, const Unbalanced& one, LoadPath& path) {
+  return path.find(one.member, one.left, kDecided.tolerance * slowestCut(state, c, one.member));
+}
+
+/// Leaves the others in `region.imbalance`.
+std::vector<Unbalanced> findUnbalanced(State& state, const CollectionLoad& load, Collection& c,
+                                       OpenRegion& region) {
+  loadMembers(state, c, load, region.imbalance);
+  layOutPush(state, c);
+  std::vector<Unbalanced> found;
+  for (std::uint32_t m = 0; m < region.imbalance.size(); ++m) {
+    Twist& left = region.imbalance[m];
+    left = leftOver(c, m, left);
+    if (isFast(state, c, m, left)) found.push_back({m, std::exchange(left, {})});
+  }
+  return found;
+}
+
+/// Passes on what is left over of members on which nothing acts from outside: it lasts, so the
+/// impulses stay. False where contacts cannot.
+bool passOn(const State& state, const Scratch& scratch, Collection& c, const CollectionLoad& load,
+            const std::vector<Unbalanced>& unbalanced) {
+  LoadPath path(state, scratch, c);
+  bool all = true, any = false;
+  for (const Unbalanced& one : unbalanced) {
+    if (std::ranges::binary_search(load.outer, one.member, {}, &OuterLoad::member)) continue;
+    all = findPath(state, c, one, path);
+    if (!all) break;
+    path.apply(c);
+    any = true;
+  }
+  if (any) layOutPush(state, c);
+  return all;
+}
+
+void addMet(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
+  for (const Meeting& meeting : scratch.meetings) {
+    const BodyPair& pair = scratch.pairs[meeting.pair];
+    for (const BodyId b : {pair.a, pair.b}) {
+      if (state[b].rigid == c.rigid) addIfOutside(state, scratch, region, state[rigidOf(b)].member);
+    }
+  }
+}
+
+}  // namespace
+
+void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
+  const CollectionLoad load = loadOn(state, scratch, c);
+  const std::vector<Unbalanced> unbalanced = findUnbalanced(state, load, c, region);
+  region.passes = isHit(state, c) && passOn(state, scratch, c, load, unbalanced);
+  if (region.passes) return;
+  addMet(state, scratch, c, region);
+  for (const Unbalanced& one : unbalanced) addIfOutside(state, scratch, region, one.member);
+}
+
+void addDisturbed(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
+  const CollectionLoad load = loadOn(state, scratch, c);
+  LoadPath path(state, scratch, c);
+  for (const OuterLoad& outer : relievedLoads(state, scratch, c, load)) {
+    const std::uint32_t m = outer.member;
+    if (isInside(scratch, c, m)) continue;
+    Twist u = velocityAt(state, c, load.frame, state[c.members[m]].local);
+    const Twist gain = gainOf(state, c, load, outer);
+    u = {u.vx + gain.vx, u.vy + gain.vy, u.omega + gain.omega / load.size};
+    const Unbalanced one{m, leftOver(c, m, u)};
+    if (!isFast(state, c, m, one.left)) continue;
+    if (region.passes && findPath(state, c, one, path)) continue;
+    addMember(state, scratch, region, m);
+  }
+}
+
+}  // namespace merge2d

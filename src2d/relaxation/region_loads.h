@@ -1,0 +1,20 @@
+#pragma once
+/// Which members of a collection a load may move, so that they must be on their own in an open
+/// region.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// Before the solve: the members that the impulses inside do not keep at rest. In a hit those of
+/// which contacts can pass the rest of the load on to the frame (load_path.h) stay, and those on
+/// which something outside acts wait for the solve, which tells how much. The loads from outside
+/// must be listed.
+void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& region);
+
+/// After the solve: the members that something outside pushes by more than the impulses inside and,
+/// in a hit, contacts on the way to the frame can carry. The loads from outside must be listed
+/// again.
+void addDisturbed(State& state, Scratch& scratch, const Collection& c, OpenRegion& region);
+
+}  // namespace merge2d
