@@ -22,7 +22,7 @@ std::array<std::array<double, 3>, 3> curvature(std::span<const ConeEdge> edges, 
   return {{{x.x, x.y, x.spin}, {x.y, yy, s.y}, {x.spin, s.y, s.spin}}};
 }
 
-/// Sets the changes that follow from the multipliers; returns what they leave of the load.
+/// Sets the changes that follow from the multipliers; returns the rest of the load.
 Wrench follow(std::span<ConeEdge> edges, const Wrench& y, Wrench left) {
   for (ConeEdge& edge : edges) {
     edge.change = std::max(-edge.held, edge.on.dot(y));

@@ -37,7 +37,7 @@ struct ConeEdge {
 double heldAlong(double slope, double lambda_n, double lambda_t);
 
 /// Finds the smallest change of the impulses along the edges of a body that balances a load on it
-/// and makes none of them negative. Returns what is left of the load.
+/// and makes none of them negative. Returns the rest of the load.
 Wrench balance(std::span<ConeEdge> edges, const Wrench& load);
 
 }  // namespace merge2d

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace merge2d {
 
@@ -16,11 +15,18 @@ bool LoadPath::find(std::uint32_t member, const Twist& gain, double tolerance) {
   return find(member, gain, along) || find(member, gain, -along);
 }
 
-void LoadPath::apply(Collection& c) const {
+void LoadPath::apply(Collection& c) {
   for (const Change& change : changes_) {
     ContactBlock& k = c.blocks[change.block];
+    before_.emplace_back(change.block, k.lambda);
     k.lambda_n(change.point) += change.n;
     k.lambda_t(change.point) += change.t;
+  }
+}
+
+void LoadPath::restore(Collection& c) {
+  for (; !before_.empty(); before_.pop_back()) {
+    c.blocks[before_.back().first].lambda = before_.back().second;
   }
 }
 

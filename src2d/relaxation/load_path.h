@@ -4,6 +4,7 @@
 /// Where the contacts on the way can take their parts, nothing moves: admissible impulses form a
 /// convex cone, and those of the load are added to those that there are.
 
+#include <utility>
 #include <vector>
 
 #include "src2d/dynamics/state.h"
@@ -22,8 +23,11 @@ class LoadPath {
   /// `tolerance` [m/s]. False tells nothing: there may be other ways.
   bool find(std::uint32_t member, const Twist& gain, double tolerance);
 
-  /// Adds the impulses of the way that was found to the blocks.
-  void apply(Collection& c) const;
+  /// Adds the impulses of the way that was found to the blocks, for the next load to meet.
+  void apply(Collection& c);
+
+  /// Puts the impulses back that the blocks had before all ways were added.
+  void restore(Collection& c);
 
  private:
   /// A member, when something is passed on to it.
@@ -63,7 +67,8 @@ class LoadPath {
   std::vector<Node> nodes_;           ///< per member
   std::vector<std::uint32_t> front_;  ///< a heap: members that have not passed their load on
   std::vector<ConeEdge> edges_;       ///< of the body in question
-  std::vector<Change> changes_;
+  std::vector<Change> changes_;       ///< of the way that was found
+  std::vector<std::pair<std::uint32_t, Impulses>> before_;  ///< of blocks, as they were changed
 };
 
 }  // namespace merge2d

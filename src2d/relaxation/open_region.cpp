@@ -175,7 +175,7 @@ void listRegion(State& state, Scratch& scratch, OpenRegion& region) {
 }
 
 bool widen(State& state, Scratch& scratch, OpenRegion& region) {
-  const Collection& c = state.collections[region.slot];
+  Collection& c = state.collections[region.slot];
   std::vector<std::uint32_t> behind;
   forEachHeld(scratch, c, region, [&](const ContactBlock& inner, std::uint32_t, std::uint32_t out) {
     const ContactBlock k = inWorld(state, c, inner);

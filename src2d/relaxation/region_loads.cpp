@@ -51,8 +51,8 @@ std::vector<Unbalanced> findUnbalanced(State& state, const CollectionLoad& load,
   return found;
 }
 
-/// Passes on what is left over of members on which nothing acts from outside: it lasts, so the
-/// impulses stay. False where contacts cannot.
+/// Passes the rest of the load on, but of members on which something acts from outside. It lasts,
+/// so the impulses stay. False where contacts cannot.
 bool passOn(const State& state, const Scratch& scratch, Collection& c, const CollectionLoad& load,
             const std::vector<Unbalanced>& unbalanced) {
   LoadPath path(state, scratch, c);
@@ -88,7 +88,7 @@ void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& re
   for (const Unbalanced& one : unbalanced) addIfOutside(state, scratch, region, one.member);
 }
 
-void addDisturbed(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
+void addDisturbed(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
   const CollectionLoad load = loadOn(state, scratch, c);
   LoadPath path(state, scratch, c);
   for (const OuterLoad& outer : relievedLoads(state, scratch, c, load)) {
@@ -99,9 +99,13 @@ void addDisturbed(State& state, Scratch& scratch, const Collection& c, OpenRegio
     u = {u.vx + gain.vx, u.vy + gain.vy, u.omega + gain.omega / load.size};
     const Unbalanced one{m, leftOver(c, m, u)};
     if (!isFast(state, c, m, one.left)) continue;
-    if (region.passes && findPath(state, c, one, path)) continue;
-    addMember(state, scratch, region, m);
+    if (region.passes && findPath(state, c, one, path)) {
+      path.apply(c);
+    } else {
+      addMember(state, scratch, region, m);
+    }
   }
+  path.restore(c);  // a hit is no load that lasts
 }
 
 }  // namespace merge2d

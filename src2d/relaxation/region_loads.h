@@ -15,6 +15,6 @@ void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& re
 /// After the solve: the members that something outside pushes by more than the impulses inside and,
 /// in a hit, contacts on the way to the frame can carry. The loads from outside must be listed
 /// again.
-void addDisturbed(State& state, Scratch& scratch, const Collection& c, OpenRegion& region);
+void addDisturbed(State& state, Scratch& scratch, Collection& c, OpenRegion& region);
 
 }  // namespace merge2d

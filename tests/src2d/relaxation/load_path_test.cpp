@@ -59,6 +59,23 @@ TEST(LoadPath, AColumnIsLiftedByNoMoreThanItsWeight) {
   EXPECT_FALSE(merged.carriesOnTop({0.0, 0.11, 0.0}));
 }
 
+/// Two loads cannot both use the weight that a contact bears.
+TEST(LoadPath, WaysThatAreAddedMeetEachOther) {
+  Merged merged(column(4));
+  Collection& c = merged.collection();
+  const Impulses foot = c.blocks.front().lambda;
+  LoadPath path = merged.path();
+  const Twist lift{0.0, 0.06, 0.0};
+  ASSERT_TRUE(path.find(merged.last(), lift, kTolerance));
+  EXPECT_TRUE(path.find(merged.last(), lift, kTolerance)) << "not added yet";
+  path.apply(c);
+  EXPECT_FALSE(path.find(merged.last(), lift, kTolerance));
+  EXPECT_NE(c.blocks.front().lambda, foot);
+  path.restore(c);
+  EXPECT_EQ(c.blocks.front().lambda, foot);
+  EXPECT_TRUE(path.find(merged.last(), lift, kTolerance));
+}
+
 TEST(LoadPath, APushBeyondFrictionIsNotCarried) {
   Merged merged(column(4));
   EXPECT_FALSE(merged.carriesOnTop({8.0, -9.0, 0.0}));
@@ -70,7 +87,7 @@ TEST(LoadPath, ABodyOnItsOwnTakesNothing) {
   EXPECT_FALSE(merged.carriesOnTop({0.0, -9.0, 0.0}));
 }
 
-/// What is applied balances the load, and nothing else.
+/// Its impulses balance the load, and nothing else.
 TEST(LoadPath, TheImpulsesOfAWayMoveTheLoadedBodyAlone) {
   Merged merged(wall(8, 6));
   Collection& c = merged.collection();
