@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src2d/relaxation/region_members.h"
+
 namespace merge2d {
 
 LoadPath::LoadPath(const State& state, const Scratch& scratch, const Collection& c)
@@ -58,7 +60,7 @@ bool LoadPath::passOn(std::uint32_t member) {
   for (const ConeEdge& edge : edges_) {
     if (edge.change == 0.0) continue;
     changes_.push_back({edge.block, edge.point, edge.change, edge.slope * edge.change});
-    if (!isFrame(edge.other)) add(edge.other, edge.change * edge.on_other);
+    if (!isFrame(c_, edge.other)) add(edge.other, edge.change * edge.on_other);
   }
   return true;
 }
@@ -68,11 +70,11 @@ void LoadPath::add(std::uint32_t member, const Wrench& load) {
   node.load += load;
   if (std::exchange(node.waits, true)) return;
   front_.push_back(member);
-  std::ranges::push_heap(front_, [&](auto a, auto b) { return isBefore(b, a); });
+  std::push_heap(front_.begin(), front_.end(), [&](auto a, auto b) { return isBefore(b, a); });
 }
 
 std::uint32_t LoadPath::takeFirst() {
-  std::ranges::pop_heap(front_, [&](auto a, auto b) { return isBefore(b, a); });
+  std::pop_heap(front_.begin(), front_.end(), [&](auto a, auto b) { return isBefore(b, a); });
   const std::uint32_t member = front_.back();
   front_.pop_back();
   return member;
@@ -82,9 +84,9 @@ void LoadPath::listEdges(std::uint32_t member) {
   edges_.clear();
   for (const std::uint32_t w : c_.welds_of[member]) {
     const Weld& weld = c_.welds[w];
-    const std::uint32_t other = weld.node_a == member ? weld.node_b : weld.node_a;
+    const std::uint32_t other = otherEnd(weld, member);
     if (weld.expected) continue;
-    if (!isFrame(other)) {
+    if (!isFrame(c_, other)) {
       nodeOf(other);
       if (!isBefore(member, other) || isOpen(other)) continue;
     }
@@ -99,7 +101,8 @@ void LoadPath::listEdges(std::uint32_t block, std::uint32_t member, std::uint32_
   const ContactBlock& k = c_.blocks[block];
   if (k.bilateral) return;
   const bool is_b = k.b == index(c_.members[member]);
-  const double size = nodes_[member].size, other_size = isFrame(other) ? 1.0 : nodes_[other].size;
+  const double size = nodes_[member].size,
+               other_size = isFrame(c_, other) ? 1.0 : nodes_[other].size;
   const double per_a = 1.0 / (is_b ? other_size : size), per_b = 1.0 / (is_b ? size : other_size);
   for (int i = 0; i < k.count; ++i) {
     if (k.bias[i] != 0.0) continue;

@@ -52,7 +52,6 @@ class LoadPath {
   void listEdges(std::uint32_t member);
   void listEdges(std::uint32_t block, std::uint32_t member, std::uint32_t other);
   Node& nodeOf(std::uint32_t member);
-  bool isFrame(std::uint32_t node) const { return node == c_.members.size(); }
   bool isOpen(std::uint32_t member) const { return scratch_.open[index(c_.members[member])] != 0; }
   bool isBefore(std::uint32_t a, std::uint32_t b) const {
     return nodes_[a].depth < nodes_[b].depth || (nodes_[a].depth == nodes_[b].depth && a < b);

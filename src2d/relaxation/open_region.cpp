@@ -9,6 +9,7 @@
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/load_certificate.h"
 #include "src2d/relaxation/region_loads.h"
+#include "src2d/relaxation/region_members.h"
 
 namespace merge2d {
 namespace {
@@ -23,12 +24,6 @@ ContactBlock inWorld(const State& state, const Collection& c, const ContactBlock
 
 /// A search has found motion, which may be that of any member.
 bool wasSearched(const Collection& c) { return !c.certificate.front().search.movers.empty(); }
-
-bool isFrame(const Collection& c, std::uint32_t node) { return node == c.members.size(); }
-
-std::uint32_t otherEnd(const Weld& weld, std::uint32_t node) {
-  return weld.node_a == node ? weld.node_b : weld.node_a;
-}
 
 /// Members that must be on their own: only then they have rows against other frames, and an impulse
 /// of the user acts on them alone.
@@ -101,15 +96,6 @@ void pushFromOutside(State& state, const Scratch& scratch, const Collection& c,
 
 }  // namespace
 
-bool isInside(const Scratch& scratch, const Collection& c, std::uint32_t node) {
-  return isFrame(c, node) || scratch.open[index(c.members[node])] != 0;
-}
-
-void addIfOutside(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member) {
-  const Collection& c = state.collections[region.slot];
-  if (!isInside(scratch, c, member)) addMember(state, scratch, region, member);
-}
-
 SolverVelocity solvedVelocity(const State& state, const Scratch& scratch, BodyId b) {
   const RigidId mover = moverOf(state, scratch, b);
   SolverVelocity u = scratch.u[index(mover)];
@@ -118,33 +104,6 @@ SolverVelocity solvedVelocity(const State& state, const Scratch& scratch, BodyId
   u.vx -= u.omega * arm.y();
   u.vy += u.omega * arm.x();
   return u;
-}
-
-void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member) {
-  const Collection& c = state.collections[region.slot];
-  const BodyId b = c.members[member];
-  Rigid& r = state[rigidOf(b)];
-  r.x = state.pose(b).position;
-  r.rest = Vec2::Zero();
-  if (!region.whole) {
-    for (const std::uint32_t w : c.welds_of[member]) {
-      const std::uint32_t other = otherEnd(c.welds[w], member);
-      if (!isFrame(c, other) && isInside(scratch, c, other)) continue;  // they are kept already
-      forEachBlock(c, c.welds[w], [&](std::uint32_t block) {
-        region.before.emplace_back(block, c.blocks[block].lambda);
-      });
-    }
-  }
-  scratch.open[index(b)] = 1;
-  region.members.push_back(member);
-}
-
-double slowestCut(const State& state, const Collection& c, std::uint32_t member) {
-  double slowest = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t w : c.welds_of[member]) {
-    slowest = std::min(slowest, cutSpeed(state, c, c.welds[w]));
-  }
-  return slowest;
 }
 
 void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {

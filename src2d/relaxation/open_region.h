@@ -19,16 +19,6 @@ SolverVelocity solvedVelocity(const State& state, const Scratch& scratch, BodyId
 /// opened by a search. The loads from outside must be listed.
 void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& region);
 
-/// Slower than this no weld of a member parts [m/s].
-double slowestCut(const State& state, const Collection& c, std::uint32_t member);
-
-/// Whether a member is on its own in this step; the frame counts as such.
-bool isInside(const Scratch& scratch, const Collection& c, std::uint32_t node);
-
-/// One more member, which has moved with its collection so far.
-void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member);
-void addIfOutside(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member);
-
 /// Adds the members and rows of the region to those of the full solve.
 void listRegion(State& state, Scratch& scratch, OpenRegion& region);
 
@@ -44,11 +34,5 @@ std::vector<std::uint32_t> blocksAt(const Collection& c, std::span<const std::ui
 /// Puts the impulses back that the blocks had before the solve: those of a whole region stand in
 /// the load that was sought.
 void restoreImpulses(Collection& c, const OpenRegion& region, Witness& sought);
-
-/// Calls `visit` with each block of a weld.
-template <class Visit>
-void forEachBlock(const Collection& c, const Weld& weld, Visit&& visit) {
-  for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) visit(c.contacts[i].block);
-}
 
 }  // namespace merge2d

@@ -8,8 +8,8 @@
 #include "src2d/proofs/collection_load.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/relaxation/load_path.h"
-#include "src2d/relaxation/open_region.h"
 #include "src2d/relaxation/outer_pushes.h"
+#include "src2d/relaxation/region_members.h"
 
 namespace merge2d {
 namespace {

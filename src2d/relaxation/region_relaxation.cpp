@@ -10,6 +10,7 @@
 #include "src2d/relaxation/block_sweeps.h"
 #include "src2d/relaxation/open_region.h"
 #include "src2d/relaxation/reached_rows.h"
+#include "src2d/relaxation/region_members.h"
 #include "src2d/relaxation/relaxation.h"
 
 namespace merge2d {

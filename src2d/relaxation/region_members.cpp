@@ -1,0 +1,46 @@
+#include "src2d/relaxation/region_members.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "src2d/proofs/decided_settings.h"
+
+namespace merge2d {
+
+bool isInside(const Scratch& scratch, const Collection& c, std::uint32_t node) {
+  return isFrame(c, node) || scratch.open[index(c.members[node])] != 0;
+}
+
+void addIfOutside(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member) {
+  const Collection& c = state.collections[region.slot];
+  if (!isInside(scratch, c, member)) addMember(state, scratch, region, member);
+}
+
+void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member) {
+  const Collection& c = state.collections[region.slot];
+  const BodyId b = c.members[member];
+  Rigid& r = state[rigidOf(b)];
+  r.x = state.pose(b).position;
+  r.rest = Vec2::Zero();
+  if (!region.whole) {
+    for (const std::uint32_t w : c.welds_of[member]) {
+      const std::uint32_t other = otherEnd(c.welds[w], member);
+      if (!isFrame(c, other) && isInside(scratch, c, other)) continue;  // they are kept already
+      forEachBlock(c, c.welds[w], [&](std::uint32_t block) {
+        region.before.emplace_back(block, c.blocks[block].lambda);
+      });
+    }
+  }
+  scratch.open[index(b)] = 1;
+  region.members.push_back(member);
+}
+
+double slowestCut(const State& state, const Collection& c, std::uint32_t member) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t w : c.welds_of[member]) {
+    slowest = std::min(slowest, cutSpeed(state, c, c.welds[w]));
+  }
+  return slowest;
+}
+
+}  // namespace merge2d
