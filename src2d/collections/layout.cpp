@@ -255,27 +255,31 @@ void listWeldsOfMembers(Collection& c) {
 // start.
 void layOutPush(const State& state, Collection& c) {
   c.push.assign(c.members.size(), {});
-  const auto add = [&](BodyId b, double sign, const Vec2& impulse, double moment) {
-    if (state[b].rigid != c.rigid) return;
-    Twist& push = c.push[state[rigidOf(b)].member];
-    push.vx += sign * impulse.x() / state[b].mass;
-    push.vy += sign * impulse.y() / state[b].mass;
-    push.omega += sign * moment / state[b].inertia;
+  const auto add = [&](std::uint32_t b, double sign, const Vec2& impulse, double moment) {
+    if (b >= state.bodies.size() || state.bodies[b].rigid != c.rigid) return;
+    Twist& push = c.push[state.rigids[b].member];
+    push.vx += sign * impulse.x();
+    push.vy += sign * impulse.y();
+    push.omega += sign * moment;
   };
   for (const ContactBlock& k : c.blocks) {
     const Vec2 n(k.nx, k.ny), t = perpendicular(n);
+    Vec2 impulse = Vec2::Zero();
+    double moment_a = k.lambda_r(), moment_b = k.lambda_r();
     for (int i = 0; i < k.count; ++i) {
-      const Vec2 impulse = k.lambda_n(i) * n + k.lambda_t(i) * t;
-      add(BodyId{k.a}, -1.0, impulse, k.arm_an[i] * k.lambda_n(i) + k.arm_at[i] * k.lambda_t(i));
-      add(BodyId{k.b}, 1.0, impulse, k.arm_bn[i] * k.lambda_n(i) + k.arm_bt[i] * k.lambda_t(i));
+      impulse += k.lambda_n(i) * n + k.lambda_t(i) * t;
+      moment_a += k.arm_an[i] * k.lambda_n(i) + k.arm_at[i] * k.lambda_t(i);
+      moment_b += k.arm_bn[i] * k.lambda_n(i) + k.arm_bt[i] * k.lambda_t(i);
     }
-    if (!k.rolls()) continue;
-    add(BodyId{k.a}, -1.0, Vec2::Zero(), k.lambda_r());
-    add(BodyId{k.b}, 1.0, Vec2::Zero(), k.lambda_r());
+    add(k.a, -1.0, impulse, moment_a);
+    add(k.b, 1.0, impulse, moment_b);
   }
-  addJointPush(c, [&](std::uint32_t b, double sign, const Vec2& impulse, double moment) {
-    if (b < state.bodies.size()) add(BodyId{b}, sign, impulse, moment);
-  });
+  addJointPush(c, add);
+  for (std::uint32_t m = 0; m < c.members.size(); ++m) {
+    const Body& body = state[c.members[m]];
+    Twist& push = c.push[m];
+    push = {push.vx / body.mass, push.vy / body.mass, push.omega / body.inertia};
+  }
 }
 
 namespace {

@@ -158,8 +158,9 @@ void fillGram(LoadCertificate& proof) {
   const std::size_t n = proof.witnesses.size();
   proof.gram.resize(n * n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      proof.gram[i * n + j] = product(proof.witnesses[i], proof.witnesses[j]);
+    for (std::size_t j = 0; j <= i; ++j) {
+      proof.gram[i * n + j] = proof.gram[j * n + i] =
+          product(proof.witnesses[i], proof.witnesses[j]);
     }
   }
 }
@@ -182,7 +183,8 @@ double worthOf(const LoadCertificate& proof, std::size_t which, double rounding)
   return project(gram, b, n, xx, rounding).left / xx;
 }
 
-/// Drops the witness without which the others lose least; inherited ones first.
+/// Drops the witness without which the others lose least; inherited ones first. The products must
+/// be filled in again.
 void makePlace(LoadCertificate& proof, double rounding) {
   if (proof.witnesses.size() < kWitnesses) return;
   std::size_t least = 0;
@@ -197,7 +199,6 @@ void makePlace(LoadCertificate& proof, double rounding) {
   }
   proof.witnesses.erase(proof.witnesses.begin() + static_cast<std::ptrdiff_t>(least));
   if (proof.inherited > 0) --proof.inherited;
-  fillGram(proof);
 }
 
 /// The columns of the certificate, and those of this load too.

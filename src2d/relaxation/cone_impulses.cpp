@@ -31,11 +31,27 @@ Wrench follow(std::span<ConeEdge> edges, const Wrench& y, Wrench left) {
   return left;
 }
 
+/// The impulse along an edge of a point: half of n + t / s.
+double heldAlong(double slope, const ConePoint& p) {
+  const double along = slope == 0.0 ? 0.0 : p.lambda_t / slope;
+  return std::max(0.0, 0.5 * (p.lambda_n + along));
+}
+
 }  // namespace
 
-double heldAlong(double slope, double lambda_n, double lambda_t) {
-  const double along = slope == 0.0 ? 0.0 : lambda_t / slope;
-  return std::max(0.0, 0.5 * (lambda_n + along));
+void addEdges(const ConePoint& p, bool seen_by_b, double size, double other_size,
+              const ConeEdge& behind, std::vector<ConeEdge>& edges) {
+  const double size_a = seen_by_b ? other_size : size, size_b = seen_by_b ? size : other_size;
+  for (const double s : {p.mu, -p.mu}) {
+    const double x = p.nx - s * p.ny, y = p.ny + s * p.nx;
+    const Wrench on_a{-x, -y, -(p.arm_an + s * p.arm_at) / size_a};
+    const Wrench on_b{x, y, (p.arm_bn + s * p.arm_bt) / size_b};
+    ConeEdge& edge = edges.emplace_back(behind);
+    edge.on = seen_by_b ? on_b : on_a;
+    edge.on_other = seen_by_b ? on_a : on_b;
+    edge.slope = s;
+    edge.held = heldAlong(s, p);
+  }
 }
 
 /// Newton's method on the three multipliers of a projection. The change of an edge is its product

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace merge2d {
 
@@ -33,8 +34,19 @@ struct ConeEdge {
   int point = 0;
 };
 
-/// The impulse along an edge whose point has these impulses: half of n + t / s.
-double heldAlong(double slope, double lambda_n, double lambda_t);
+/// A point between the bodies a and b; the normal points from a to b.
+struct ConePoint {
+  double nx = 0.0, ny = 0.0;
+  double arm_an = 0.0, arm_at = 0.0;      ///< moments of the normal and of the tangent about a [m]
+  double arm_bn = 0.0, arm_bt = 0.0;      ///< about b [m]
+  double mu = 0.0;                        ///< friction
+  double lambda_n = 0.0, lambda_t = 0.0;  ///< its impulses [N s]
+};
+
+/// Adds both edges of its cone, as seen by b or by a. Moments are divided by the sizes of that body
+/// and of the other [m]; `behind` tells what is behind the contact.
+void addEdges(const ConePoint& point, bool seen_by_b, double size, double other_size,
+              const ConeEdge& behind, std::vector<ConeEdge>& edges);
 
 /// Finds the smallest change of the impulses along the edges of a body that balances a load on it
 /// and makes none of them negative. Returns the rest of the load.

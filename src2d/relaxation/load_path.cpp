@@ -103,21 +103,18 @@ void LoadPath::listEdges(std::uint32_t block, std::uint32_t member, std::uint32_
   const bool is_b = k.b == index(c_.members[member]);
   const double size = nodes_[member].size,
                other_size = isFrame(c_, other) ? 1.0 : nodes_[other].size;
-  const double per_a = 1.0 / (is_b ? other_size : size), per_b = 1.0 / (is_b ? size : other_size);
   for (int i = 0; i < k.count; ++i) {
     if (k.bias[i] != 0.0) continue;
-    for (const double s : {k.mu, -k.mu}) {
-      const double x = k.nx - s * k.ny, y = k.ny + s * k.nx;
-      const Wrench on_a{-x, -y, -per_a * (k.arm_an[i] + s * k.arm_at[i])};
-      const Wrench on_b{x, y, per_b * (k.arm_bn[i] + s * k.arm_bt[i])};
-      edges_.push_back({.on = is_b ? on_b : on_a,
-                        .on_other = is_b ? on_a : on_b,
-                        .slope = s,
-                        .held = heldAlong(s, k.lambda_n(i), k.lambda_t(i)),
-                        .other = other,
-                        .block = block,
-                        .point = i});
-    }
+    const ConePoint point{.nx = k.nx,
+                          .ny = k.ny,
+                          .arm_an = k.arm_an[i],
+                          .arm_at = k.arm_at[i],
+                          .arm_bn = k.arm_bn[i],
+                          .arm_bt = k.arm_bt[i],
+                          .mu = k.mu,
+                          .lambda_n = k.lambda_n(i),
+                          .lambda_t = k.lambda_t(i)};
+    addEdges(point, is_b, size, other_size, {.other = other, .block = block, .point = i}, edges_);
   }
 }
 

@@ -37,24 +37,23 @@ void listEdges(const State& state, const Push& push, std::vector<ConeEdge>& edge
   const double size = state.extent(rigidOf(push.from)).box.half.norm();
   const Contact& contact = state.contacts[push.slot];
   const Pose pose_a = state.pose(contact.key.a);
-  const Vec2 x_b = state.pose(contact.key.b).position;
   const Vec2 n = pose_a.rotation * contact.normal, t = perpendicular(n);
-  const double mu = frictionOf(state, contact.key.a, contact.key.b);
-  const bool is_b = push.from == contact.key.b;
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
     if (point.lambda_n <= 0.0) continue;  // it may be apart
     const Vec2 p = pose_a * point.position;
-    for (const double s : {mu, -mu}) {
-      const Vec2 e = n + s * t;
-      const double on_a = -cross(p - pose_a.position, e), on_b = cross(p - x_b, e);
-      const double sign = is_b ? 1.0 : -1.0;
-      edges.push_back({.on = {sign * e.x(), sign * e.y(), (is_b ? on_b : on_a) / size},
-                       .on_other = {-sign * e.x(), -sign * e.y(), is_b ? on_a : on_b},
-                       .slope = s,
-                       .held = heldAlong(s, point.lambda_n, point.lambda_t),
-                       .other = static_cast<std::uint32_t>(push.to)});
-    }
+    const Vec2 arm_a = p - pose_a.position, arm_b = p - state.pose(contact.key.b).position;
+    const ConePoint of{.nx = n.x(),
+                       .ny = n.y(),
+                       .arm_an = cross(arm_a, n),
+                       .arm_at = cross(arm_a, t),
+                       .arm_bn = cross(arm_b, n),
+                       .arm_bt = cross(arm_b, t),
+                       .mu = frictionOf(state, contact.key.a, contact.key.b),
+                       .lambda_n = point.lambda_n,
+                       .lambda_t = point.lambda_t};
+    addEdges(of, push.from == contact.key.b, size, 1.0,
+             {.other = static_cast<std::uint32_t>(push.to)}, edges);
   }
 }
 

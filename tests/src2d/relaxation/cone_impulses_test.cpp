@@ -10,16 +10,20 @@ namespace {
 
 constexpr double kFriction = 0.6;
 
-/// Of a box of 1 m on the ground, whose size is taken as 1 m: both edges at both corners, each of
-/// which bears a part of `held`.
+/// A corner of a box of 1 m on the ground, at `x` from its middle, with a normal impulse.
+ConePoint corner(double x, double lambda_n) {
+  return {.nx = 0.0,
+          .ny = 1.0,
+          .arm_bn = x,
+          .arm_bt = -0.5,  // the tangent is the normal turned by +90 degrees: (-1, 0)
+          .mu = kFriction,
+          .lambda_n = lambda_n};
+}
+
+/// Both edges at both corners of that box, whose size is taken as 1 m: each bears a part of `held`.
 std::vector<ConeEdge> feet(double held) {
   std::vector<ConeEdge> edges;
-  for (const double x : {-0.5, 0.5}) {
-    for (const double s : {kFriction, -kFriction}) {
-      // The tangent is the normal turned by +90 degrees: (-1, 0).
-      edges.push_back({.on = {-s, 1.0, x - 0.5 * s}, .slope = s, .held = 0.25 * held});
-    }
-  }
+  for (const double x : {-0.5, 0.5}) addEdges(corner(x, 0.5 * held), true, 1.0, 1.0, {}, edges);
   return edges;
 }
 
@@ -54,11 +58,32 @@ TEST(ConeImpulses, FeetPullByNoMoreThanTheyBear) {
 }
 
 TEST(ConeImpulses, TheEdgesOfAPointAddUpToItsImpulses) {
-  constexpr double kNormal = 2.0, kTangent = -0.7;
-  const double up = heldAlong(kFriction, kNormal, kTangent);
-  const double down = heldAlong(-kFriction, kNormal, kTangent);
-  EXPECT_NEAR(up + down, kNormal, 1e-12);
-  EXPECT_NEAR(kFriction * (up - down), kTangent, 1e-12);
+  ConePoint point = corner(0.5, 2.0);
+  point.lambda_t = -0.7;
+  std::vector<ConeEdge> edges;
+  addEdges(point, true, 1.0, 1.0, {}, edges);
+  Wrench on_box;
+  for (const ConeEdge& edge : edges) on_box += edge.held * edge.on;
+  EXPECT_NEAR(on_box.x, 0.7, 1e-12);
+  EXPECT_NEAR(on_box.y, 2.0, 1e-12);
+  EXPECT_NEAR(on_box.spin, 0.5 * 2.0 - 0.5 * -0.7, 1e-12);
+}
+
+/// What a point does to one body it does to the other the other way round.
+TEST(ConeImpulses, AnEdgePushesBothBodiesAlike) {
+  ConePoint point = corner(0.5, 2.0);
+  point.arm_an = point.arm_bn;
+  point.arm_at = point.arm_bt;
+  std::vector<ConeEdge> seen_by_b, seen_by_a;
+  addEdges(point, true, 2.0, 4.0, {}, seen_by_b);
+  addEdges(point, false, 4.0, 2.0, {}, seen_by_a);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ConeEdge &b = seen_by_b[i], &a = seen_by_a[i];
+    EXPECT_EQ(b.on.x, a.on_other.x);
+    EXPECT_EQ(b.on.spin, a.on_other.spin);
+    EXPECT_EQ(b.on.y, -b.on_other.y);
+    EXPECT_EQ(b.on.spin, -2.0 * b.on_other.spin);
+  }
 }
 
 }  // namespace
