@@ -255,31 +255,35 @@ void listWeldsOfMembers(Collection& c) {
 // start.
 void layOutPush(const State& state, Collection& c) {
   c.push.assign(c.members.size(), {});
-  const auto add = [&](std::uint32_t b, double sign, const Vec2& impulse, double moment) {
-    if (b >= state.bodies.size() || state.bodies[b].rigid != c.rigid) return;
-    Twist& push = c.push[state.rigids[b].member];
-    push.vx += sign * impulse.x();
-    push.vy += sign * impulse.y();
-    push.omega += sign * moment;
+  struct End {
+    Twist* push = nullptr;  ///< null: no member
+    double mass = 1.0, inertia = 1.0;
+    void add(double sign, const Vec2& impulse, double moment) const {
+      if (!push) return;
+      push->vx += sign * impulse.x() / mass;
+      push->vy += sign * impulse.y() / mass;
+      push->omega += sign * moment / inertia;
+    }
+  };
+  const auto endOf = [&](std::uint32_t b) -> End {
+    if (b >= state.bodies.size() || state.bodies[b].rigid != c.rigid) return {};
+    return {&c.push[state.rigids[b].member], state.bodies[b].mass, state.bodies[b].inertia};
   };
   for (const ContactBlock& k : c.blocks) {
+    const End a = endOf(k.a), b = endOf(k.b);
     const Vec2 n(k.nx, k.ny), t = perpendicular(n);
-    Vec2 impulse = Vec2::Zero();
-    double moment_a = k.lambda_r(), moment_b = k.lambda_r();
     for (int i = 0; i < k.count; ++i) {
-      impulse += k.lambda_n(i) * n + k.lambda_t(i) * t;
-      moment_a += k.arm_an[i] * k.lambda_n(i) + k.arm_at[i] * k.lambda_t(i);
-      moment_b += k.arm_bn[i] * k.lambda_n(i) + k.arm_bt[i] * k.lambda_t(i);
+      const Vec2 impulse = k.lambda_n(i) * n + k.lambda_t(i) * t;
+      a.add(-1.0, impulse, k.arm_an[i] * k.lambda_n(i) + k.arm_at[i] * k.lambda_t(i));
+      b.add(1.0, impulse, k.arm_bn[i] * k.lambda_n(i) + k.arm_bt[i] * k.lambda_t(i));
     }
-    add(k.a, -1.0, impulse, moment_a);
-    add(k.b, 1.0, impulse, moment_b);
+    if (!k.rolls()) continue;
+    a.add(-1.0, Vec2::Zero(), k.lambda_r());
+    b.add(1.0, Vec2::Zero(), k.lambda_r());
   }
-  addJointPush(c, add);
-  for (std::uint32_t m = 0; m < c.members.size(); ++m) {
-    const Body& body = state[c.members[m]];
-    Twist& push = c.push[m];
-    push = {push.vx / body.mass, push.vy / body.mass, push.omega / body.inertia};
-  }
+  addJointPush(c, [&](std::uint32_t b, double sign, const Vec2& impulse, double moment) {
+    endOf(b).add(sign, impulse, moment);
+  });
 }
 
 namespace {

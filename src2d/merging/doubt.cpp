@@ -8,6 +8,7 @@
 #include "src2d/merging/disturbance.h"
 #include "src2d/proofs/load_certificate.h"
 #include "src2d/relaxation/open_solve.h"
+#include "src2d/relaxation/passed_load.h"
 #include "src2d/relaxation/proof_search.h"
 
 namespace merge2d {
@@ -87,6 +88,10 @@ Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
   if (searches && !proof.in_doubt && leadsTo(state, c, load)) return Doubt::Search;
   bringBlocksBack(state, c);
   writeImpulses(c);
+  if (passesOn(state, scratch, c, load)) {
+    c.settled = true;
+    return Doubt::None;
+  }
   beginSearch(state, c, load);
   return Doubt::Search;
 }

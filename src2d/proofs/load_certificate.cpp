@@ -64,6 +64,11 @@ using Gram = std::array<double, kWitnesses * kWitnesses>;
 /// leaves.
 double leftOfRest(const State& state) { return kOuterWeight * toleratedResidual(state); }
 
+/// So much may be left over of a load of that norm [m/s].
+double mostLeft(const State& state, double norm) {
+  return std::max(leftOfRest(state), kDecided.left_over * norm);
+}
+
 /// The nearest combination of the first `n` loads of `gram` to one of products `b` and square `ll`.
 /// Loads are known but for `rounding` [m/s]: one of nothing else must not get a weight.
 Projection project(Gram gram, const LoadCertificate::Weights& b, std::size_t n, double ll,
@@ -116,10 +121,8 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
   LoadCertificate& proof = c.certificate.front();
   const std::size_t n = proof.witnesses.size();
   if (n == 0) return false;
-  const double least = leftOfRest(state);
-  const auto most = [&](double norm) { return std::max(least, kDecided.left_over * norm); };
-  const double frame = most(load.norm);
-  const double outer = frame + most(kOuterWeight * load.outer_norm);
+  const double frame = mostLeft(state, load.norm);
+  const double outer = frame + mostLeft(state, kOuterWeight * load.outer_norm);
   const double scale = frame * frame / (outer * outer);  // of the loads from outside
   if (leftByWeights(state, c, load, scale) <= frame * frame &&
       motionOf(proof, proof.weights) <= cutSpeed(state)) {
@@ -137,12 +140,24 @@ bool covers(const State& state, Collection& c, const CollectionLoad& load) {
     }
   }
   const double ll = load.norm * load.norm;
-  const Projection p = project(gram, b, n, ll + scale * (square(load) - ll), least);
+  const Projection p = project(gram, b, n, ll + scale * (square(load) - ll), leftOfRest(state));
   if (!(p.left <= frame * frame)) return false;  // nor where they are no numbers
   if (motionOf(proof, p.weights) > cutSpeed(state)) return false;
   proof.lambda_stale |= p.weights != proof.weights;
   proof.weights = p.weights;
   return true;
+}
+
+bool isNewOutsideAlone(const State& state, const Collection& c, const CollectionLoad& load) {
+  const auto& witnesses = c.certificate.front().witnesses;
+  if (witnesses.empty()) return false;
+  const FrameLoad& known = witnesses.back().frame;
+  double left = 0.0;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    left += (load.frame[i] - known[i]) * (load.frame[i] - known[i]);
+  }
+  const double most = mostLeft(state, load.norm);
+  return left <= most * most;
 }
 
 bool leadsTo(const State& state, const Collection& c, const CollectionLoad& load) {

@@ -20,6 +20,9 @@ void restart(const State& state, LoadCertificate& proof);
 /// combination.
 bool covers(const State& state, Collection& c, const CollectionLoad& load);
 
+/// True when the latest proof carries this load but for the forces from outside.
+bool isNewOutsideAlone(const State& state, const Collection& c, const CollectionLoad& load);
+
 /// True while a load is nearer to the one that is sought ahead than where that search began.
 bool leadsTo(const State& state, const Collection& c, const CollectionLoad& load);
 

@@ -6,15 +6,47 @@
 #include "src2d/relaxation/region_members.h"
 
 namespace merge2d {
+namespace {
+
+Vec2 directionOf(double x, double y) {
+  const Vec2 v(x, y);
+  const double length = v.norm();
+  return length > 0.0 ? Vec2(v / length) : Vec2(Vec2::UnitX());
+}
+
+}  // namespace
 
 LoadPath::LoadPath(const State& state, const Scratch& scratch, const Collection& c)
     : state_(state), scratch_(scratch), c_(c) {}
 
-bool LoadPath::find(std::uint32_t member, const Twist& gain, double tolerance) {
+bool LoadPath::find(const MemberLoad& load, double tolerance) {
   tolerance_ = tolerance;
-  const double speed = Vec2(gain.vx, gain.vy).norm();
-  const Vec2 along = speed > 0.0 ? Vec2(Vec2(gain.vx, gain.vy) / speed) : Vec2(Vec2::UnitX());
-  return find(member, gain, along) || find(member, gain, -along);
+  const Vec2 along = directionOf(load.gain.vx, load.gain.vy);
+  const std::span<const MemberLoad> alone(&load, 1);
+  return find(alone, along) || find(alone, -along);
+}
+
+bool LoadPath::find(std::span<const MemberLoad> loads, const FrameLoad& frame, double tolerance) {
+  tolerance_ = tolerance;
+  return find(loads, directionOf(frame[0], frame[1]));
+}
+
+bool LoadPath::find(std::span<const MemberLoad> loads, const Vec2& along) {
+  ++attempt_;
+  nodes_.resize(c_.members.size());
+  along_ = along;
+  front_.clear();
+  changes_.clear();
+  for (const MemberLoad& load : loads) {
+    const Body& body = state_[c_.members[load.member]];
+    const double moment = body.inertia * load.gain.omega;
+    add(load.member,
+        {body.mass * load.gain.vx, body.mass * load.gain.vy, moment / nodeOf(load.member).size});
+  }
+  while (!front_.empty()) {
+    if (!passOn(takeFirst())) return false;
+  }
+  return true;
 }
 
 void LoadPath::apply(Collection& c) {
@@ -30,21 +62,6 @@ void LoadPath::restore(Collection& c) {
   for (; !before_.empty(); before_.pop_back()) {
     c.blocks[before_.back().first].lambda = before_.back().second;
   }
-}
-
-bool LoadPath::find(std::uint32_t member, const Twist& gain, const Vec2& along) {
-  ++attempt_;
-  nodes_.resize(c_.members.size());
-  along_ = along;
-  front_.clear();
-  changes_.clear();
-  const Body& body = state_[c_.members[member]];
-  const double moment = body.inertia * gain.omega;
-  add(member, {body.mass * gain.vx, body.mass * gain.vy, moment / nodeOf(member).size});
-  while (!front_.empty()) {
-    if (!passOn(takeFirst())) return false;
-  }
-  return true;
 }
 
 /// To the bodies behind its contacts. False where these cannot take it.

@@ -4,6 +4,7 @@
 /// Where the contacts on the way can take their parts, nothing moves: admissible impulses form a
 /// convex cone, and those of the load are added to those that there are.
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,7 +13,13 @@
 
 namespace merge2d {
 
-/// Passes the load on a member from body to body, each farther along it than the one before.
+/// A velocity that something gives to a member.
+struct MemberLoad {
+  std::uint32_t member = 0;
+  Twist gain;
+};
+
+/// Passes loads on members from body to body, each farther along a direction than the one before.
 class LoadPath {
  public:
   /// Members of open regions take nothing. The welds must be listed by member.
@@ -21,7 +28,10 @@ class LoadPath {
   /// Whether the contacts can pass a change of velocity of a member on to the frame, along it, or
   /// against it where impulses end, so that no body on the way keeps more than the velocity
   /// `tolerance` [m/s]. False tells nothing: there may be other ways.
-  bool find(std::uint32_t member, const Twist& gain, double tolerance);
+  bool find(const MemberLoad& load, double tolerance);
+
+  /// The same for several loads at once, along the one that the frame's motion gives.
+  bool find(std::span<const MemberLoad> loads, const FrameLoad& frame, double tolerance);
 
   /// Adds the impulses of the way that was found to the blocks, for the next load to meet.
   void apply(Collection& c);
@@ -45,14 +55,16 @@ class LoadPath {
     double n = 0.0, t = 0.0;
   };
 
-  bool find(std::uint32_t member, const Twist& gain, const Vec2& along);
+  bool find(std::span<const MemberLoad> loads, const Vec2& along);
   bool passOn(std::uint32_t member);
   void add(std::uint32_t member, const Wrench& load);
   std::uint32_t takeFirst();
   void listEdges(std::uint32_t member);
   void listEdges(std::uint32_t block, std::uint32_t member, std::uint32_t other);
   Node& nodeOf(std::uint32_t member);
-  bool isOpen(std::uint32_t member) const { return scratch_.open[index(c_.members[member])] != 0; }
+  bool isOpen(std::uint32_t member) const {
+    return !scratch_.open.empty() && scratch_.open[index(c_.members[member])] != 0;
+  }
   bool isBefore(std::uint32_t a, std::uint32_t b) const {
     return nodes_[a].depth < nodes_[b].depth || (nodes_[a].depth == nodes_[b].depth && a < b);
   }

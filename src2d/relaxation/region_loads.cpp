@@ -14,35 +14,23 @@
 namespace merge2d {
 namespace {
 
-/// The velocity of a member that the impulses inside leave over.
-struct Unbalanced {
-  std::uint32_t member = 0;
-  Twist left;
-};
-
-Twist leftOver(const Collection& c, std::uint32_t member, const Twist& load) {
-  const Twist& push = c.push[member];
-  return {load.vx + push.vx, load.vy + push.vy, load.omega + push.omega};
-}
-
 /// Whether a weld of the member parts at that velocity.
 bool isFast(const State& state, const Collection& c, std::uint32_t member, const Twist& u) {
-  const double reach = state.extent(rigidOf(c.members[member])).box.half.norm();
-  const double speed = Vec2(u.vx, u.vy).norm() + reach * std::abs(u.omega);
+  const double speed = cornerSpeed(state, c, member, u);
   return speed > cutSpeed(state) && speed > slowestCut(state, c, member);
 }
 
 /// Whether contacts can pass it on, but for a residual.
-bool findPath(const State& state, const Collection& c, const Unbalanced& one, LoadPath& path) {
-  return path.find(one.member, one.left, kDecided.tolerance * slowestCut(state, c, one.member));
+bool findPath(const State& state, const Collection& c, const MemberLoad& one, LoadPath& path) {
+  return path.find(one, kDecided.tolerance * slowestCut(state, c, one.member));
 }
 
 /// Leaves the others in `region.imbalance`.
-std::vector<Unbalanced> findUnbalanced(State& state, const CollectionLoad& load, Collection& c,
+std::vector<MemberLoad> findUnbalanced(State& state, const CollectionLoad& load, Collection& c,
                                        OpenRegion& region) {
   loadMembers(state, c, load, region.imbalance);
   layOutPush(state, c);
-  std::vector<Unbalanced> found;
+  std::vector<MemberLoad> found;
   for (std::uint32_t m = 0; m < region.imbalance.size(); ++m) {
     Twist& left = region.imbalance[m];
     left = leftOver(c, m, left);
@@ -54,18 +42,16 @@ std::vector<Unbalanced> findUnbalanced(State& state, const CollectionLoad& load,
 /// Passes the rest of the load on, but of members on which something acts from outside. It lasts,
 /// so the impulses stay. False where contacts cannot.
 bool passOn(const State& state, const Scratch& scratch, Collection& c, const CollectionLoad& load,
-            const std::vector<Unbalanced>& unbalanced) {
+            std::vector<MemberLoad> unbalanced) {
+  std::erase_if(unbalanced, [&](const MemberLoad& one) {
+    return std::ranges::binary_search(load.outer, one.member, {}, &OuterLoad::member);
+  });
+  if (unbalanced.empty()) return true;
   LoadPath path(state, scratch, c);
-  bool all = true, any = false;
-  for (const Unbalanced& one : unbalanced) {
-    if (std::ranges::binary_search(load.outer, one.member, {}, &OuterLoad::member)) continue;
-    all = findPath(state, c, one, path);
-    if (!all) break;
-    path.apply(c);
-    any = true;
-  }
-  if (any) layOutPush(state, c);
-  return all;
+  if (!path.find(unbalanced, load.frame, toleratedResidual(state))) return false;
+  path.apply(c);
+  layOutPush(state, c);
+  return true;
 }
 
 void addMet(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
@@ -81,11 +67,11 @@ void addMet(State& state, Scratch& scratch, const Collection& c, OpenRegion& reg
 
 void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
   const CollectionLoad load = loadOn(state, scratch, c);
-  const std::vector<Unbalanced> unbalanced = findUnbalanced(state, load, c, region);
+  const std::vector<MemberLoad> unbalanced = findUnbalanced(state, load, c, region);
   region.passes = isHit(state, c) && passOn(state, scratch, c, load, unbalanced);
   if (region.passes) return;
   addMet(state, scratch, c, region);
-  for (const Unbalanced& one : unbalanced) addIfOutside(state, scratch, region, one.member);
+  for (const MemberLoad& one : unbalanced) addIfOutside(state, scratch, region, one.member);
 }
 
 void addDisturbed(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
@@ -97,8 +83,8 @@ void addDisturbed(State& state, Scratch& scratch, Collection& c, OpenRegion& reg
     Twist u = velocityAt(state, c, load.frame, state[c.members[m]].local);
     const Twist gain = gainOf(state, c, load, outer);
     u = {u.vx + gain.vx, u.vy + gain.vy, u.omega + gain.omega / load.size};
-    const Unbalanced one{m, leftOver(c, m, u)};
-    if (!isFast(state, c, m, one.left)) continue;
+    const MemberLoad one{m, leftOver(c, m, u)};
+    if (!isFast(state, c, m, one.gain)) continue;
     if (region.passes && findPath(state, c, one, path)) {
       path.apply(c);
     } else {

@@ -1,6 +1,7 @@
 #include "src2d/relaxation/region_members.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "src2d/proofs/decided_settings.h"
@@ -33,6 +34,16 @@ void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t
   }
   scratch.open[index(b)] = 1;
   region.members.push_back(member);
+}
+
+Twist leftOver(const Collection& c, std::uint32_t member, const Twist& load) {
+  const Twist& push = c.push[member];
+  return {load.vx + push.vx, load.vy + push.vy, load.omega + push.omega};
+}
+
+double cornerSpeed(const State& state, const Collection& c, std::uint32_t member, const Twist& u) {
+  const double reach = state.extent(rigidOf(c.members[member])).box.half.norm();
+  return Vec2(u.vx, u.vy).norm() + reach * std::abs(u.omega);
 }
 
 double slowestCut(const State& state, const Collection& c, std::uint32_t member) {

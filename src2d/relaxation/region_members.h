@@ -18,6 +18,12 @@ void forEachBlock(const Collection& c, const Weld& weld, Visit&& visit) {
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) visit(c.contacts[i].block);
 }
 
+/// The velocity that the impulses inside leave of a load on a member. Their push must be laid out.
+Twist leftOver(const Collection& c, std::uint32_t member, const Twist& load);
+
+/// How fast a corner of a member's box may move [m/s].
+double cornerSpeed(const State& state, const Collection& c, std::uint32_t member, const Twist& u);
+
 /// Slower than this no weld of a member parts [m/s].
 double slowestCut(const State& state, const Collection& c, std::uint32_t member);
 

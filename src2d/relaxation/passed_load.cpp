@@ -1,0 +1,61 @@
+#include "src2d/relaxation/passed_load.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "src2d/collections/collection.h"
+#include "src2d/proofs/decided_settings.h"
+#include "src2d/proofs/load_certificate.h"
+#include "src2d/relaxation/load_path.h"
+#include "src2d/relaxation/region_members.h"
+
+namespace merge2d {
+namespace {
+
+/// What the impulses inside leave of a load.
+struct Remainder {
+  std::vector<MemberLoad> loads;  ///< on members that move faster than the tolerance
+  double speed = 0.0;             ///< of the others [m/s]
+};
+
+Remainder remainderOf(const State& state, Collection& c, const CollectionLoad& load,
+                      double tolerance) {
+  std::vector<Twist> gains;
+  loadMembers(state, c, load, gains);
+  layOutPush(state, c);
+  Remainder rest;
+  for (std::uint32_t m = 0; m < gains.size(); ++m) {
+    const Twist left = leftOver(c, m, gains[m]);
+    const double speed = cornerSpeed(state, c, m, left);
+    if (speed > tolerance) {
+      rest.loads.push_back({m, left});
+    } else {
+      rest.speed = std::max(rest.speed, speed);
+    }
+  }
+  return rest;
+}
+
+}  // namespace
+
+bool passesOn(const State& state, const Scratch& scratch, Collection& c,
+              const CollectionLoad& load) {
+  if (!opensInPart(state, c) || !isNewOutsideAlone(state, c, load)) return false;
+  const double tolerance = toleratedResidual(state);
+  const Remainder rest = remainderOf(state, c, load, tolerance);
+  listWeldsOfMembers(c);
+  LoadPath path(state, scratch, c);
+  const bool found = path.find(rest.loads, load.frame, kDecided.tolerance * tolerance);
+  if (!found) return false;
+  path.apply(c);
+  c.residual = static_cast<float>(rest.speed);
+  Witness witness = asWitness(state, c, load);
+  readImpulses(c, witness);
+  witness.motion = 2.0 * rest.speed;  // of two members against each other
+  remember(state, c, std::move(witness));
+  c.certificate.front().in_doubt = false;
+  return true;
+}
+
+}  // namespace merge2d
