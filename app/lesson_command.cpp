@@ -267,7 +267,7 @@ void addLessonCommand(CLI::App& program, Action& action) {
   command->add_flag("--embed", options->embed,
                     "A compact page for slides, notebooks and frames in other pages");
   command->add_flag("--no-live", options->no_live,
-                    "Leave the engine out (0.7 MB): the page plays the prepared run, and nobody "
+                    "Leave the engine out (1 MB): the page plays the prepared run, and nobody "
                     "can take it over");
   addGeneralOptions(*command, *options);
   command->callback([&action, options] { action = [options] { run(*options); }; });

@@ -5,7 +5,7 @@
 #include "src2d/collections/collection.h"
 #include "src2d/contact/parking.h"
 #include "src2d/merging/unmerge.h"
-#include "src2d/proofs/load_certificate.h"
+#include "src2d/proofs/proof_impulses.h"
 #include "src2d/setup.h"
 #include "src2d/sleeping/sleep.h"
 

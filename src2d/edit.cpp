@@ -11,7 +11,7 @@
 #include "src2d/contact/table.h"
 #include "src2d/core/error.h"
 #include "src2d/merging/unmerge.h"
-#include "src2d/proofs/load_certificate.h"
+#include "src2d/proofs/proof_impulses.h"
 
 namespace merge2d {
 namespace {

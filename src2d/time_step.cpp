@@ -5,7 +5,7 @@
 
 #include "src2d/collections/collection.h"
 #include "src2d/edit.h"
-#include "src2d/proofs/load_certificate.h"
+#include "src2d/proofs/proof_impulses.h"
 
 namespace merge2d {
 namespace {

@@ -7,6 +7,7 @@
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
+#include "src2d/proofs/proof_impulses.h"
 #include "src2d/proofs/proof_transfer.h"
 
 namespace merge2d {

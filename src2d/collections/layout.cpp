@@ -11,6 +11,7 @@
 #include "src2d/collections/joint_sweep.h"
 #include "src2d/collections/joint_welds.h"
 #include "src2d/core/memory.h"
+#include "src2d/proofs/proof_impulses.h"
 #include "src2d/proofs/proof_transfer.h"
 
 namespace merge2d {

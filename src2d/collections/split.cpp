@@ -8,6 +8,7 @@
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
 #include "src2d/proofs/decided_settings.h"
+#include "src2d/proofs/proof_impulses.h"
 #include "src2d/proofs/proof_transfer.h"
 
 namespace merge2d {

@@ -14,7 +14,8 @@ namespace merge2d {
 /// The source of a criterion that is not the paper's: a page, and its section.
 inline constexpr std::string_view kOwnMerging = "docs/decisions/cures.md#when-to-merge",
                                   kOwnSleeping = "docs/decisions/cures.md#when-to-sleep",
-                                  kOwnDecided = "docs/decisions/decided.md#decision";
+                                  kOwnDecided = "docs/decisions/decided.md#decision",
+                                  kOwnCycles = "docs/cycles.md";
 
 /// One test of one criterion about a pair: the number, the threshold, and what followed. The words
 /// for it are in docs/records.md.

@@ -38,7 +38,7 @@ struct Stats {
   int collections = 0;
   int asleep = 0;                         ///< bodies asleep
   int contacts = 0;                       ///< contact points in the full solve
-  int internal_contacts = 0;              ///< contact points swept once inside collections
+  int internal_contacts = 0;              ///< contact points inside awake collections
   double residual = 0.0;                  ///< of the full solve after its last sweep: |Δλ| / |λ|
   double max_penetration = 0.0;           ///< [m]
   double kinetic_energy = 0.0;            ///< [J]

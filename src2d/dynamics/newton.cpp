@@ -31,13 +31,18 @@ class InteriorPoint {
   void addBlock(const ContactBlock& k) {
     const Vec2 n(k.nx, k.ny), t(-k.ny, k.nx);
     const double belts = u_[k.a].surface + u_[k.b].surface;
-    if (k.count == 2 && !k.bilateral) {
+    if (k.count == 2 && !k.bilateral && k.hits == 0) {
       pairs_.push_back({&k, static_cast<std::uint32_t>(groups_.size())});
     }
     for (int i = 0; i < k.count; ++i) {
-      const auto normal = rows_.add(k.a, k.b, n, k.arm_an[i], k.arm_bn[i], k.bias[i]);
+      const bool is_hit = (k.hits >> i & 1) != 0;
+      const auto normal =
+          rows_.add(k.a, k.b, n, k.arm_an[i], k.arm_bn[i], is_hit ? 0.0 : k.bias[i]);
       const auto tangent = rows_.add(k.a, k.b, t, k.arm_at[i], k.arm_bt[i], belts);
-      if (k.bilateral) {
+      if (is_hit) {
+        addImpulse(normal, k.softness, 0.0, 0.0, 0.0);
+        addImpulse(tangent, 0.0, 0.0, 0.0, 0.0);
+      } else if (k.bilateral) {
         addImpulse(normal, k.softness, -kUnbounded, kUnbounded, k.lambda_n(i));
         addImpulse(tangent, 0.0, -kUnbounded, kUnbounded, k.lambda_t(i));
       } else {
@@ -61,12 +66,14 @@ class InteriorPoint {
   }
 
   std::size_t unknowns() const { return unknowns_.size(); }
+  bool converged() const { return converged_; }
 
   /// Takes some steps. True where that was the last one.
   bool run(double tolerance, NewtonIterate& iterate, int most_steps) {
     iterate.unknowns.empty() ? start(tolerance) : swapWith(iterate);
     for (int step = 0;; ++step, ++iterate.steps) {
-      if (findErrors() <= exact_ || iterate.steps == kMostSteps) break;
+      converged_ = findErrors() <= exact_;
+      if (converged_ || iterate.steps == kMostSteps) break;
       if (step == most_steps) {
         swapWith(iterate);
         return false;
@@ -362,15 +369,39 @@ class InteriorPoint {
   std::vector<BoundedImpulse> unknowns_;
   std::vector<Twist> u_now_, momenta_, direction_;
   double exact_ = 0.0;
+  bool converged_ = false;
   std::size_t next_ = 0;
 };
 
-void solveByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
-                   std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
-                   double tolerance) {
+namespace {
+
+std::shared_ptr<InteriorPoint> pointOf(std::span<const ContactBlock> blocks,
+                                       std::span<const JointBlock> joints,
+                                       std::span<const std::uint32_t> bodies,
+                                       const std::vector<SolverVelocity>& u) {
+  auto point = std::make_shared<InteriorPoint>(bodies, u);
+  for (const ContactBlock& k : blocks) point->addBlock(k);
+  for (const JointBlock& k : joints) point->addJoint(k);
+  return point;
+}
+
+void takeAll(InteriorPoint& point, std::span<ContactBlock> blocks, std::span<JointBlock> joints,
+             std::vector<SolverVelocity>& u) {
+  for (ContactBlock& k : blocks) point.takeImpulses(k);
+  for (JointBlock& k : joints) point.takeImpulses(k);
+  for (const ContactBlock& k : blocks) applyImpulses(k, u[k.a], u[k.b]);
+  for (const JointBlock& k : joints) applyJointImpulses(k, {}, u[k.a], u[k.b]);
+}
+
+}  // namespace
+
+bool solveByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
+                   std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u) {
   NewtonIterate iterate;
-  NewtonWorkspace workspace;
-  continueByNewton(blocks, joints, bodies, u, tolerance, iterate, kMostSteps, workspace);
+  const auto point = pointOf(blocks, joints, bodies, u);
+  point->run(0.0, iterate, kMostSteps);
+  if (point->converged()) takeAll(*point, blocks, joints, u);
+  return point->converged();
 }
 
 bool continueByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
@@ -378,18 +409,12 @@ bool continueByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> join
                       double tolerance, NewtonIterate& iterate, int most_steps,
                       NewtonWorkspace& workspace) {
   if (iterate.unknowns.empty() || !workspace.point) {
-    workspace.point = std::make_shared<InteriorPoint>(bodies, u);
-    for (const ContactBlock& k : blocks) workspace.point->addBlock(k);
-    for (const JointBlock& k : joints) workspace.point->addJoint(k);
+    workspace.point = pointOf(blocks, joints, bodies, u);
     if (iterate.unknowns.size() != workspace.point->unknowns()) iterate = {};  // it begins
   }
-  InteriorPoint& solver = *workspace.point;
-  if (!solver.run(tolerance, iterate, most_steps)) return false;
+  if (!workspace.point->run(tolerance, iterate, most_steps)) return false;
   iterate = {};
-  for (ContactBlock& k : blocks) solver.takeImpulses(k);
-  for (JointBlock& k : joints) solver.takeImpulses(k);
-  for (const ContactBlock& k : blocks) applyImpulses(k, u[k.a], u[k.b]);
-  for (const JointBlock& k : joints) applyJointImpulses(k, {}, u[k.a], u[k.b]);
+  takeAll(*workspace.point, blocks, joints, u);
   workspace = {};
   return true;
 }

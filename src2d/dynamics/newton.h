@@ -20,15 +20,16 @@
 namespace merge2d {
 
 /// Solves the rows of an island from the impulses that they have. `u` holds the velocities of its
-/// `bodies` before any of these impulses [m/s], and then those after all of them. Rows may miss
-/// their velocities by `tolerance` afterwards [m/s].
-void solveByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
-                   std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
-                   double tolerance = 0.0);
+/// `bodies` before any of these impulses [m/s], and then those after all of them. False where it
+/// has not converged, as a factorisation was lost to rounding: nothing is changed then, and sweeps
+/// must do.
+bool solveByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
+                   std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u);
 
 /// The same in parts, of at most so many steps each, with the same blocks, joints and velocities:
-/// false where the solve goes on, and has changed nothing but the iterate. The workspace is that of
-/// the part before, or empty.
+/// false where the solve goes on, and has changed nothing but the iterate. Rows may miss their
+/// velocities by `tolerance` afterwards [m/s]; by more where it has not converged. The workspace is
+/// that of the part before, or empty.
 bool continueByNewton(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
                       std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u,
                       double tolerance, NewtonIterate& iterate, int most_steps,

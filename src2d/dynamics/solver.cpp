@@ -151,9 +151,9 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   const std::span joints(scratch.joint_blocks.data() + island.first_joint,
                          island.last_joint - island.first_joint);
   auto& u = scratch.u;
-  if (settings.method == SolverMethod::Newton) {
-    solveByNewton(blocks, joints, bodies, u);
-  } else {
+  const bool direct =
+      settings.method == SolverMethod::Newton && solveByNewton(blocks, joints, bodies, u);
+  if (!direct) {
     warmStart(blocks, u);
     warmStartJoints(joints, u);
   }

@@ -12,6 +12,7 @@
 #include "src2d/dynamics/contact_limits.h"
 #include "src2d/merging/metric.h"
 #include "src2d/proofs/load_certificate.h"
+#include "src2d/proofs/proof_impulses.h"
 #include "src2d/relaxation/open_region.h"
 #include "src2d/relaxation/open_solve.h"
 #include "src2d/relaxation/proof_search.h"

@@ -6,7 +6,7 @@
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/casts.h"
 #include "src2d/dynamics/hit_rows.h"
-#include "src2d/merging/kicked.h"
+#include "src2d/merging/expected_contacts.h"
 
 namespace merge2d {
 namespace {
@@ -118,7 +118,7 @@ void reportImpacts(const State& state, Scratch& scratch) {
                                         .b = pair.b,
                                         .stage = "ContactOrdering",
                                         .criterion = "impact",
-                                        .equation = "Section 6.2",
+                                        .equation = kOwnDecided,
                                         .value = speed,
                                         .threshold = threshold,
                                         .verdict = hits ? "impact" : "touch"});
@@ -132,7 +132,7 @@ double impactSpeed(const State& state) {
 }
 
 void orderContacts(State& state, Scratch& scratch) {
-  expectContactsOfKicked(state, scratch);
+  expectContactsOfStruck(state, scratch);
   findMeetings(state, scratch);
   reportImpacts(state, scratch);
   scratch.seeds.clear();

@@ -71,9 +71,10 @@ void noteGroups(const State& state, Scratch& scratch, const Groups& group) {
     }
   }
   groups.write();
+  const bool by_cycles = state.settings.merging.cycles == CycleCriterion::Triangle;
   for (const ReadyPair& edge : scratch.ready) {
     Decision test{.criterion = "cycle",
-                  .equation = "Section 8.2",
+                  .equation = by_cycles ? "Section 8.2" : kOwnCycles,
                   .value = static_cast<double>(edge.contacts),
                   .threshold = 2.0,
                   .verdict = held(edge) ? "merge" : "wait"};

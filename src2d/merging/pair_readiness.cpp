@@ -115,7 +115,7 @@ bool PairTest::ready() {
   if (loud && !notes_) return false;  // the dearer question need not be asked
   if (mergingMethod(state_).refuses_edge) {
     const bool slides = seen.on_edge == seen.active && aboutToSlide(state_, pair_);
-    ok &= note("edge", "(20)", seen.on_edge, seen.active, !slides);
+    ok &= note("edge", kOwnMerging, seen.on_edge, seen.active, !slides);
   }
   if (!ok && !notes_) return false;
   ok &= below("sliding", "(18)", seen.fastest_slip, scale * m.sliding);

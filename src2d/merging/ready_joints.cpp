@@ -46,8 +46,8 @@ void countQuietJoints(State& state, Scratch& scratch) {
     const double breathing = scale * m.breathing, velocity = scale * m.velocity;
     const bool quiet = joint.breath < breathing && motion < velocity;
     const int now = quiet ? joint.quiet_steps + 1 : 0;
-    record(scratch, joint, "breathing", "Section 5.3", joint.breath, breathing, now, m.steps);
-    record(scratch, joint, "relative-motion", "(17)", motion, velocity, now, m.steps);
+    record(scratch, joint, "breathing", kOwnMerging, joint.breath, breathing, now, m.steps);
+    record(scratch, joint, "relative-motion", kOwnMerging, motion, velocity, now, m.steps);
     joint.yielded = {};
     joint.quiet_steps = now;
   }

@@ -35,7 +35,7 @@ class Refused {
 void noteJoint(const State& state, Notes* notes, const JointEdge& joint) {
   noteMerge(state, notes, {joint.a, joint.b, 0, 0},
             {.criterion = "freedoms",
-             .equation = "Section 8.2",
+             .equation = kOwnMerging,
              .value = static_cast<double>(joint.freedoms),
              .threshold = kFreedoms,
              .verdict = joint.contacts > 0 ? "merge" : "wait"});

@@ -6,7 +6,7 @@
 #include "src2d/collections/cuts.h"
 #include "src2d/contact/detection.h"
 #include "src2d/dynamics/hits.h"
-#include "src2d/merging/kicked.h"
+#include "src2d/merging/expected_contacts.h"
 #include "src2d/merging/rule.h"
 
 namespace merge2d {

@@ -37,22 +37,10 @@ Witness beyond(const LoadCertificate& proof, const Witness& load, double part, d
 Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
                    std::uint32_t member);
 
-/// Puts the impulses that stand in blocks and joints into a witness, or takes them from there.
-void readImpulses(const Collection& c, Witness& to);
-void swapImpulses(Collection& c, Witness& with);
-
-/// The impulses that would carry a load if they were linear in it: extrapolated from those of the
-/// witnesses, and brought back to their limits. None without witnesses.
-void predictImpulses(const Collection& c, Witness& load);
-
 /// Keeps a witness.
 void remember(const State& state, Collection& c, Witness&& witness);
 
 /// Drops all proofs, and has others sought for any load.
 void forgetProofs(Collection& c);
-
-/// Writes the impulses that belong to the weights into blocks, or contacts without one, and joints.
-/// To be called before anything reads them there: in a steady step nothing does.
-void writeImpulses(Collection& c);
 
 }  // namespace merge2d

@@ -7,7 +7,7 @@
 #include "src2d/core/index_set.h"
 #include "src2d/proofs/collection_load.h"
 #include "src2d/proofs/decided_settings.h"
-#include "src2d/proofs/load_certificate.h"
+#include "src2d/proofs/proof_impulses.h"
 #include "src2d/relaxation/region_loads.h"
 #include "src2d/relaxation/region_members.h"
 

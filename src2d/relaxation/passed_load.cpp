@@ -7,6 +7,7 @@
 #include "src2d/collections/collection.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/load_certificate.h"
+#include "src2d/proofs/proof_impulses.h"
 #include "src2d/relaxation/load_path.h"
 #include "src2d/relaxation/region_members.h"
 

@@ -8,6 +8,7 @@
 
 #include "src2d/collections/collection.h"
 #include "src2d/dynamics/newton.h"
+#include "src2d/proofs/proof_impulses.h"
 #include "src2d/relaxation/relaxation.h"
 
 namespace merge2d {

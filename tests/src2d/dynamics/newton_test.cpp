@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
+#include "src2d/scene/load.h"
 #include "tests/support/modes_and_steps.h"
 #include "tests/support/scenes.h"
 
@@ -120,6 +122,43 @@ TEST(Newton, MotorsAndLimitsKeepTheirBounds) {
   };
   EXPECT_NEAR(angleWith(5.0), -30.0, 0.1) << "its weight is worth 9.81 N m";
   EXPECT_NEAR(angleWith(15.0), 60.0, 0.1);
+}
+
+/// The energy at any time, less that at the start [J].
+double gainOfEnergy(World world, double seconds) {
+  const auto energy = [&] {
+    const Stats stats = world.capture().stats;
+    return stats.kinetic_energy + stats.potential_energy;
+  };
+  const double before = energy();
+  double most = 0.0;
+  while (world.time() < seconds) {
+    world.step();
+    most = std::max(most, energy() - before);
+  }
+  return most;
+}
+
+/// The point that is hit has a row that takes no part in the solve, beside rows that do.
+TEST(Newton, AHitBesideContactsThatCarryGivesNoEnergy) {
+  const std::string scene =
+      "[[body]]\nmotion = \"pinned\"\nat = [0, -0.5]\nbox = [20, 1]\n[[body]]\nat = [0, 0.5]\n"
+      "box = [1, 1]\n[[body]]\nat = [0.2, 1.25]\nbox = [1, 0.5]\n[[body]]\nat = [0.1, 4]\n"
+      "circle = 0.3\nrestitution = 0.5\n";
+  EXPECT_LT(gainOfEnergy(newtonWorld(scene, 0.01), 3.0), 0.01);
+  Scene fast = sceneOf(scene);
+  fast.bodies.back().velocity = {0.0, -30.0};  // it meets in the middle of a step
+  EXPECT_LT(gainOfEnergy(reference(byNewton(fast)), 1.0), 0.01);
+}
+
+TEST(Newton, DominoesFallAsInSweeps) {
+  const auto last = [](const Scene& scene) {
+    World world = reference(scene);
+    runSeconds(world, 3.0);
+    return world.capture().stats.potential_energy;
+  };
+  const Scene scene = loadScene("dominoes");
+  EXPECT_NEAR(last(byNewton(scene)), last(scene), 0.3) << "of 53 J before they fall";
 }
 
 TEST(Newton, ReachesTheSameBytesInEachRun) {

@@ -1,4 +1,5 @@
 #include "src2d/proofs/load_certificate.h"
+#include "src2d/proofs/proof_impulses.h"
 
 #include <bit>
 

@@ -5,7 +5,7 @@
 
 #include "src2d/collections/collection.h"
 #include "src2d/proofs/collection_load.h"
-#include "src2d/proofs/load_certificate.h"
+#include "src2d/proofs/proof_impulses.h"
 #include "src2d/relaxation/load_path.h"
 #include "src2d/setup.h"
 #include "src2d/state_file.h"

@@ -1,4 +1,4 @@
-#include "src2d/merging/kicked.h"
+#include "src2d/merging/expected_contacts.h"
 
 #include <algorithm>
 
@@ -48,7 +48,7 @@ void addKeys(const State& state, BodyId a, BodyId b, double way, std::vector<Con
 
 }  // namespace
 
-void expectContactsOfKicked(State& state, Scratch& scratch) {
+void expectContactsOfStruck(State& state, Scratch& scratch) {
   std::vector<ContactKey> keys;
   for (const Kick& kick : scratch.kicks) {
     if (!state.isCollection(state[kick.body].rigid)) continue;

@@ -1,6 +1,6 @@
 /// Bodies that an impulse drives against others of their collection.
 
-#include "src2d/merging/kicked.h"
+#include "src2d/merging/expected_contacts.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ at = [0.5, 1.1]
 box = [2.2, 0.2]
 )";
 
-TEST(Kicked, ABodyPushesANeighbourThatItDoesNotTouchYet) {
+TEST(ExpectedContacts, ABodyPushesANeighbourThatItDoesNotTouchYet) {
   for (const char* rule : {"\"default\"", "\"paper\""}) {
     const Overrides overrides{{"unmerging.rule", rule}};
     Simulation run(kNeighbours, Mode::Merge, overrides), reference(kNeighbours, Mode::Reference);
@@ -41,7 +41,7 @@ TEST(Kicked, ABodyPushesANeighbourThatItDoesNotTouchYet) {
   }
 }
 
-TEST(Kicked, ABodyStopsAtAWallThatItDoesNotTouchYet) {
+TEST(ExpectedContacts, ABodyStopsAtAWallThatItDoesNotTouchYet) {
   Simulation run(kGround + R"(
 [[body]]
 name = "wall"
@@ -62,7 +62,7 @@ box = [1, 1]
   EXPECT_GT(run.body("box").x.x(), 0.04);
 }
 
-TEST(Kicked, WhatDidNotPartIsNoWeldAfterwards) {
+TEST(ExpectedContacts, WhatDidNotPartIsNoWeldAfterwards) {
   Simulation run(kNeighbours + "density = 200\n", Mode::Merge);
   run.until(1.5);
   ASSERT_TRUE(run.merged("a"));
