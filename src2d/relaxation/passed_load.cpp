@@ -14,7 +14,7 @@
 namespace merge2d {
 namespace {
 
-/// What the impulses inside leave of a load.
+/// The part of a load that the impulses inside leave.
 struct Remainder {
   std::vector<MemberLoad> loads;  ///< on members that move faster than the tolerance
   double speed = 0.0;             ///< of the others [m/s]

@@ -6,9 +6,9 @@
 
 namespace merge2d {
 
-/// Passes on what the impulses inside leave of a load (load_path.h), and keeps the proof: the
-/// members rest one by one, so that no search is needed. False where contacts on that way cannot
-/// carry it; the impulses are then as before. The blocks must be there.
+/// Passes on the part of a load that the impulses inside leave (load_path.h), and keeps the proof:
+/// the members rest one by one, so that no search is needed. False where contacts on that way
+/// cannot carry it; the impulses are then as before. The blocks must be there.
 bool passesOn(const State& state, const Scratch& scratch, Collection& c,
               const CollectionLoad& load);
 

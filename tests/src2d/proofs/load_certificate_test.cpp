@@ -1,10 +1,10 @@
 #include "src2d/proofs/load_certificate.h"
-#include "src2d/proofs/proof_impulses.h"
 
 #include <bit>
 
 #include "src2d/collections/collection.h"
 #include "src2d/proofs/decided_settings.h"
+#include "src2d/proofs/proof_impulses.h"
 #include "src2d/state_file.h"
 #include "tests/support/merging_testing.h"
 
