@@ -44,7 +44,7 @@ struct ConePoint {
 };
 
 /// Adds both edges of its cone, as seen by b or by a. Moments are divided by the sizes of that body
-/// and of the other [m]; `behind` tells what is behind the contact.
+/// and of the other [m]; `behind` has the body, the block and the point of the contact.
 void addEdges(const ConePoint& point, bool seen_by_b, double size, double other_size,
               const ConeEdge& behind, std::vector<ConeEdge>& edges);
 

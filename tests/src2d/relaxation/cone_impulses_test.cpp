@@ -69,7 +69,7 @@ TEST(ConeImpulses, TheEdgesOfAPointAddUpToItsImpulses) {
   EXPECT_NEAR(on_box.spin, 0.5 * 2.0 - 0.5 * -0.7, 1e-12);
 }
 
-/// What a point does to one body it does to the other the other way round.
+/// Action and reaction: the same edge, seen from either body.
 TEST(ConeImpulses, AnEdgePushesBothBodiesAlike) {
   ConePoint point = corner(0.5, 2.0);
   point.arm_an = point.arm_bn;
