@@ -47,15 +47,16 @@ bool passesOn(const State& state, const Scratch& scratch, Collection& c,
   const Remainder rest = remainderOf(state, c, load, tolerance);
   listWeldsOfMembers(c);
   LoadPath path(state, scratch, c);
-  const bool found = path.find(rest.loads, load.frame, kDecided.tolerance * tolerance);
-  if (!found) return false;
+  if (!path.find(rest.loads, load.frame, kDecided.tolerance * tolerance)) return false;
   path.apply(c);
   c.residual = static_cast<float>(rest.speed);
+  LoadCertificate& proof = c.certificate.front();
+  proof.search = {};  // one ahead: its load lacks the columns of this one
   Witness witness = asWitness(state, c, load);
   readImpulses(c, witness);
   witness.motion = 2.0 * rest.speed;  // of two members against each other
   remember(state, c, std::move(witness));
-  c.certificate.front().in_doubt = false;
+  proof.in_doubt = false;
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/load_certificate.h"
+#include "src2d/relaxation/proof_search.h"
 #include "src2d/relaxation/region_members.h"
 #include "tests/src2d/relaxation/merged_testing.h"
 
@@ -47,6 +48,21 @@ TEST(PassedLoad, AWeightOnTopIsCarriedAndKnownFromThenOn) {
   EXPECT_TRUE(covers(merged.state(), c, load));
   EXPECT_TRUE(covers(merged.state(), c, merged.loadWith(merged.last() - 2, {0.0, -0.25})))
       << "between two loads that are carried";
+}
+
+/// A search ahead knows nothing of the member that is loaded now.
+TEST(PassedLoad, ASearchAheadOfAnotherLoadEnds) {
+  Merged merged(largeWall());
+  Collection& c = merged.collection();
+  LoadCertificate& proof = c.certificate.front();
+  ASSERT_FALSE(proof.witnesses.empty());
+  beginSearchAhead(merged.state(), c, Witness(proof.witnesses.back()), 1.0);
+  const CollectionLoad load = merged.loadWith(merged.last() - 2, {0.0, -0.5});
+  ASSERT_TRUE(passesOn(merged.state(), merged.scratch(), c, load));
+  EXPECT_TRUE(proof.search.start.empty());
+  for (const Witness& witness : proof.witnesses) {
+    EXPECT_EQ(witness.outer.size(), proof.columns.size());
+  }
 }
 
 TEST(PassedLoad, APullBeyondTheWeightIsLeftToASearch) {
