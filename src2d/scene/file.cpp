@@ -73,14 +73,18 @@ std::string readFile(const std::filesystem::path& path, const FileKind& kind) {
   if (file.size() > kind.most) failSize(fmt::format("{} MB", file.size() >> 20u));
   std::string bytes(std::max(file.size(), kind.start.size()), '\0');
   bytes.resize(file.read(bytes.data(), bytes.size()));
-  // A file without an end, such as /dev/zero, is known by its start or by its size.
-  constexpr std::size_t kBlock = 1u << 20;
-  for (std::size_t more = kBlock; bytes.starts_with(kind.start) && more == kBlock;) {
+  // A file without an end, such as /dev/zero, is known by its start or by its size. Blocks start
+  // small: most files have been read by now, and room for more takes longer than they did.
+  constexpr std::size_t kSmallest = 1u << 12, kLargest = 1u << 20;
+  bool more = true;
+  for (std::size_t block = kSmallest; more && bytes.starts_with(kind.start);
+       block = std::min(2 * block, kLargest)) {
     const std::size_t before = bytes.size();
-    bytes.resize(before + kBlock);
-    more = file.read(bytes.data() + before, kBlock);
-    bytes.resize(before + more);
+    bytes.resize(before + block);
+    const std::size_t got = file.read(bytes.data() + before, block);
+    bytes.resize(before + got);
     if (bytes.size() > kind.most) failSize("more");
+    more = got == block;
   }
   return bytes;
 }
