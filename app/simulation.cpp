@@ -11,6 +11,7 @@
 #include "app/interrupt.h"
 #include "app/lesson_source.h"
 #include "src2d/core/error.h"
+#include "src2d/scene/builtin.h"
 
 namespace merge2d {
 namespace {
@@ -28,10 +29,7 @@ void warnOfIdleSeed(const SceneOptions& options, const Scene& scene, const Conso
 
 /// A lesson goes by its name too; a scene of that name comes first.
 Scene sceneOrLesson(const SceneOptions& options) {
-  const auto scenes = builtinScenes();
-  const bool is_scene =
-      std::ranges::find(scenes, options.scene, &BuiltinScene::name) != scenes.end();
-  if (!is_scene) {
+  if (!builtinScene(options.scene)) {
     if (const auto lesson = lessonNamed(options.scene)) {
       return sceneOfLesson(*lesson, options.overrides);
     }

@@ -13,6 +13,7 @@
 #include "src2d/core/error.h"
 #include "src2d/core/suggest.h"
 #include "src2d/core/utf8.h"
+#include "src2d/scene/builtin_title.h"
 #include "src2d/scene/load.h"
 #include "src2d/scene/toml_parse.h"
 #include "src2d/trace/json_text.h"
@@ -366,8 +367,8 @@ std::vector<BuiltinLesson> builtinLessons() {
   for (const auto& [entry, folder] : folders) {
     const std::string name = entry.substr(entry.find('_') + 1);
     try {
-      const std::string text = folder.read("lesson.toml");
-      lessons.push_back({name, parseToml(SourceText(entry, text))["title"].value_or(name), folder});
+      const auto title = titleOf(folder, "lesson.toml", embeddedLessons());
+      lessons.push_back({name, title.value_or(name), folder});
     } catch (const std::runtime_error&) {
       lessons.push_back({name, name, folder});
     }

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "src2d/core/utf8.h"
+#include "src2d/scene/builtin_title.h"
 #include "src2d/scene/load.h"
-#include "src2d/scene/toml_parse.h"
 
 namespace merge2d {
 namespace {
@@ -20,9 +20,7 @@ std::vector<DataFolder> sceneFolders() {
 /// The title that a file gives; its name where there is none, or where it is no scene.
 std::string sceneTitle(const DataFolder& folder, const std::string& file, const std::string& name) {
   try {
-    const std::string text = folder.read(file);
-    return asOneLine(
-        parseToml(SourceText(folder.pathOf(file).string(), text))["title"].value_or(name));
+    return asOneLine(titleOf(folder, file, embeddedScenes()).value_or(name));
   } catch (const std::runtime_error&) {
     return name;
   }

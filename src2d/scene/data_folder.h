@@ -13,6 +13,7 @@ namespace merge2d {
 struct EmbeddedFile {
   std::string_view path;  ///< from its folder, with '/'
   std::string_view text;
+  std::string_view title = {};  ///< of a TOML file (cmake/embed.cmake); empty where none was found
 };
 
 /// A folder of text files, wherever they are. It refers to embedded files and does not own them.

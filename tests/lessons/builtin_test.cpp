@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "lessons/folder.h"
 #include "lessons/lesson.h"
 #include "lessons/page.h"
 
@@ -65,6 +66,16 @@ TEST(BuiltinLessonList, HasTwelveInOrderEachWithItsOwnName) {
     EXPECT_NE(lesson.title, lesson.name);
   }
   EXPECT_EQ(lessons.front().name, "one-step");
+}
+
+/// Titles are taken from the files when the program is built (cmake/embed.cmake).
+TEST(BuiltinLessonList, HasTheTitlesThatParsingGives) {
+  for (const BuiltinLesson& lesson : builtinLessons()) {
+    EXPECT_EQ(lesson.title, loadLesson(lesson.folder).title) << lesson.name;
+  }
+  for (const EmbeddedFile& file : embeddedLessons()) {
+    EXPECT_EQ(file.title.empty(), !file.path.ends_with(".toml")) << file.path;
+  }
 }
 
 }  // namespace
