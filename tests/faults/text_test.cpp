@@ -5,10 +5,11 @@
 namespace merge2d {
 namespace {
 
-/// ESC [31m, a C1 control, a change of writing direction, and an empty line.
-constexpr const char* kHostileToml = R"(a\u001b[31mb\u009b2J\u202Ec\u2066d\n\n9 --> 10)";
+/// ESC [31m, a C1 control, a NUL, a change of writing direction, and an empty line.
+constexpr const char* kHostileToml = R"(a\u001b[31mb\u009b2J\u0000\u202Ec\u2066d\n\n9 --> 10)";
 
 bool isHarmless(const std::string& text) {
+  if (text.find('\0') != std::string::npos) return false;
   for (const char* bad : {"\x1b", "\xC2\x9B", "\xE2\x80\xAE", "\xE2\x81\xA6", "\r"}) {
     if (text.find(bad) != std::string::npos) return false;
   }
@@ -43,6 +44,35 @@ TEST_F(HostileText, ATitleIsOneLineOfPrintableText) {
   }
   EXPECT_TRUE(isHarmless(read("copy.toml") + read("t.jsonl") + read("page.html")));
   EXPECT_THAT(run({"validate", "titled.toml"}).out, HasSubstr("a\\u001b[31mb"));
+}
+
+/// The title is text in the page, and the same in that of a copy of the scene: controls are escaped
+/// once.
+TEST_F(HostileText, APageHasTheTitleInItsHeading) {
+  std::string text = kStack;
+  text.replace(text.find("Three boxes"), 11, kHostileToml);
+  write("titled.toml", text);
+  ASSERT_EQ(run({"lesson", "titled.toml", "-o", "page.html"}).code, kFine);
+  const std::string shown = R"(a\u001b[31mb\u009b2J\u0000\u202ec\u2066d 9 --&gt; 10)";
+  EXPECT_THAT(read("page.html"), HasSubstr("<title>" + shown + "</title>"));
+  ASSERT_EQ(run({"validate", "titled.toml", "--to", "copy.toml"}).code, kFine);
+  ASSERT_EQ(run({"lesson", "copy.toml", "-o", "copy.html"}).code, kFine);
+  EXPECT_THAT(read("copy.html"), HasSubstr("<title>" + shown + "</title>"));
+}
+
+/// A folder of scenes of the user is listed as well.
+TEST_F(HostileText, AListedTitleIsOneLineOfPrintableText) {
+  std::string text = kStack;
+  text.replace(text.find("Three boxes"), 11, kHostileToml);
+  fs::create_directory(folder() / "scenes");
+  write("scenes/titled.toml", text);
+  setEnvironment("MERGE2D_SCENES", (folder() / "scenes").string());
+  for (const Words& arguments : {Words{"list"}, {"list", "--json"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, kFine) << outcome.err;
+    EXPECT_TRUE(isHarmless(outcome.out)) << outcome.out;
+    EXPECT_THAT(outcome.out, HasSubstr("9 --> 10"));
+  }
 }
 
 TEST_F(HostileText, ANameOfAFileIsShownEscaped) {
