@@ -10,13 +10,14 @@
 namespace merge2d {
 namespace {
 
-/// The subject of a decision: a pair on its way to a weld, a weld, an impact, or something that may
-/// sleep.
-enum class Matter { Impact, Sleep, Weld, Pair };
+/// The subject of a decision: a pair on its way to a weld, a weld, an impact, something that may
+/// sleep, or the load of a collection.
+enum class Matter { Impact, Sleep, Weld, Pair, Load };
 
 Matter matterOf(const Decision& d) {
   if (d.stage == "ContactOrdering") return Matter::Impact;
   if (d.stage == "Unmerge") return Matter::Weld;
+  if (d.stage == "WarmStart" || d.stage == "SingleIterationPGS") return Matter::Load;
   return d.a == d.b ? Matter::Sleep : Matter::Pair;
 }
 
@@ -58,6 +59,9 @@ class Explainer {
         break;
       case Matter::Pair:
         explainPair(out);
+        break;
+      case Matter::Load:
+        explainLoad(out);
         break;
     }
     takeGroups(out);
@@ -140,6 +144,26 @@ class Explainer {
       std::vector<std::string> reasons;
       for (const Decision& d : out.tests) reasons.push_back(test(d));
       out.text = fmt::format("{} stayed awake {}: {}.", who, atStep(), fmt::join(reasons, "; "));
+    }
+  }
+
+  void explainLoad(Explanation& out) const {
+    std::vector<std::string> reasons;
+    for (const Decision& d : out.tests) reasons.push_back(test(d));
+    const std::string why = fmt::format("{}", fmt::join(reasons, "; "));
+    const std::string who = sleeper(out.a);
+    const std::string_view verdict = out.tests.back().verdict;
+    if (verdict == "open") {
+      out.outcome = Outcome::Opened;
+      out.text =
+          fmt::format("{} is open {}, and each member moves on its own: {}.", who, atStep(), why);
+    } else if (verdict == "search") {
+      out.outcome = Outcome::Sought;
+      out.text = fmt::format("{} stays whole {} while impulses that carry its load are sought: {}.",
+                             who, atStep(), why);
+    } else {
+      out.outcome = Outcome::Carried;
+      out.text = fmt::format("{} carries its load {}: {}.", who, atStep(), why);
     }
   }
 
@@ -247,9 +271,9 @@ class Explainer {
 }  // namespace
 
 const char* name(Outcome outcome) {
-  static constexpr const char* kNames[kOutcomes] = {"came-apart", "merged", "hit",   "woke",
-                                                    "slept",      "cut",    "loose", "waiting",
-                                                    "apart",      "awake",  "held"};
+  static constexpr const char* kNames[kOutcomes] = {
+      "came-apart", "merged", "hit",   "woke", "slept",  "cut",    "loose",
+      "waiting",    "apart",  "awake", "held", "opened", "sought", "carried"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
@@ -264,7 +288,10 @@ const char* heading(Outcome outcome) {
                                                        "Ready, but waiting",
                                                        "Stayed apart",
                                                        "Stayed awake",
-                                                       "Welds that hold"};
+                                                       "Welds that hold",
+                                                       "Opened",
+                                                       "Loads that are looked into",
+                                                       "Loads that are carried"};
   return kHeadings[static_cast<std::size_t>(outcome)];
 }
 

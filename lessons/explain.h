@@ -23,8 +23,11 @@ enum class Outcome {
   Apart,    ///< a pair failed a test
   Awake,    ///< something could not fall asleep
   Held,     ///< a weld holds
+  Opened,   ///< a collection whose members move on their own in this step
+  Sought,   ///< a collection about whose load nothing is known yet
+  Carried,  ///< a collection whose load its contacts are known to carry
 };
-inline constexpr std::size_t kOutcomes = 11;
+inline constexpr std::size_t kOutcomes = 14;
 
 /// "came-apart", "merged", … as in the JSON.
 const char* name(Outcome outcome);

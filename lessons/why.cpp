@@ -22,6 +22,8 @@ constexpr Measure kMeasures[] = {
     {"rest", "motion in the world", "m/s"},
     {"hits", "time of hits", "s"},
     {"load", "change of load", "1/s"},
+    {"proof", "part of the load that known ones leave over", "m/s"},
+    {"residual", "residual of the rows inside", "m/s"},
 };
 
 const Measure* measureOf(std::string_view criterion) {
@@ -174,6 +176,9 @@ Condition conditionOf(const Explanation& e) {
     case Outcome::Woke:
     case Outcome::Slept:
     case Outcome::Awake:
+    case Outcome::Opened:
+    case Outcome::Sought:
+    case Outcome::Carried:
       return {};
   }
   return {};

@@ -82,6 +82,16 @@ std::string cycle(const Decision& d, const std::string& group) {
   return "a single contact is a pivot, and no rigid group holds it (Section 8.2)";
 }
 
+/// The load of a collection beside those that its contacts are known to carry.
+std::string proof(const Decision& d) {
+  if (d.needed == 0) return "no load is known yet that its contacts carry";
+  const std::string what =
+      d.needed == 1 ? "the part that the one known load leaves over"
+                    : fmt::format("the part that {} of the {} known loads leave over", d.count,
+                                  d.needed);
+  return compared(what, d, "/s");
+}
+
 std::string sleeping(const Decision& d) {
   if (d.criterion == "disturbed") {
     return "a kick, another load or a moving neighbour disturbs it (Section 7)";
@@ -164,6 +174,14 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
   if (c == "impact") return compared("the speed of approach", d, "/s");
   if (c == "sliding") {
     return compared(d.stage == "Unmerge" ? "the slip of a contact" : "slip", d, "/s");
+  }
+  if (c == "proof") return proof(d);
+  if (c == "residual") return compared("the residual of the rows inside", d, "/s");
+  if (c == "hit") {
+    return fmt::format("something hit it {} ago, and a hit opens it for {} ({})",
+                       counted(static_cast<std::size_t>(d.value), "step", "steps"),
+                       counted(static_cast<std::size_t>(d.threshold), "step", "steps"),
+                       equationName(d.equation));
   }
   if (c == "edge") return edge(d);
   if (c == "cycle") {

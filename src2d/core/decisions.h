@@ -17,13 +17,28 @@ inline constexpr std::string_view kOwnMerging = "docs/decisions/cures.md#when-to
                                   kOwnDecided = "docs/decisions/decided.md#decision",
                                   kOwnCycles = "docs/cycles.md";
 
-/// One test of one criterion about a pair: the number, the threshold, and what followed. The words
-/// for it are in docs/records.md.
+/// A criterion about a pair, a weld or a rigid thing, asked once: a value. Whoever asks acts on it,
+/// and records it.
+struct Criterion {
+  std::string_view criterion{};  ///< "relative-motion", "sliding", "breathing", …
+  std::string_view equation{};   ///< "(17)", "Section 5.1", or kOwnMerging and its like
+  double value = 0.0;
+  double threshold = 0.0;
+  bool holds = false;  ///< by this criterion they may be, or stay, at rest against each other
+};
+
+/// A criterion that holds where a value is below its threshold.
+inline Criterion below(std::string_view criterion, std::string_view equation, double value,
+                       double threshold) {
+  return {criterion, equation, value, threshold, value < threshold};
+}
+
+/// A criterion that a step asked about a pair, and what followed. The words for it are in
+/// docs/records.md.
 struct Decision {
   BodyId a{}, b{};           ///< the pair; in SleepAndWake both are the first body of what sleeps
   std::string_view stage{};  ///< as in Algorithm 1: "Merge", "Unmerge", …
-  std::string_view criterion{};  ///< "relative-motion", "sliding", "breathing", …
-  std::string_view equation{};   ///< "(17)", "Section 5.1", or kOwnMerging and its like
+  std::string_view criterion{}, equation{};
   double value = 0.0;
   double threshold = 0.0;
   int count = 0;  ///< consecutive steps, this one included; 0: starts anew
@@ -35,6 +50,19 @@ struct Decision {
   std::int32_t group = -1;
   std::int32_t members = -1;  ///< all its bodies: an index of Snapshot::groups
 };
+
+/// The record of a criterion; the caller adds counts where there are any.
+inline Decision record(const Criterion& test, std::string_view stage, BodyId a, BodyId b,
+                       std::string_view verdict) {
+  return {.a = a,
+          .b = b,
+          .stage = stage,
+          .criterion = test.criterion,
+          .equation = test.equation,
+          .value = test.value,
+          .threshold = test.threshold,
+          .verdict = verdict};
+}
 
 /// True when a step welded a pair, of which these are all tests: it was ready, a group holds it
 /// where the cycle criterion was asked, and it is not on two frames.

@@ -144,6 +144,13 @@ struct ProofSearch {
   std::int16_t steps = 0;  ///< that it has taken so far
   bool ahead = false;      ///< beyond the loads that there were: nothing depends on it
 
+  bool isUnderWay() const { return !start.empty(); }
+  /// For the load of a step: until it ends nothing is known of the collection.
+  bool isNeeded() const { return isUnderWay() && !ahead; }
+  /// The full solve of the same step finds the welds that part.
+  bool hasFoundMotion() const { return !movers.empty(); }
+  /// Newton's method has more to do than one step may spend, and goes on in the next.
+  bool isSuspended() const { return !newton.unknowns.empty(); }
   /// Its sweeps have come to take all rows, as more than a part of them had a residual.
   bool isInAllRows() const { return nncg.previous > 0.0; }
 };

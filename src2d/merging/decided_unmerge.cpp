@@ -98,18 +98,16 @@ EventReason reasonOf(const Collection& c, const Weld& weld) {
   return slides ? EventReason::Sliding : EventReason::RelativeMotion;
 }
 
-/// The decision about one weld, as a value.
-Decision decide(const Weld& weld, std::string_view criterion, double value, double threshold,
-                bool ends) {
-  return {.a = weld.a,
-          .b = weld.b,
-          .stage = "Unmerge",
-          .criterion = criterion,
-          .equation = kOwnDecided,
-          .value = value,
-          .threshold = threshold,
-          .count = ends ? 1 : 0,
-          .verdict = ends ? "unmerge" : "keep"};
+/// The bodies of a weld do not part.
+Criterion staysTogether(double speed, double limit) {
+  return {"motion", kOwnDecided, speed, limit, speed <= limit};
+}
+
+void recordWeld(const Scratch& scratch, const Weld& weld, const Criterion& test) {
+  if (!scratch.notes) return;
+  Decision d = record(test, "Unmerge", weld.a, weld.b, test.holds ? "keep" : "unmerge");
+  d.count = test.holds ? 0 : 1;
+  scratch.notes->decisions.push_back(d);
 }
 
 /// The bodies of some weld move against each other, at their corners, by more than `noise`: a beam
@@ -129,7 +127,7 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRe
                const ProofSearch& search) {
   const WeldMotions motions(state, c, scratch.trial_u);
   const double residual = c.hits.blow == state.step ? 0.0 : c.residual;
-  const bool moves = search.start.empty() || turns(c, motions, residual / kDecided.tolerance);
+  const bool moves = !search.isUnderWay() || turns(c, motions, residual / kDecided.tolerance);
   bool any = false;
   for (const std::uint32_t i : weldsAt(c, region.members)) {
     Weld& weld = c.welds[i];
@@ -139,11 +137,10 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRe
     const double limit = motions.limitOf(weld);
     const WeldMotion motion = motions.of(weld, scratch.notes ? 0.0 : limit);
     const double speed = moves && motion.least > residual ? motion.most : 0.0;
-    if (scratch.notes) {
-      scratch.notes->decisions.push_back(decide(weld, "motion", speed, limit, speed > limit));
-    }
-    if (speed <= limit) continue;
-    if (!search.movers.empty() && search.movers[i] == 0) continue;
+    const Criterion stays = staysTogether(speed, limit);
+    recordWeld(scratch, weld, stays);
+    if (stays.holds) continue;
+    if (search.hasFoundMotion() && search.movers[i] == 0) continue;
     weld.cut = true;
     weld.motion = static_cast<float>(speed);
     weld.reason = reasonOf(c, weld);
@@ -157,23 +154,23 @@ std::int64_t stepsOfHits(const State& state, const Collection& c) {
   return c.hits.last - c.hits.first + 2 - hitSteps(state);
 }
 
-/// A collection that steps back (DecidedSettings::lasting); one of which a hit opens but a part
-/// stays.
-bool isHitForLong(const State& state, const Collection& c) {
-  return c.hits.last == state.step && lasts(state, stepsOfHits(state, c)) && !opensInPart(state, c);
+/// It is not hit, or for less than what lasts (DecidedSettings::lasting); of one of which a hit
+/// opens but a part that does not matter.
+Criterion isHitBriefly(const State& state, const Collection& c) {
+  const std::int64_t steps = stepsOfHits(state, c);
+  const bool for_long = c.hits.last == state.step && lasts(state, steps) && !opensInPart(state, c);
+  const double time = static_cast<double>(steps) * state.h;
+  return {"hits", kOwnDecided, time, kDecided.lasting, !for_long};
 }
 
 /// Cuts all welds but those that joints alone hold rigid: the bodies are simulated one by one, and
 /// a pair of them waits as one does that parted slowly. Guarded by
 /// StepBack.BodiesThatAreHitForLongAreSimulatedOneByOne.
-void stepBack(const State& state, Scratch& scratch, Collection& c) {
-  const double time = static_cast<double>(stepsOfHits(state, c)) * state.h;
+void stepBack(const State& state, Scratch& scratch, Collection& c, const Criterion& brief) {
   constexpr int kRigid = 2;
   for (Weld& weld : c.welds) {
     if (weld.expected || weld.joints >= kRigid) continue;
-    if (scratch.notes) {
-      scratch.notes->decisions.push_back(decide(weld, "hits", time, kDecided.lasting, true));
-    }
+    recordWeld(scratch, weld, brief);
     if (!weld.cut) weld.reason = reasonOf(c, weld);
     weld.cut = true;
     weld.motion = static_cast<float>(state.settings.merging.velocity / kDecided.past_steps);
@@ -231,7 +228,7 @@ void keepTogether(const State& state, Scratch& scratch, Collection& c, const Ope
     return prove(state, c, std::move(witness));
   }
   proof.in_doubt |= !hit || proof.witnesses.empty();
-  if (hit || search.start.empty() || converged) return;
+  if (hit || !search.isUnderWay() || converged) return;
   restoreImpulses(c, region, search.load);
   proof.search = std::move(search);
 }
@@ -246,8 +243,8 @@ bool decideOne(State& state, Scratch& scratch, const OpenRegion& region) {
   if (!c.joints.empty()) loosenJoints(state, c, scratch.sweep_u);
   Noted noted(scratch.notes);
   bool moves = cutMovers(state, scratch, c, region, before);
-  if (isHitForLong(state, c)) {
-    stepBack(state, scratch, c);
+  if (const Criterion brief = isHitBriefly(state, c); !brief.holds) {
+    stepBack(state, scratch, c, brief);
     moves = true;
   }
   noted.close();
@@ -305,26 +302,26 @@ bool overloadsJoints(State& state, const Collection& c) {
   return anyJointBreaks(state, c);
 }
 
-bool endSearch(State& state, Scratch& scratch, Collection& c) {
+SearchEnd endSearch(State& state, Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
-  if (isSuspended(proof.search)) return true;
+  if (proof.search.isSuspended()) return SearchEnd::GoesOn;
   const bool rests = restsIn(state, scratch, c);
   if (rests && c.residual > toleratedResidual(state)) {
     c.settled = proof.search.ahead;
-    return true;  // it goes on
+    return SearchEnd::GoesOn;
   }
   ProofSearch search = std::exchange(proof.search, {});
   if (rests) search.load.motion = fastestOf(state, scratch, c);
   if (search.ahead) {
     c.settled = true;
     if (rests) remember(state, c, std::move(search.load));
-    return true;
+    return SearchEnd::Over;
   }
   if (!rests) proof.search.movers = moversOf(state, scratch, c);
   readImpulses(c, search.load);
   c.settled = rests && !overloadsJoints(state, c);
   if (rests) prove(state, c, std::move(search.load));
-  return c.settled;
+  return c.settled ? SearchEnd::Over : SearchEnd::Motion;
 }
 
 void unmergeMovers(State& state, Scratch& scratch) {

@@ -9,9 +9,13 @@
 
 namespace merge2d {
 
-/// After a step of a search: where it has converged, keeps its proof. False where it has found
-/// motion.
-bool endSearch(State& state, Scratch& scratch, Collection& collection);
+/// How a search stands after a step.
+enum class SearchEnd : std::uint8_t {
+  GoesOn,
+  Over,   ///< its proof is kept; or there is none, of a load that is not there yet
+  Motion  ///< some weld moves, or a joint bears too much
+};
+SearchEnd endSearch(State& state, Scratch& scratch, Collection& collection);
 
 /// Some joint inside bears too much with the impulses of the collection's blocks, which it takes
 /// over.

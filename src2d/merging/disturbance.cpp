@@ -106,22 +106,21 @@ bool touched(const State& state, const BodyPair& pair) {
   return false;
 }
 
+/// Two bodies that meet no faster than by gravity alone.
+Criterion meetGently(const State& state, double speed) {
+  const double most = impactSpeed(state);
+  return {"impact", kOwnDecided, speed, most, speed <= most};
+}
+
 /// An event for each pair that touched nowhere in the last step and hits in this one.
 void reportImpacts(const State& state, Scratch& scratch) {
-  const double threshold = impactSpeed(state);
   forEachPairThatMeets(scratch, [&](const BodyPair& pair, double speed) {
     if (touched(state, pair)) return;
-    const bool hits = speed > threshold;
-    if (hits) scratch.events.push_back({EventType::Impact, pair.a, pair.b});
+    const Criterion gentle = meetGently(state, speed);
+    if (!gentle.holds) scratch.events.push_back({EventType::Impact, pair.a, pair.b});
     if (!scratch.notes) return;
-    scratch.notes->decisions.push_back({.a = pair.a,
-                                        .b = pair.b,
-                                        .stage = "ContactOrdering",
-                                        .criterion = "impact",
-                                        .equation = kOwnDecided,
-                                        .value = speed,
-                                        .threshold = threshold,
-                                        .verdict = hits ? "impact" : "touch"});
+    scratch.notes->decisions.push_back(
+        record(gentle, "ContactOrdering", pair.a, pair.b, gentle.holds ? "touch" : "impact"));
   });
 }
 

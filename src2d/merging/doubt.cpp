@@ -6,6 +6,7 @@
 #include "src2d/collections/joint_welds.h"
 #include "src2d/merging/decided_unmerge.h"
 #include "src2d/merging/disturbance.h"
+#include "src2d/merging/doubt_spread.h"
 #include "src2d/proofs/load_certificate.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/relaxation/open_solve.h"
@@ -64,29 +65,44 @@ void openCertificate(const State& state, Collection& c) {
   proof.heaviest = heaviestOf(state, c);
 }
 
-/// A load that is covered by the witnesses leaves the collection quiet; for another one impulses
-/// are sought, unless those for a load beyond it are already.
-Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
-  LoadCertificate& proof = c.certificate.front();
-  if (isHit(state, c)) return Doubt::Open;
-  c.settled = false;
-  if (!isLookedAt(state, c)) return Doubt::None;
-  const bool searches = !proof.search.start.empty();
-  if (searches && !proof.search.ahead && !isDirect(state, proof.search)) return Doubt::Search;
-  const CollectionLoad load = loadOn(state, scratch, c);
-  if (searches && !proof.search.ahead) {
-    renewLoad(state, c, load);
+/// Nothing has hit it in the last steps.
+Criterion isCalm(const State& state, const Collection& c) {
+  const auto since = static_cast<double>(state.step - c.hits.blow);
+  return {"hit", kOwnDecided, since, static_cast<double>(hitSteps(state)), !isHit(state, c)};
+}
+
+/// The record of a collection's load: `count` proofs of the `needed` ones that are known have a
+/// part in the combination that is nearest to it.
+void recordLoad(const State& state, const Scratch& scratch, const Collection& c,
+                const Criterion& test, const LoadCertificate::Weights& weights,
+                std::string_view verdict) {
+  if (!scratch.notes) return;
+  const BodyId first = state.firstBody(c.rigid);
+  Decision d = record(test, "WarmStart", first, first, verdict);
+  d.count = static_cast<int>(std::ranges::count_if(weights, [](double w) { return w > 0.0; }));
+  d.needed = static_cast<int>(c.certificate.front().witnesses.size());
+  scratch.notes->decisions.push_back(d);
+}
+
+/// A load that known proofs carry leaves the collection quiet, if its joints bear it too.
+Doubt doubtAboutJoints(State& state, Collection& c, const Coverage& coverage) {
+  carryBy(c, coverage.weights);
+  if (!c.joints.empty()) {
+    writeImpulses(c);
+    if (overloadsJoints(state, c)) return Doubt::Open;
+  }
+  c.settled = true;
+  const bool looks_ahead = c.certificate.front().search.isUnderWay();
+  return looks_ahead ? Doubt::Search : Doubt::None;
+}
+
+/// For any other load impulses are sought, unless those for a load beyond it are already, or
+/// contacts can pass on what is new of it.
+Doubt seek(State& state, const Scratch& scratch, Collection& c, const CollectionLoad& load) {
+  const LoadCertificate& proof = c.certificate.front();
+  if (proof.search.isUnderWay() && !proof.in_doubt && leadsTo(state, c, load)) {
     return Doubt::Search;
   }
-  if (!proof.in_doubt && covers(state, c, load)) {
-    if (!c.joints.empty()) {
-      writeImpulses(c);
-      if (overloadsJoints(state, c)) return Doubt::Open;
-    }
-    c.settled = true;
-    return searches ? Doubt::Search : Doubt::None;
-  }
-  if (searches && !proof.in_doubt && leadsTo(state, c, load)) return Doubt::Search;
   bringBlocksBack(state, c);
   writeImpulses(c);
   if (passesOn(state, scratch, c, load)) {
@@ -97,65 +113,35 @@ Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
   return Doubt::Search;
 }
 
+/// The doubt about the load of a collection in this step.
+Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
+  const LoadCertificate& proof = c.certificate.front();
+  if (const Criterion calm = isCalm(state, c); !calm.holds) {
+    recordLoad(state, scratch, c, calm, {}, "open");
+    return Doubt::Open;
+  }
+  c.settled = false;
+  if (!isLookedAt(state, c)) return Doubt::None;
+  if (proof.search.isNeeded()) {
+    if (isDirect(state, proof.search)) renewLoad(state, c, loadOn(state, scratch, c));
+    return Doubt::Search;
+  }
+  const CollectionLoad load = loadOn(state, scratch, c);
+  const Coverage coverage = coverageOf(state, c, load);
+  const bool carried = coverage.carried.holds && !proof.in_doubt;
+  const Doubt doubt =
+      carried ? doubtAboutJoints(state, c, coverage) : seek(state, scratch, c, load);
+  recordLoad(state, scratch, c, coverage.carried, coverage.weights,
+             doubt == Doubt::Open              ? "open"
+             : carried || doubt == Doubt::None ? "carried"
+                                               : "search");
+  return doubt;
+}
+
 /// Nothing has been sought inside for so long that its blocks are put away in this step.
 bool isLongQuiet(const State& state, const Collection& c) {
   const LoadCertificate& proof = c.certificate.front();
   return state.step - std::max(proof.last_doubt, proof.since) == kDecided.past_steps;
-}
-
-void lengthen(HitRun& run, std::int64_t step) {
-  if (run.last + 1 < step) run.first = step;
-  run.last = step;
-}
-
-/// A hit passes through all collections that touch each other.
-void spreadDoubts(State& state, Scratch& scratch) {
-  auto& sets = scratch.sets;
-  sets.reset(state.collections.size());
-  const auto slotOf = [&](BodyId b) -> std::ptrdiff_t {
-    const RigidId id = state[b].rigid;
-    if (!state.isCollection(id) || state[id].asleep) return -1;
-    return static_cast<std::ptrdiff_t>(index(id) - state.bodies.size());
-  };
-  const auto unite = [&](BodyId a, BodyId b) {
-    const auto p = slotOf(a), q = slotOf(b);
-    if (p >= 0 && q >= 0) sets.unite(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(q));
-  };
-  for (const BodyPair& pair : scratch.pairs) unite(pair.a, pair.b);
-  for (const Joint& joint : state.joints) {
-    if (!joint.to_world && holds(state, joint)) unite(joint.a, joint.b);
-  }
-  const auto slots = static_cast<std::uint32_t>(state.collections.size());
-  std::vector<std::uint8_t> hit(slots, 0), met(slots, 0);
-  for (std::uint32_t i = 0; i < slots; ++i) {
-    const Collection& c = state.collections[i];
-    if (!isSwept(state, c) || !isHit(state, c)) continue;
-    hit[sets.find(i)] = 1;
-    if (state.step - c.hits.met < hitSteps(state)) met[sets.find(i)] = 1;
-  }
-  for (std::uint32_t i = 0; i < slots; ++i) {
-    if (!isSwept(state, state.collections[i]) || !hit[sets.find(i)]) continue;
-    scratch.doubts[i] = Doubt::Open;
-    if (met[sets.find(i)]) lengthen(state.collections[i].hits, state.step);
-  }
-}
-
-/// Between two things that are fixed to different frames the full solve has no row, and no load
-/// tells how one drags at the other: where a frame moves, it is asked with the members on their
-/// own.
-void openWhatFramesDrag(const State& state, Scratch& scratch) {
-  const auto moves = [](const Rigid& r) {
-    return r.anchor > kWorldFrame && (r.v.squaredNorm() > 0.0 || r.omega != 0.0);
-  };
-  for (const BodyPair& pair : scratch.pairs) {
-    const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
-    if (!areOnTwoFrames(a, b) || !(moves(a) || moves(b))) continue;
-    for (const BodyId body : {pair.a, pair.b}) {
-      if (!state.isCollection(state[body].rigid)) continue;
-      const Collection& c = state.collection(state[body].rigid);
-      if (isSwept(state, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
-    }
-  }
 }
 
 }  // namespace
@@ -185,7 +171,7 @@ void findDoubts(State& state, Scratch& scratch) {
   scratch.sweeping = any;
   if (!any) return;
   scratch.last_doubt = state.step;
-  spreadDoubts(state, scratch);
+  spreadHits(state, scratch);
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) == Doubt::None) continue;
     bringBlocksBack(state, c);

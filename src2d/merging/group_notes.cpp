@@ -72,14 +72,11 @@ void noteGroups(const State& state, Scratch& scratch, const Groups& group) {
   }
   groups.write();
   const bool by_cycles = state.settings.merging.cycles == CycleCriterion::Triangle;
+  const std::string_view source = by_cycles ? "Section 8.2" : kOwnCycles;
   for (const ReadyPair& edge : scratch.ready) {
-    Decision test{.criterion = "cycle",
-                  .equation = by_cycles ? "Section 8.2" : kOwnCycles,
-                  .value = static_cast<double>(edge.contacts),
-                  .threshold = 2.0,
-                  .verdict = held(edge) ? "merge" : "wait"};
-    if (held(edge)) groups.nameIn(test, group[edge.node_a]);
-    noteMerge(state, scratch.notes, edge.pair, test);
+    const Criterion test{"cycle", source, static_cast<double>(edge.contacts), 2.0, held(edge)};
+    Decision* d = recordMerge(state, scratch.notes, edge.pair, test);
+    if (d && test.holds) groups.nameIn(*d, group[edge.node_a]);
   }
 }
 

@@ -1,12 +1,10 @@
 #include "src2d/merging/merge.h"
 
 #include <algorithm>
-#include <map>
 
 #include "src2d/collections/collection.h"
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
-#include "src2d/contact/parking.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
 #include "src2d/cycles/held_groups.h"
@@ -40,37 +38,8 @@ std::vector<BodyPair> pairsToWeld(State& state, Scratch& scratch) {
   return held;
 }
 
-/// Unites the collections that are welded to one body of a frame, where the rule says so.
-/// Deviation: else they stay apart; in the paper a pinned body is a member like any other, so that
-/// two piles on one floor are one collection. Guarded by Collection.TwoPilesOnOneFloorStayTwo.
-class Floors {
- public:
-  explicit Floors(State& state) : state_(state) {
-    for (const Collection& c : state.collections) {
-      if (c.id == kNoCollection || !shared()) continue;
-      for (const Weld& weld : c.welds) {
-        const bool a_in = state[weld.a].rigid == c.rigid, b_in = state[weld.b].rigid == c.rigid;
-        if (a_in != b_in) on_[a_in ? weld.b : weld.a] = a_in ? weld.a : weld.b;
-      }
-    }
-  }
-
-  void add(BodyId floor, BodyId member) {
-    if (!shared()) return;
-    const auto [other, first] = on_.emplace(floor, member);
-    const RigidId one = state_[member].rigid, two = state_[other->second].rigid;
-    if (!first && one != two) mergeRigids(state_, one, two);
-  }
-
- private:
-  bool shared() const { return mergingMethod(state_).unites_on_floors; }
-
-  State& state_;
-  std::map<BodyId, BodyId> on_;  ///< a member that is welded to each of them
-};
-
 /// Welds one pair, unless its two bodies are fixed to different frames.
-bool weld(State& state, Floors& floors, const BodyPair& pair) {
+bool weld(State& state, const BodyPair& pair, const OnFloor& on_floor) {
   const RigidId ra = state[pair.a].rigid, rb = state[pair.b].rigid;
   const Rigid &a = state[ra], &b = state[rb];
   if (ra == rb) return false;
@@ -79,20 +48,26 @@ bool weld(State& state, Floors& floors, const BodyPair& pair) {
   const bool b_frame = !b.floating() && !state.isCollection(rb);
   if (a_frame) {
     anchorRigid(state, rb, pair.a);
-    floors.add(pair.a, pair.b);
+    if (on_floor) on_floor(pair.a, pair.b);
   } else if (b_frame) {
     anchorRigid(state, ra, pair.b);
-    floors.add(pair.b, pair.a);
+    if (on_floor) on_floor(pair.b, pair.a);
   } else {
     mergeRigids(state, ra, rb);
   }
   return true;
 }
 
-void weldAll(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs) {
-  Floors floors(state);
+}  // namespace
+
+void weldPairs(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs) {
+  weldPairs(state, scratch, pairs, {});
+}
+
+void weldPairs(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs,
+               const OnFloor& on_floor) {
   for (const BodyPair& pair : pairs) {
-    if (!weld(state, floors, pair)) continue;
+    if (!weld(state, pair, on_floor)) continue;
     const RigidId id =
         state.isCollection(state[pair.a].rigid) ? state[pair.a].rigid : state[pair.b].rigid;
     scratch.events.push_back(
@@ -101,15 +76,11 @@ void weldAll(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs)
   absorbContacts(state);
 }
 
-}  // namespace
-
 void merge(State& state, Scratch& scratch) {
   if (!merges(state.mode)) return;
   const std::vector<BodyPair> pairs = pairsToWeld(state, scratch);
-  // Collections that sleep on a floor may be among those that are united.
-  if (!pairs.empty() && mergingMethod(state).unites_on_floors) bringAllBack(state, scratch);
-  if (!pairs.empty()) weldAll(state, scratch, pairs);
-  noteTwoFrames(state, scratch);
+  if (!pairs.empty()) mergingMethod(state).weld(state, scratch, pairs);
+  recordTwoFrames(state, scratch);
   layOutCollections(state);  // the next step starts from the layouts
   const bool released = releaseOpenRows(state, scratch, kDecided.past_steps);
   if (!pairs.empty()) {

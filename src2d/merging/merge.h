@@ -1,9 +1,11 @@
 #pragma once
 /// Merge (Section 5).
 ///
-/// Deviation under `merging.rule = "default"`: a pair with a contact on the edge of its friction
-/// cone is not ready (it is about to slide), and a pair with a single contact is welded only as
-/// part of a rigid group. Guarded by tests/src2d/merging/merge_test.cpp.
+/// Deviation under `merging.rule = "default"`: a pair with a single contact is welded only as part
+/// of a rigid group. Guarded by Merge.ADiscOnTheFloorIsNotWeldedAlone.
+
+#include <functional>
+#include <vector>
 
 #include "src2d/dynamics/state.h"
 
@@ -11,6 +13,14 @@ namespace merge2d {
 
 /// Welds the pairs that were ready for `merging.steps` steps.
 void merge(State& state, Scratch& scratch);
+
+/// Makes one of the bodies of each pair, other than of two frames. Collections on one floor stay
+/// apart (collection.h).
+void weldPairs(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs);
+/// The same; tells of each body of a frame to which a member is welded.
+using OnFloor = std::function<void(BodyId floor, BodyId member)>;
+void weldPairs(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs,
+               const OnFloor& on_floor);
 
 /// The full solve has become smaller: its memory goes back.
 void releaseRows(State& state, Scratch& scratch);

@@ -12,15 +12,19 @@ OrientedBox worldBox(const State& state, const Rigid& r) {
 
 namespace {
 
-/// Notes the corners of a box and the relative velocities of the two there.
-void noteCorners(Notes* notes, const BodyPair& pair, const OrientedBox& box, const Rigid& a,
-                 const Rigid& b) {
-  if (!notes) return;
-  NotedCorners seen{.a = pair.a, .b = pair.b, .at = box.corners()};
-  for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    seen.velocity[i] = motionField(a).at(seen.at[i]) - motionField(b).at(seen.at[i]);
+/// With "naive" the contacts of a pair are looked at instead of boxes; it may be held by joints
+/// alone.
+bool isNaive(const State& state, const BodyPair& pair) {
+  return pair.count > 0 && state.settings.merging.metric == Metric::Naive;
+}
+
+/// Calls `f` with the box of each floating thing of a pair.
+template <class F>
+void forEachBox(const State& state, const BodyPair& pair, F&& f) {
+  for (const BodyId b : {pair.a, pair.b}) {
+    const Rigid& r = state.rigid(b);
+    if (r.floating()) f(worldBox(state, r));
   }
-  notes->corners.push_back(seen);
 }
 
 /// The naive metric: the fastest of a pair's contact points, which misses a beam that turns about
@@ -42,18 +46,26 @@ double fastestContact(const State& state, const BodyPair& pair) {
 
 }  // namespace
 
-double relativeMotion(const State& state, const BodyPair& pair, Notes* notes) {
-  const bool touches = pair.count > 0;  // or is held by joints alone
-  if (touches && state.settings.merging.metric == Metric::Naive) return fastestContact(state, pair);
-  const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
+double relativeMotion(const State& state, const BodyPair& pair) {
+  if (isNaive(state, pair)) return fastestContact(state, pair);
+  const VelocityField a = motionField(state.rigid(pair.a)), b = motionField(state.rigid(pair.b));
   double fastest = 0.0;
-  for (const Rigid* r : {&a, &b}) {
-    if (!r->floating()) continue;
-    const OrientedBox box = worldBox(state, *r);
-    fastest = std::max(fastest, fastestCorner(box, motionField(a), motionField(b)));
-    noteCorners(notes, pair, box, a, b);
-  }
+  forEachBox(state, pair, [&](const OrientedBox& box) {
+    fastest = std::max(fastest, fastestCorner(box, a, b));
+  });
   return fastest;
+}
+
+void noteCorners(const State& state, const BodyPair& pair, Notes* notes) {
+  if (!notes || isNaive(state, pair)) return;
+  const VelocityField a = motionField(state.rigid(pair.a)), b = motionField(state.rigid(pair.b));
+  forEachBox(state, pair, [&](const OrientedBox& box) {
+    NotedCorners seen{.a = pair.a, .b = pair.b, .at = box.corners()};
+    for (std::size_t i = 0; i < seen.at.size(); ++i) {
+      seen.velocity[i] = a.at(seen.at[i]) - b.at(seen.at[i]);
+    }
+    notes->corners.push_back(seen);
+  });
 }
 
 }  // namespace merge2d

@@ -22,6 +22,9 @@ OrientedBox worldBox(const State& state, const Rigid& r);
 
 /// Eq. (15); only the boxes of floating things are looked at [m/s]. With `merging.metric = "naive"`
 /// only the contacts of a pair are.
-double relativeMotion(const State& state, const BodyPair& pair, Notes* notes);
+double relativeMotion(const State& state, const BodyPair& pair);
+
+/// Notes the relative velocities that Eq. (15) looks at, if somebody asks.
+void noteCorners(const State& state, const BodyPair& pair, Notes* notes);
 
 }  // namespace merge2d

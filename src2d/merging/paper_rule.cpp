@@ -12,6 +12,9 @@
 namespace merge2d {
 namespace {
 
+/// Section 5: relative motion, sliding and breathing.
+constexpr PairCriterion kPaperCriteria[] = {slidesSlowly, hardlyBreathes, movesAsOne};
+
 /// Section 8.2 is future work.
 CycleCriterion noCycles(const MergingSettings&) { return CycleCriterion::Off; }
 
@@ -80,10 +83,9 @@ void sweepByOrder(State& state, Scratch& scratch) {
 }  // namespace
 
 constinit const MergingMethod kPaperMerging{
-    .refuses_edge = false,
-    .waits_for_load = false,
-    .unites_on_floors = true,
+    .criteria = kPaperCriteria,
     .cycles = noCycles,
+    .weld = weldPairsAndFloors,
 };
 
 constinit const UnmergingMethod kPaperUnmerging{

@@ -1,6 +1,6 @@
 #pragma once
 /// `rule = "paper"`: Sections 5 to 7 of the paper to the letter. Besides paper_rule.cpp,
-/// paper_unmerge.cpp, paper_parts.cpp and paper_sleep.cpp it uses only the parts that every rule
+/// paper_unmerge.cpp, paper_floors.cpp and paper_sleep.cpp it uses only the parts that every rule
 /// shares; docs/decisions/cures.md says where it goes wrong in the plane.
 
 #include "src2d/merging/rule.h"
@@ -18,7 +18,11 @@ void sweepBreadthFirst(State& state, Scratch& scratch);
 /// turn; splits each collection into the components of the welds that are left.
 void unmergeByContacts(State& state, Scratch& scratch);
 
-/// The connected components of the remaining welds that have an active contact or a joint.
+/// Welds pairs, and makes one collection of all that is welded to one floor.
+void weldPairsAndFloors(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs);
+
+/// The connected components of the remaining welds that have an active contact or a joint; what is
+/// welded to one floor is one part.
 Parts connectedParts(const State& state, const Collection& c);
 
 /// Section 7: each body and each collection sleeps, and wakes, by itself.

@@ -16,7 +16,7 @@ void sleepEachByItself(State& state, Scratch& scratch) {
     const Rigid& r = state[id];
     const bool disturbed = scratch.restless[index(id)] != 0;
     const bool rests = r.asleep || r.quiet_steps >= state.settings.sleeping.steps;
-    noteSleep(state, scratch, id, disturbed || !rests);
+    recordSleep(state, scratch, id, disturbed || !rests);
     if (r.asleep && disturbed) wakeUp(state, scratch, id);
     if (!r.asleep && rests && !disturbed) fallAsleep(state, scratch, id);
   }

@@ -13,18 +13,33 @@
 namespace merge2d {
 namespace {
 
-/// Tests the welds of one collection in one step.
-class WeldCriteria {
+/// Section 6.3: a point that carries no force any more.
+Criterion stillPresses(const ContactBlock& k, int i) {
+  return {"broken", "Section 6.3", k.lambda_n(i), 0.0, !broken(k, i)};
+}
+
+/// Eq. (19), of a point on the edge of its cone, Eq. (20).
+Criterion sticks(const UnmergingSettings& settings, double slip) {
+  return {"sliding", "(19)", slip, settings.sliding, slip <= settings.sliding};
+}
+
+/// Eq. (17) at unmerging (Section 6.4): has the pair been faster for so many steps?
+Criterion movesSlowly(const UnmergingSettings& settings, double motion) {
+  return {"relative-motion", "(17)", motion, settings.velocity, motion <= settings.velocity};
+}
+
+/// Asks the criteria of the welds of one collection in one step, and cuts those that do not hold.
+class WeldCutter {
  public:
-  WeldCriteria(const State& state, const Scratch& scratch, Collection& c)
+  WeldCutter(const State& state, const Scratch& scratch, Collection& c)
       : state_(state), scratch_(scratch), c_(c), turn_(state[c.rigid].rotation) {}
 
   /// Returns whether some weld is cut.
-  bool testAll() {
+  bool cutAll() {
     for (Weld& weld : c_.welds) weld.cut = false;
-    for (std::uint32_t b = 0; b < c_.active_blocks; ++b) testContacts(b);
-    for (std::uint32_t w = 0; w < c_.welds.size(); ++w) {
-      if (isWatched(c_.welds[w])) testMotion(w);
+    for (std::uint32_t b = 0; b < c_.active_blocks; ++b) askContacts(b);
+    for (Weld& weld : c_.welds) {
+      if (isWatched(weld)) askMotion(weld);
     }
     return any_;
   }
@@ -37,75 +52,49 @@ class WeldCriteria {
   }
 
   /// Section 6.3, for the points of one block.
-  void testContacts(std::uint32_t b) {
+  void askContacts(std::uint32_t b) {
     const ContactBlock& k = c_.blocks[b];
     InternalContact& inner = c_.contacts[c_.block_contact[b]];
-    const Vec2 n = turn_ * Vec2(k.nx, k.ny);
+    Weld& weld = c_.welds[inner.weld];
     for (int i = 0; i < k.count; ++i) {
       PointWatch& point = inner.watch[static_cast<std::size_t>(i)];
-      if (!point.active && broken(k, i)) continue;
+      const Criterion presses = stillPresses(k, i);
+      if (!point.active && !presses.holds) continue;
       point.active = true;
-      point.lost = broken(k, i);
-      at_ = state_[c_.rigid].frame() * inner.point(i).position;
-      if (point.lost) {
-        testBroken(inner.weld, k.lambda_n(i));
-      } else {
-        const auto& u = scratch_.sweep_u;
-        const double slip = contactVelocity(k, i, n.x(), n.y(), u[k.a], u[k.b]).t;
-        testSliding(inner.weld, std::abs(slip), onEdge(k, i));
-      }
+      point.lost = !presses.holds;
+      if (!point.lost && !onEdge(k, i)) continue;
+      const Criterion test = point.lost ? presses : sticks(state_.settings.unmerging, slipAt(k, i));
+      const EventReason reason = point.lost ? EventReason::Broken : EventReason::Sliding;
+      Decision* d = take(weld, test, reason);
+      if (d) d->at = state_[c_.rigid].frame() * inner.point(i).position;
     }
   }
 
-  void testBroken(std::uint32_t w, double lambda_n) {
-    note(w, {.criterion = "broken",
-             .equation = "Section 6.3",
-             .value = lambda_n,
-             .threshold = 0.0,
-             .verdict = "unmerge",
-             .at = at_});
-    cut(w, EventReason::Broken);
-  }
-
-  /// Eqs. (19) and (20).
-  void testSliding(std::uint32_t w, double slip, bool on_edge) {
-    const double threshold = state_.settings.unmerging.sliding;
-    if (!on_edge) return;
-    const bool slides = slip > threshold;
-    note(w, {.criterion = "sliding",
-             .equation = "(19)",
-             .value = slip,
-             .threshold = threshold,
-             .verdict = slides ? "unmerge" : "keep",
-             .at = at_});
-    if (slides) cut(w, EventReason::Sliding);
+  double slipAt(const ContactBlock& k, int i) const {
+    const Vec2 n = turn_ * Vec2(k.nx, k.ny);
+    const auto& u = scratch_.sweep_u;
+    return std::abs(contactVelocity(k, i, n.x(), n.y(), u[k.a], u[k.b]).t);
   }
 
   /// Section 6.4.
-  void testMotion(std::uint32_t w) {
+  void askMotion(Weld& weld) {
     constexpr int kMost = 10'000;  // steps that are counted
     const UnmergingSettings& settings = state_.settings.unmerging;
-    Weld& weld = c_.welds[w];
+    Criterion test = movesSlowly(settings, motionOf(weld));
     const int before = weld.moving;
-    const double motion = relativeMotion(weld);
-    const bool fast = motion > settings.velocity;
-    weld.moving = fast ? static_cast<std::uint16_t>(std::min(before + 1, kMost)) : 0;
-    const bool moves = weld.moving >= settings.steps;
-    note(w, {.criterion = "relative-motion",
-             .equation = "(17)",
-             .value = motion,
-             .threshold = settings.velocity,
-             .count = weld.moving,
-             .needed = settings.steps,
-             .verdict = moves             ? "unmerge"
-                        : weld.moving > 0 ? "wait"
-                                          : "keep",
-             .before = before});
-    if (moves) cut(w, EventReason::RelativeMotion);
+    weld.moving = test.holds ? 0 : static_cast<std::uint16_t>(std::min(before + 1, kMost));
+    const bool waits = weld.moving > 0 && weld.moving < settings.steps;
+    test.holds |= waits;
+    Decision* d = take(weld, test, EventReason::RelativeMotion);
+    if (!d) return;
+    if (waits) d->verdict = "wait";
+    d->count = weld.moving;
+    d->needed = settings.steps;
+    d->before = before;
   }
 
   /// Eq. (15) with the velocities of the sweep; of a pair with a pinned body only the other's box.
-  double relativeMotion(const Weld& weld) const {
+  double motionOf(const Weld& weld) const {
     // Seen from the first body, so that it does not matter where in the world they are.
     const Vec2 origin = state_.pose(weld.a).position;
     const auto field = [&](BodyId b) {
@@ -124,27 +113,22 @@ class WeldCriteria {
     return fastest;
   }
 
-  void cut(std::uint32_t w, EventReason reason) {
-    Weld& weld = c_.welds[w];
-    if (weld.cut) return;
-    weld.cut = any_ = true;
-    weld.reason = reason;
-  }
-
-  void note(std::uint32_t w, Decision test) const {
-    if (!scratch_.notes) return;
-    test.a = c_.welds[w].a;
-    test.b = c_.welds[w].b;
-    test.stage = "Unmerge";
-    scratch_.notes->decisions.push_back(test);
+  /// Cuts the weld where the criterion does not hold. Returns the record, or null.
+  Decision* take(Weld& weld, const Criterion& test, EventReason reason) {
+    if (!test.holds && !weld.cut) {
+      weld.cut = any_ = true;
+      weld.reason = reason;
+    }
+    if (!scratch_.notes) return nullptr;
+    return &scratch_.notes->decisions.emplace_back(
+        record(test, "Unmerge", weld.a, weld.b, test.holds ? "keep" : "unmerge"));
   }
 
   const State& state_;
   const Scratch& scratch_;
   Collection& c_;
   Rotation turn_;
-  bool any_ = false;        ///< some weld is cut
-  Vec2 at_ = Vec2::Zero();  ///< the contact point at hand, for the notes
+  bool any_ = false;  ///< some weld is cut
 };
 
 /// One collection that lost welds.
@@ -163,7 +147,7 @@ void unmergeByContacts(State& state, Scratch& scratch) {
     if (!isSwept(state, c) || breakJointsInside(state, scratch, c)) continue;
     Noted noted(scratch.notes);
     const bool joints_loosened = loosenJoints(state, c, scratch.sweep_u);
-    const bool cut = WeldCriteria(state, scratch, c).testAll();
+    const bool cut = WeldCutter(state, scratch, c).cutAll();
     noted.close();
     if (joints_loosened || cut) losses.push_back({c.rigid, noted});
   }

@@ -4,6 +4,7 @@
 
 #include "src2d/collections/joint_welds.h"
 #include "src2d/dynamics/solver.h"
+#include "src2d/merging/merge_criteria.h"
 #include "src2d/merging/pair_metric.h"
 
 namespace merge2d {
@@ -13,43 +14,43 @@ Vec2 endOf(const State& state, const Joint& joint) {
   return joint.to_world ? joint.anchor_b : state.pose(joint.b) * joint.anchor_b;
 }
 
-/// Records one decision if somebody asks; `now` is the count after it.
-void record(const Scratch& scratch, const Joint& joint, std::string_view criterion,
-            std::string_view equation, double value, double threshold, int now, int needed) {
-  if (!scratch.notes) return;
+/// The joint has come to rest.
+Criterion hardlyBreathes(const State& state, const Joint& joint, double scale) {
+  return below("breathing", kOwnMerging, joint.breath, scale * state.settings.merging.breathing);
+}
+
+/// Eqs. (15) to (17) for the bodies of a joint.
+Criterion movesAsOne(const State& state, const BodyPair& pair, double scale) {
+  const double most = scale * state.settings.merging.velocity;
+  return below("relative-motion", kOwnMerging, relativeMotion(state, pair), most);
+}
+
+void countQuietJoint(State& state, Joint& joint, Notes* notes) {
   const auto [a, b] = pairOf(joint);
-  scratch.notes->decisions.push_back({.a = a,
-                                      .b = b,
-                                      .stage = "AccumulateRelativeMotion",
-                                      .criterion = criterion,
-                                      .equation = equation,
-                                      .value = value,
-                                      .threshold = threshold,
-                                      .count = now,
-                                      .needed = needed,
-                                      .verdict = value < threshold ? "below" : "apart",
-                                      .before = joint.quiet_steps});
+  const BodyPair pair{a, b, 0, 0};
+  const double scale = thresholdScale(contactSize(state, joint.a, joint.b));
+  const Criterion breath = hardlyBreathes(state, joint, scale);
+  const Criterion motion = movesAsOne(state, pair, scale);
+  joint.yielded = {};
+  const int before = joint.quiet_steps;
+  joint.quiet_steps = breath.holds && motion.holds ? before + 1 : 0;
+  if (!notes) return;
+  noteCorners(state, pair, notes);
+  for (const Criterion& test : {breath, motion}) {
+    Decision d = record(test, "AccumulateRelativeMotion", a, b, test.holds ? "below" : "apart");
+    d.count = joint.quiet_steps;
+    d.needed = state.settings.merging.steps;
+    d.before = before;
+    notes->decisions.push_back(d);
+  }
 }
 
 }  // namespace
 
 void countQuietJoints(State& state, Scratch& scratch) {
-  const MergingSettings& m = state.settings.merging;
   for (Joint& joint : state.joints) {
     if (joint.to_world || !holds(state, joint) || isInside(state, joint)) continue;
-    const Rigid &a = state.rigid(joint.a), &b = state.rigid(joint.b);
-    if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) continue;
-    if (hasBelt(state, joint.a, joint.b)) continue;
-    const auto [first, second] = pairOf(joint);
-    const double motion = relativeMotion(state, {first, second, 0, 0}, scratch.notes);
-    const double scale = thresholdScale(contactSize(state, joint.a, joint.b));
-    const double breathing = scale * m.breathing, velocity = scale * m.velocity;
-    const bool quiet = joint.breath < breathing && motion < velocity;
-    const int now = quiet ? joint.quiet_steps + 1 : 0;
-    record(scratch, joint, "breathing", kOwnMerging, joint.breath, breathing, now, m.steps);
-    record(scratch, joint, "relative-motion", kOwnMerging, motion, velocity, now, m.steps);
-    joint.yielded = {};
-    joint.quiet_steps = now;
+    if (canMerge(state, joint.a, joint.b)) countQuietJoint(state, joint, scratch.notes);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "src2d/collections/joint_welds.h"
-#include "src2d/merging/pair_readiness.h"
+#include "src2d/merging/merge_criteria.h"
 #include "src2d/merging/ready_joints.h"
 
 namespace merge2d {
@@ -31,14 +31,23 @@ class Refused {
   std::size_t next_ = 0;
 };
 
+/// Section 5.1.
+Criterion wasQuietForLong(const State& state, int steps) {
+  const int needed = state.settings.merging.steps;
+  return {"count", "Section 5.1", static_cast<double>(steps), static_cast<double>(needed),
+          steps >= needed};
+}
+
 /// A pair that joints alone make ready; they hold it when they count as contacts.
-void noteJoint(const State& state, Notes* notes, const JointEdge& joint) {
-  noteMerge(state, notes, {joint.a, joint.b, 0, 0},
-            {.criterion = "freedoms",
-             .equation = kOwnMerging,
-             .value = static_cast<double>(joint.freedoms),
-             .threshold = kFreedoms,
-             .verdict = joint.contacts > 0 ? "merge" : "wait"});
+Criterion isHeldByJoints(const JointEdge& joint) {
+  return {"freedoms", kOwnMerging, static_cast<double>(joint.freedoms), kFreedoms,
+          joint.contacts > 0};
+}
+
+/// Two bodies that are fixed, if at all, to one frame.
+Criterion haveOneFrame(const State& state, BodyId a, BodyId b) {
+  const bool two = areOnTwoFrames(state.rigid(a), state.rigid(b));
+  return {"frames", kOwnMerging, two ? 2.0 : 1.0, 1.0, !two};
 }
 
 }  // namespace
@@ -66,67 +75,67 @@ std::vector<Pin> MergeGraph::pinsOf(const std::vector<ReadyPair>& ready) const {
   return pins;
 }
 
-void noteMerge(const State& state, Notes* notes, const BodyPair& pair, Decision test) {
-  if (!notes) return;
-  test.a = pair.a;
-  test.b = pair.b;
-  test.stage = "Merge";
-  test.needed = state.settings.merging.steps;
+Decision* recordMerge(const State& state, Notes* notes, const BodyPair& pair,
+                      const Criterion& test) {
+  if (!notes) return nullptr;
+  Decision d = record(test, "Merge", pair.a, pair.b, test.holds ? "merge" : "wait");
+  d.needed = state.settings.merging.steps;
   const bool touches = pair.count > 0;  // or is held by joints alone
-  test.count = touches ? state.contacts[state.contacts.order[pair.first]].quiet_steps : test.needed;
-  test.before = test.count;
-  notes->decisions.push_back(test);
+  d.count = touches ? state.contacts[state.contacts.order[pair.first]].quiet_steps : d.needed;
+  d.before = d.count;
+  return &notes->decisions.emplace_back(d);
 }
 
-void listReadyPairs(const State& state, Scratch& scratch, const MergeGraph& graph) {
-  const int needed = state.settings.merging.steps;
-  scratch.ready.clear();
+namespace {
+
+void listReadyContacts(const State& state, Scratch& scratch, const MergeGraph& graph) {
   for (const BodyPair& pair : scratch.pairs) {
-    const Contact& first = state.contacts[state.contacts.order[pair.first]];
-    const bool counted = first.quiet_steps >= needed;
-    if (first.quiet_steps > 0) {
-      noteMerge(state, scratch.notes, pair,
-                {.criterion = "count",
-                 .equation = "Section 5.1",
-                 .value = static_cast<double>(first.quiet_steps),
-                 .threshold = static_cast<double>(needed),
-                 .verdict = counted ? "merge" : "wait"});
-    }
-    if (!counted || areOnTwoFrames(state.rigid(pair.a), state.rigid(pair.b))) continue;
+    const int steps = state.contacts[state.contacts.order[pair.first]].quiet_steps;
+    const Criterion counted = wasQuietForLong(state, steps);
+    if (steps > 0) recordMerge(state, scratch.notes, pair, counted);
+    if (!counted.holds || !haveOneFrame(state, pair.a, pair.b).holds) continue;
     scratch.ready.push_back({.pair = pair,
                              .node_a = graph.node(pair.a),
                              .node_b = graph.node(pair.b),
-                             .contacts = activePoints(state, pair)});
+                             .contacts = lookAt(state, pair).active});
   }
+}
+
+void listReadyJoints(const State& state, Scratch& scratch, const MergeGraph& graph) {
   for (const JointEdge& joint : readyJoints(state)) {
-    noteJoint(state, scratch.notes, joint);
-    if (joint.contacts == 0 || areOnTwoFrames(state.rigid(joint.a), state.rigid(joint.b))) continue;
-    scratch.ready.push_back({.pair = {joint.a, joint.b, 0, 0},
+    const BodyPair pair{joint.a, joint.b, 0, 0};
+    const Criterion held = isHeldByJoints(joint);
+    recordMerge(state, scratch.notes, pair, held);
+    if (!held.holds || !haveOneFrame(state, joint.a, joint.b).holds) continue;
+    scratch.ready.push_back({.pair = pair,
                              .node_a = graph.node(joint.a),
                              .node_b = graph.node(joint.b),
                              .contacts = joint.contacts,
                              .joint_at = joint.at});
   }
+}
+
+}  // namespace
+
+void listReadyPairs(const State& state, Scratch& scratch, const MergeGraph& graph) {
+  scratch.ready.clear();
+  listReadyContacts(state, scratch, graph);
+  listReadyJoints(state, scratch, graph);
   std::stable_sort(scratch.ready.begin(), scratch.ready.end(),
                    [](const ReadyPair& x, const ReadyPair& y) { return keyOf(x) < keyOf(y); });
 }
 
-void noteTwoFrames(const State& state, Scratch& scratch) {
+void recordTwoFrames(const State& state, Scratch& scratch) {
   if (!scratch.notes) return;
-  const auto note = [&](BodyId one, BodyId other) {
-    if (!areOnTwoFrames(state.rigid(one), state.rigid(other))) return;
-    scratch.notes->decisions.push_back({.a = one,
-                                        .b = other,
-                                        .stage = "Merge",
-                                        .criterion = "frames",
-                                        .equation = kOwnMerging,
-                                        .value = 2.0,
-                                        .threshold = 1.0,
-                                        .needed = state.settings.merging.steps,
-                                        .verdict = "apart"});
+  const auto ask = [&](BodyId a, BodyId b) {
+    const Criterion one = haveOneFrame(state, a, b);
+    if (one.holds) return;
+    Decision d = record(one, "Merge", a, b, "apart");
+    d.needed = state.settings.merging.steps;
+    scratch.notes->decisions.push_back(d);
   };
-  for (const BodyPair& pair : scratch.pairs) note(pair.a, pair.b);
-  for (const JointEdge& joint : readyJoints(state)) note(joint.a, joint.b);
+  for (const BodyPair& pair : scratch.pairs) ask(pair.a, pair.b);
+  for (const JointEdge& joint : readyJoints(state)) ask(joint.a, joint.b);
 }
 
 std::vector<ReadyPair> pairsToJudge(const State& state, const Scratch& scratch,

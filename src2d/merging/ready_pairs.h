@@ -42,11 +42,13 @@ void listReadyPairs(const State& state, Scratch& scratch, const MergeGraph& grap
 std::vector<ReadyPair> pairsToJudge(const State& state, const Scratch& scratch,
                                     const MergeGraph& graph);
 
-/// Writes down the pairs whose bodies are fixed to two frames: those stay apart however calm they
-/// are. For the end of the stage, as some came there by the welds of this step.
-void noteTwoFrames(const State& state, Scratch& scratch);
+/// Records the pairs whose bodies are fixed to two frames: those stay apart however calm they are.
+/// For the end of the stage, as some came there by the welds of this step.
+void recordTwoFrames(const State& state, Scratch& scratch);
 
-/// Writes down whether a pair is welded, as far as one test knows.
-void noteMerge(const State& state, Notes* notes, const BodyPair& pair, Decision test);
+/// Records a criterion about a pair that is ready, or may be soon, if somebody asks: "merge" where
+/// it holds. Returns the record, or null.
+Decision* recordMerge(const State& state, Notes* notes, const BodyPair& pair,
+                      const Criterion& test);
 
 }  // namespace merge2d

@@ -1,5 +1,5 @@
 #pragma once
-/// AccumulateRelativeMotion (Sections 5 and 7).
+/// AccumulateRelativeMotion (Sections 5 and 7): the criteria of each pair, asked and counted.
 
 #include "src2d/dynamics/state.h"
 

@@ -4,21 +4,22 @@
 /// rules share (collections, splits, rows) ask the table; no other code knows which rule is in
 /// force.
 
+#include <span>
+
 #include "src2d/collections/collection_method.h"
 #include "src2d/dynamics/state.h"
+#include "src2d/merging/merge_criteria.h"
 
 namespace merge2d {
 
 /// Which pairs merge (Section 5).
 struct MergingMethod {
-  /// A pair all of whose contacts are on the edge of their cones, Eq. (20), is not ready.
-  bool refuses_edge;
-  /// A pair is not ready while the impulse between its bodies still changes.
-  bool waits_for_load;
-  /// Collections on one pinned or scripted body are one collection.
-  bool unites_on_floors;
+  /// A pair is ready in a step in which all of these hold; the dear ones come last.
+  std::span<const PairCriterion> criteria;
   /// The criterion for pairs with single contacts that are ready (Section 8.2).
   CycleCriterion (*cycles)(const MergingSettings& settings);
+  /// Welds pairs: makes their bodies one.
+  void (*weld)(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs);
 };
 
 /// How the forces inside collections are kept, and which bodies come free (Sections 6 and 7).

@@ -70,6 +70,11 @@ Projection project(Gram gram, const LoadCertificate::Weights& b, std::size_t n, 
   return p;
 }
 
+/// A product of loads, with its part from outside in that scale.
+double weighed(double of_frame, double whole, double scale) {
+  return of_frame + scale * (whole - of_frame);
+}
+
 /// |ℓ − Σ βᵢ ℓᵢ|² with the weights that there are, and loads from outside in that scale: in most
 /// steps these cover the load still.
 double leftByWeights(const State& state, const Collection& c, const CollectionLoad& load,
@@ -86,8 +91,7 @@ double leftByWeights(const State& state, const Collection& c, const CollectionLo
     left -= 2.0 * weight * product(state, c, load, witness);
     for (std::size_t j = 0; j < n; ++j) left += weight * proof.weights[j] * proof.gram[i * n + j];
   }
-  const double of_frame = dot(frame, frame);
-  return of_frame + scale * (left - of_frame);
+  return weighed(dot(frame, frame), left, scale);
 }
 
 /// How fast members move under the impulses of a combination [m/s].
@@ -101,35 +105,44 @@ double motionOf(const LoadCertificate& proof, const LoadCertificate::Weights& we
 
 }  // namespace
 
-bool covers(const State& state, Collection& c, const CollectionLoad& load) {
-  LoadCertificate& proof = c.certificate.front();
+Coverage coverageOf(const State& state, const Collection& c, const CollectionLoad& load) {
+  const LoadCertificate& proof = c.certificate.front();
+  const double most = mostLeft(state, load.norm);
+  const double outer = most + mostLeft(state, kOuterWeight * load.outer_norm);
+  const double scale = most * most / (outer * outer);  // of the loads from outside
+  const auto leaving = [&](double left, const LoadCertificate::Weights& weights) {
+    // Not where they are no numbers.
+    const bool carried = left <= most * most && motionOf(proof, weights) <= cutSpeed(state);
+    const double part = std::sqrt(std::max(0.0, left));
+    return Coverage{{"proof", kOwnDecided, part, most, carried}, weights};
+  };
   const std::size_t n = proof.witnesses.size();
-  if (n == 0) return false;
-  const double frame = mostLeft(state, load.norm);
-  const double outer = frame + mostLeft(state, kOuterWeight * load.outer_norm);
-  const double scale = frame * frame / (outer * outer);  // of the loads from outside
-  if (leftByWeights(state, c, load, scale) <= frame * frame &&
-      motionOf(proof, proof.weights) <= cutSpeed(state)) {
-    return true;
+  const double ll = weighed(load.norm * load.norm, square(load), scale);
+  if (n == 0) {
+    Coverage none = leaving(ll, {});
+    none.carried.holds = false;
+    return none;
   }
+  const Coverage known = leaving(leftByWeights(state, c, load, scale), proof.weights);
+  if (known.carried.holds) return known;
   Gram gram{};
   LoadCertificate::Weights b{};
   for (std::size_t i = 0; i < n; ++i) {
     const Witness& witness = proof.witnesses[i];
-    const double of_frame = dot(load.frame, witness.frame);
-    b[i] = of_frame + scale * (product(state, c, load, witness) - of_frame);
+    b[i] = weighed(dot(load.frame, witness.frame), product(state, c, load, witness), scale);
     for (std::size_t j = 0; j < n; ++j) {
       const double of_frames = dot(witness.frame, proof.witnesses[j].frame);
-      gram[i * kWitnesses + j] = of_frames + scale * (proof.gram[i * n + j] - of_frames);
+      gram[i * kWitnesses + j] = weighed(of_frames, proof.gram[i * n + j], scale);
     }
   }
-  const double ll = load.norm * load.norm;
-  const Projection p = project(gram, b, n, ll + scale * (square(load) - ll), leftOfRest(state));
-  if (!(p.left <= frame * frame)) return false;  // nor where they are no numbers
-  if (motionOf(proof, p.weights) > cutSpeed(state)) return false;
-  proof.lambda_stale |= p.weights != proof.weights;
-  proof.weights = p.weights;
-  return true;
+  const Projection nearest = project(gram, b, n, ll, leftOfRest(state));
+  return leaving(nearest.left, nearest.weights);
+}
+
+void carryBy(Collection& c, const LoadCertificate::Weights& weights) {
+  LoadCertificate& proof = c.certificate.front();
+  proof.lambda_stale |= weights != proof.weights;
+  proof.weights = weights;
 }
 
 bool isNewOutsideAlone(const State& state, const Collection& c, const CollectionLoad& load) {

@@ -16,9 +16,15 @@ BodyId heaviestOf(const State& state, const Collection& c);
 /// Has the proofs speak for a new layout, from this step on.
 void restart(const State& state, LoadCertificate& proof);
 
-/// True when the collection's witnesses cover the load: its weights are then those of the
-/// combination.
-bool covers(const State& state, Collection& c, const CollectionLoad& load);
+/// The combination of the loads that were carried which is nearest to a load.
+struct Coverage {
+  Criterion carried;  ///< "proof": how much of the load it leaves over [m/s]
+  LoadCertificate::Weights weights{};
+};
+Coverage coverageOf(const State& state, const Collection& c, const CollectionLoad& load);
+
+/// The impulses inside are from now on those of this combination of the proofs.
+void carryBy(Collection& c, const LoadCertificate::Weights& weights);
 
 /// True when the latest proof carries this load but for the forces from outside.
 bool isNewOutsideAlone(const State& state, const Collection& c, const CollectionLoad& load);

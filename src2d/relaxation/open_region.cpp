@@ -23,7 +23,7 @@ ContactBlock inWorld(const State& state, const Collection& c, const ContactBlock
 }
 
 /// A search has found motion, which may be that of any member.
-bool wasSearched(const Collection& c) { return !c.certificate.front().search.movers.empty(); }
+bool wasSearched(const Collection& c) { return c.certificate.front().search.hasFoundMotion(); }
 
 /// Members that must be on their own: only then they have rows against other frames, and an impulse
 /// of the user acts on them alone.

@@ -80,10 +80,8 @@ void beginSearch(const State& state, Collection& c, const CollectionLoad& load) 
   c.certificate.front().weights = {};
 }
 
-bool isSuspended(const ProofSearch& search) { return !search.newton.unknowns.empty(); }
-
 bool isDirect(const State& state, const ProofSearch& search) {
-  return search.isInAllRows() && !search.ahead && !isSuspended(search) &&
+  return search.isInAllRows() && !search.ahead && !search.isSuspended() &&
          lasts(state, search.steps) &&
          std::has_single_bit(static_cast<std::uint16_t>(search.steps));
 }
@@ -109,7 +107,7 @@ void continueSearch(const State& state, Scratch& scratch, Collection& c, double 
   ProofSearch& search = c.certificate.front().search;
   if (search.ahead) swapImpulses(c, search.load);
   const bool begins = isDirect(state, search) && c.residual > toleratedResidual(state);
-  if ((begins || isSuspended(search)) && !solveDirectly(state, scratch, c)) return;
+  if ((begins || search.isSuspended()) && !solveDirectly(state, scratch, c)) return;
   startMembers(state, scratch, c, true);
   c.residual = static_cast<float>(relax(state, scratch, c, tolerance));
   if (search.ahead) swapImpulses(c, search.load);

@@ -19,9 +19,6 @@ void beginSearch(const State& state, Collection& collection, const CollectionLoa
 /// search.
 bool isDirect(const State& state, const ProofSearch& search);
 
-/// Whether Newton's method has more to do than one step may spend, and goes on in the next.
-bool isSuspended(const ProofSearch& search);
-
 /// Replaces the load of a search by that of this step; the impulses found so far stay.
 void renewLoad(const State& state, Collection& collection, const CollectionLoad& load);
 

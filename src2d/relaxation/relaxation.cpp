@@ -68,7 +68,7 @@ class Relaxation {
   }
 
   ProofSearch& search() { return c_.certificate.front().search; }
-  bool isSearch() { return !search().start.empty(); }
+  bool isSearch() { return search().isUnderWay(); }
   /// Sweeps over all rows that go on.
   bool isUnderWay() { return isSearch() && search().isInAllRows(); }
 

@@ -71,41 +71,39 @@ void fallAsleep(State& state, Scratch& scratch, RigidId id) {
       {EventType::Sleep, first, first, c ? c->id : kNoCollection, EventReason::None});
 }
 
-void noteSleep(const State& state, const Scratch& scratch, RigidId id, bool stays_awake) {
+namespace {
+
+/// The reason for which something falls asleep, wakes or stays awake.
+Criterion reasonOf(const State& state, const Scratch& scratch, RigidId id, bool stays_awake) {
   const Rigid& r = state[id];
-  Notes* notes = scratch.notes;
-  if (!notes || (r.asleep && !stays_awake)) return;
-  const Collection* c = state.isCollection(id) ? &state.collection(id) : nullptr;
-  const BodyId first = state.firstBody(id);
   const int needed = state.settings.sleeping.steps;
-  Decision d{.a = first,
-             .b = first,
-             .stage = "SleepAndWake",
-             .criterion = "rest",
-             .equation = "Section 7",
-             .value = static_cast<double>(r.quiet_steps),
-             .threshold = static_cast<double>(needed),
-             .count = r.quiet_steps,
-             .needed = needed,
-             .verdict = r.asleep      ? "wake"
-                        : stays_awake ? "wait"
-                                      : "sleep",
-             .before = r.quiet_steps};
-  const auto because = [&](std::string_view criterion) {
-    d.criterion = criterion;
-    d.value = 1.0;
-    d.threshold = 0.0;
+  const auto keepsAwake = [](std::string_view criterion, std::string_view source) {
+    return Criterion{criterion, source, 1.0, 0.0, false};
   };
-  if (scratch.restless[index(id)] != 0) {
-    because("disturbed");
-  } else if (r.asleep) {
-    because("neighbours");
-  } else if (r.quiet_steps >= needed && stays_awake) {
-    const bool settles = c && !c->settled;
-    if (settles) d.equation = kOwnSleeping;
-    because(settles ? "inner-forces" : "neighbours");
+  if (scratch.restless[index(id)] != 0) return keepsAwake("disturbed", "Section 7");
+  if (r.asleep) return keepsAwake("neighbours", "Section 7");
+  if (r.quiet_steps >= needed && stays_awake) {
+    const bool settles = state.isCollection(id) && !state.collection(id).settled;
+    return settles ? keepsAwake("inner-forces", kOwnSleeping)
+                   : keepsAwake("neighbours", "Section 7");
   }
-  notes->decisions.push_back(d);
+  return {"rest", "Section 7", static_cast<double>(r.quiet_steps), static_cast<double>(needed),
+          r.quiet_steps >= needed};
+}
+
+}  // namespace
+
+void recordSleep(const State& state, const Scratch& scratch, RigidId id, bool stays_awake) {
+  const Rigid& r = state[id];
+  if (!scratch.notes || (r.asleep && !stays_awake)) return;
+  const BodyId first = state.firstBody(id);
+  Decision d = record(reasonOf(state, scratch, id, stays_awake), "SleepAndWake", first, first,
+                      r.asleep      ? "wake"
+                      : stays_awake ? "wait"
+                                    : "sleep");
+  d.count = d.before = r.quiet_steps;
+  d.needed = state.settings.sleeping.steps;
+  scratch.notes->decisions.push_back(d);
 }
 
 namespace {
@@ -197,7 +195,7 @@ void sleepByIslands(State& state, Scratch& scratch) {
   for (const RigidId id : state.present) {
     if (!canSleep(state, id)) continue;
     const bool stays_awake = reasonOfIsland(scratch, id) != kNothing;
-    noteSleep(state, scratch, id, stays_awake);
+    recordSleep(state, scratch, id, stays_awake);
     const bool asleep = state[id].asleep;
     if (asleep && stays_awake) wakeUp(state, scratch, id);
     if (!asleep && !stays_awake) fallAsleep(state, scratch, id);

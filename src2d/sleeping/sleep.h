@@ -23,7 +23,7 @@ void markRestless(State& state, Scratch& scratch);
 void fallAsleep(State& state, Scratch& scratch, RigidId id);
 
 /// Notes whether a rigid thing stays awake, and the one test that decided it.
-void noteSleep(const State& state, const Scratch& scratch, RigidId id, bool stays_awake);
+void recordSleep(const State& state, const Scratch& scratch, RigidId id, bool stays_awake);
 
 /// Wakes one rigid thing; its island follows in the stage.
 void wakeUp(State& state, Scratch& scratch, RigidId id);

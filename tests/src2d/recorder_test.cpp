@@ -112,7 +112,7 @@ TEST(Recorder, APairCountsUpToTheThresholdAndThenMerges) {
     EXPECT_EQ(d.needed, 3) << d.criterion;
     EXPECT_LT(d.value, d.threshold) << d.criterion;
   }
-  EXPECT_THAT(criteria, ElementsAre("edge", "sliding", "breathing", "load", "relative-motion",
+  EXPECT_THAT(criteria, ElementsAre("sliding", "breathing", "edge", "load", "relative-motion",
                                     "count", "cycle"));
   EXPECT_THAT(verdicts, ElementsAre("below", "below", "below", "below", "below", "merge", "merge"));
 }

@@ -169,7 +169,10 @@ TEST(LoadCertificate, WeightsStayWhileTheyCoverTheLoad) {
   LoadCertificate& proof = cart.certificate.front();
   const auto isCovered = [&](double factor) {
     proof.lambda_stale = false;
-    return covers(inside.setup.state, cart, timesTheLoadOf(proof.witnesses.front(), factor));
+    const CollectionLoad load = timesTheLoadOf(proof.witnesses.front(), factor);
+    const Coverage coverage = coverageOf(inside.setup.state, cart, load);
+    if (coverage.carried.holds) carryBy(cart, coverage.weights);
+    return coverage.carried.holds;
   };
   ASSERT_TRUE(isCovered(0.8));
   const LoadCertificate::Weights weights = proof.weights;

@@ -40,13 +40,14 @@ TEST(PassedLoad, AWeightOnTopIsCarriedAndKnownFromThenOn) {
   Merged merged(largeWall());
   Collection& c = merged.collection();
   const CollectionLoad load = merged.loadWith(merged.last() - 2, {0.0, -0.5});
-  EXPECT_FALSE(covers(merged.state(), c, load));
+  EXPECT_FALSE(coverageOf(merged.state(), c, load).carried.holds);
   ASSERT_GT(fastestUnder(merged, load), cutSpeed(merged.state()));
   ASSERT_TRUE(passesOn(merged.state(), merged.scratch(), c, load));
   EXPECT_LT(fastestUnder(merged, load), 2.0 * toleratedResidual(merged.state()));
   merged.expectAdmissible();
-  EXPECT_TRUE(covers(merged.state(), c, load));
-  EXPECT_TRUE(covers(merged.state(), c, merged.loadWith(merged.last() - 2, {0.0, -0.25})))
+  EXPECT_TRUE(coverageOf(merged.state(), c, load).carried.holds);
+  const CollectionLoad elsewhere = merged.loadWith(merged.last() - 2, {0.0, -0.25});
+  EXPECT_TRUE(coverageOf(merged.state(), c, elsewhere).carried.holds)
       << "between two loads that are carried";
 }
 

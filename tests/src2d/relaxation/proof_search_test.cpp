@@ -38,7 +38,7 @@ struct StateOf {
   Collection* suspended() {
     for (Collection& c : setup.state.collections) {
       for (const LoadCertificate& proof : c.certificate) {
-        if (isSuspended(proof.search)) return &c;
+        if (proof.search.isSuspended()) return &c;
       }
     }
     return nullptr;

@@ -1,0 +1,62 @@
+#include "src2d/merging/doubt_spread.h"
+
+#include "src2d/collections/collection.h"
+#include "src2d/proofs/decided_settings.h"
+
+namespace merge2d {
+namespace {
+
+void lengthen(HitRun& run, std::int64_t step) {
+  if (run.last + 1 < step) run.first = step;
+  run.last = step;
+}
+
+}  // namespace
+
+void spreadHits(State& state, Scratch& scratch) {
+  auto& sets = scratch.sets;
+  sets.reset(state.collections.size());
+  const auto slotOf = [&](BodyId b) -> std::ptrdiff_t {
+    const RigidId id = state[b].rigid;
+    if (!state.isCollection(id) || state[id].asleep) return -1;
+    return static_cast<std::ptrdiff_t>(index(id) - state.bodies.size());
+  };
+  const auto unite = [&](BodyId a, BodyId b) {
+    const auto p = slotOf(a), q = slotOf(b);
+    if (p >= 0 && q >= 0) sets.unite(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(q));
+  };
+  for (const BodyPair& pair : scratch.pairs) unite(pair.a, pair.b);
+  for (const Joint& joint : state.joints) {
+    if (!joint.to_world && holds(state, joint)) unite(joint.a, joint.b);
+  }
+  const auto slots = static_cast<std::uint32_t>(state.collections.size());
+  std::vector<std::uint8_t> hit(slots, 0), met(slots, 0);
+  for (std::uint32_t i = 0; i < slots; ++i) {
+    const Collection& c = state.collections[i];
+    if (!isSwept(state, c) || !isHit(state, c)) continue;
+    hit[sets.find(i)] = 1;
+    if (state.step - c.hits.met < hitSteps(state)) met[sets.find(i)] = 1;
+  }
+  for (std::uint32_t i = 0; i < slots; ++i) {
+    if (!isSwept(state, state.collections[i]) || !hit[sets.find(i)]) continue;
+    scratch.doubts[i] = Doubt::Open;
+    if (met[sets.find(i)]) lengthen(state.collections[i].hits, state.step);
+  }
+}
+
+void openWhatFramesDrag(const State& state, Scratch& scratch) {
+  const auto moves = [](const Rigid& r) {
+    return r.anchor > kWorldFrame && (r.v.squaredNorm() > 0.0 || r.omega != 0.0);
+  };
+  for (const BodyPair& pair : scratch.pairs) {
+    const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
+    if (!areOnTwoFrames(a, b) || !(moves(a) || moves(b))) continue;
+    for (const BodyId body : {pair.a, pair.b}) {
+      if (!state.isCollection(state[body].rigid)) continue;
+      const Collection& c = state.collection(state[body].rigid);
+      if (isSwept(state, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
+    }
+  }
+}
+
+}  // namespace merge2d

@@ -1,0 +1,16 @@
+#pragma once
+/// Doubts that pass from one collection or frame to others.
+
+#include "src2d/dynamics/state.h"
+
+namespace merge2d {
+
+/// A hit passes through all collections that touch each other.
+void spreadHits(State& state, Scratch& scratch);
+
+/// Between two things that are fixed to different frames the full solve has no row, and no load
+/// tells how one drags at the other: where a frame moves, it is asked with the members on their
+/// own.
+void openWhatFramesDrag(const State& state, Scratch& scratch);
+
+}  // namespace merge2d

@@ -1,0 +1,132 @@
+#include "src2d/merging/merge_criteria.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "src2d/dynamics/solver.h"
+#include "src2d/merging/pair_metric.h"
+#include "src2d/proofs/decided_settings.h"
+
+namespace merge2d {
+namespace {
+
+constexpr double kPairOnEdge = 1.0 - 1e-6;
+
+/// All active contacts are on the edge of their cones: is there a motion of b against a, keeping
+/// all of them closed, in which every one slips against its friction? A body wedged into a corner
+/// is on the edge too, but goes nowhere. On ice any such motion goes on, however slow.
+bool aboutToSlide(const State& state, const BodyPair& pair) {
+  const Pose pose = state.pose(pair.b);
+  const double size = state.extent(rigidOf(pair.b)).box.half.norm();
+  std::vector<Eigen::Vector3d> tangents;  // rows: slip by a motion (v, size · omega) of b
+  Eigen::Matrix3d closed = Eigen::Matrix3d::Zero();  // sum of the normals' rows, squared
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& contact = state.contacts[state.contacts.order[i]];
+    const Pose a = state.pose(pair.a);
+    const Vec2 n = a.rotation * contact.normal, t = perpendicular(n);
+    for (int k = 0; k < contact.count; ++k) {
+      const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
+      if (p.lambda_n <= 0.0) continue;
+      const Vec2 arm = (a * p.position - pose.position) / size;
+      const Eigen::Vector3d normal(n.x(), n.y(), cross(arm, n));
+      closed += normal * normal.transpose();
+      tangents.push_back(Eigen::Vector3d(t.x(), t.y(), cross(arm, t)) *
+                         (p.lambda_t > 0.0 ? 1.0 : -1.0));
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(closed);
+  constexpr double kRankTolerance = 1e-6;
+  const auto free = (modes.eigenvalues().array() < kRankTolerance).count();
+  if (free != 1 || frictionOf(state, pair.a, pair.b) == 0.0) return free > 0;
+  const Eigen::Vector3d motion = modes.eigenvectors().col(0);
+  const auto along = [&](const Eigen::Vector3d& row) { return row.dot(motion); };
+  return std::all_of(tangents.begin(), tangents.end(),
+                     [&](const auto& r) { return along(r) > 0; }) ||
+         std::all_of(tangents.begin(), tangents.end(), [&](const auto& r) { return along(r) < 0; });
+}
+
+/// How fast the impulse between two bodies changes, seen from the first, as a part of itself [1/s]:
+/// a frame that turns steadily changes nothing.
+double changeOfLoad(const State& state, const BodyPair& pair) {
+  Vec2 now = Vec2::Zero(), before = Vec2::Zero();
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& contact = state.contacts[state.contacts.order[i]];
+    const Vec2 n = contact.normal, t = perpendicular(n), impulse = impulseOf(contact);
+    now += impulse.x() * n + impulse.y() * t;
+    before += static_cast<double>(contact.borne[0]) * n + static_cast<double>(contact.borne[1]) * t;
+  }
+  const double change = (now - before).norm();
+  return change > 0.0 ? change / (state.h * std::max(now.norm(), before.norm())) : 0.0;
+}
+
+}  // namespace
+
+bool canMerge(const State& state, BodyId one, BodyId other) {
+  const Rigid &a = state.rigid(one), &b = state.rigid(other);
+  if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) return false;
+  return !hasBelt(state, one, other);  // a carried body moves, however slowly
+}
+
+Vec2 impulseOf(const Contact& contact) {
+  Vec2 sum = Vec2::Zero();
+  for (int k = 0; k < contact.count; ++k) {
+    const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
+    sum += Vec2(p.lambda_n, p.lambda_t);
+  }
+  return sum;
+}
+
+PairInContact lookAt(const State& state, const BodyPair& pair) {
+  PairInContact seen{.state = state, .pair = pair};
+  const bool bilateral = isBilateral(state, pair.a, pair.b);
+  const double mu = frictionOf(state, pair.a, pair.b);
+  // On one frame they are at rest: their contacts have no rows, and show how they came there.
+  const bool rests = sameFrame(state.rigid(pair.a), state.rigid(pair.b));
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& contact = state.contacts[state.contacts.order[i]];
+    for (int k = 0; k < contact.count; ++k) {
+      const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
+      if (p.lambda_n <= 0.0 && !bilateral) continue;
+      ++seen.active;
+      const double slip = rests ? 0.0 : std::abs(p.w_t);
+      seen.fastest_slip = std::max(seen.fastest_slip, slip);
+      seen.largest_breath = std::max<double>(seen.largest_breath, std::abs(p.breath));
+      const bool sticks = mu > 0.0 && slip < state.settings.sleeping.velocity;
+      seen.on_edge +=
+          !bilateral && !sticks && std::abs(p.lambda_t) >= kPairOnEdge * mu * p.lambda_n;
+    }
+  }
+  if (seen.active > 0) seen.scale = thresholdScale(contactSize(state, pair.a, pair.b));
+  return seen;
+}
+
+Criterion pressed(const PairInContact& pair) {
+  return {"pressed", "Section 5.3", static_cast<double>(pair.active), 1.0, pair.active > 0};
+}
+
+Criterion slidesSlowly(const PairInContact& pair) {
+  const double most = pair.scale * pair.state.settings.merging.sliding;
+  return below("sliding", "(18)", pair.fastest_slip, most);
+}
+
+Criterion hardlyBreathes(const PairInContact& pair) {
+  const double most = pair.scale * pair.state.settings.merging.breathing;
+  return below("breathing", "Section 5.3", pair.largest_breath, most);
+}
+
+Criterion isNotAboutToSlide(const PairInContact& pair) {
+  const bool slides = pair.on_edge == pair.active && aboutToSlide(pair.state, pair.pair);
+  return {"edge", kOwnMerging, static_cast<double>(pair.on_edge), static_cast<double>(pair.active),
+          !slides};
+}
+
+Criterion hasSettledLoad(const PairInContact& pair) {
+  return below("load", kOwnMerging, changeOfLoad(pair.state, pair.pair), kDecided.settling_rate);
+}
+
+Criterion movesAsOne(const PairInContact& pair) {
+  const double most = pair.scale * pair.state.settings.merging.velocity;
+  return below("relative-motion", "(17)", relativeMotion(pair.state, pair.pair), most);
+}
+
+}  // namespace merge2d

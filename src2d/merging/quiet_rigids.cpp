@@ -1,0 +1,116 @@
+#include "src2d/merging/quiet_rigids.h"
+
+#include <algorithm>
+
+#include "src2d/core/memory.h"
+#include "src2d/merging/pair_metric.h"
+#include "src2d/sleeping/sleep.h"
+
+namespace merge2d {
+namespace {
+
+/// The forces on a rigid thing beside gravity.
+struct Ties {
+  bool held = false;    ///< forces that are found by iteration: of contacts or joints
+  bool loaded = false;  ///< loads
+};
+
+/// Per rigid thing that is present.
+const std::vector<Ties>& listTies(const State& state, const Scratch& scratch) {
+  thread_local std::vector<Ties> ties;  // its memory is kept
+  resizeTightly(ties, state.rigids.size());
+  for (const RigidId id : state.present) ties[index(id)] = {};
+  const auto tie = [&](BodyId b) -> Ties& { return ties[index(state[b].rigid)]; };
+  for (const BodyPair& pair : scratch.pairs) {
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+      const Contact& contact = state.contacts[state.contacts.order[i]];
+      const bool presses =
+          std::any_of(contact.points.begin(), contact.points.begin() + contact.count,
+                      [](const ContactPoint& p) { return p.lambda_n != 0.0; });
+      if (presses) tie(pair.a).held = tie(pair.b).held = true;
+    }
+  }
+  for (const Joint& joint : state.joints) {
+    if (!holds(state, joint) || isInside(state, joint)) continue;
+    tie(joint.a).held = true;
+    if (!joint.to_world) tie(joint.b).held = true;
+  }
+  for (const Load& load : scratch.loads) tie(load.body).loaded = true;
+  return ties;
+}
+
+/// The largest change of velocity in a step of a body in balance, at its corners [m/s]. Where no
+/// force is found by iteration the loads cancel but for rounding.
+double largestGain(const State& state, const Ties& ties, double velocity) {
+  constexpr double kRounding = 1e-6, kSmallest = 1e-9;  // of gravity, and [m/s²]
+  const SleepingSettings& sleeping = state.settings.sleeping;
+  if (sleeping.time == 0.0) return kForever;
+  if (ties.held) return velocity * state.h / sleeping.time;
+  return state.h * (kSmallest + kRounding * state.gravity.norm());
+}
+
+/// A rigid thing that may be about to sleep.
+struct Candidate {
+  const State& state;
+  const Rigid& rigid;
+  Ties ties;
+  OrientedBox box;
+  double velocity;  ///< the threshold for things of its size [m/s]
+};
+
+/// Section 7, against the inertial frame.
+Criterion rests(const Candidate& c) {
+  const double motion = fastestCorner(c.box, motionField(c.rigid), {});
+  return below("rest", "Section 7", motion, c.velocity);
+}
+
+/// Forces and gravity balance. A load must have been steady for as long as acceleration is looked
+/// ahead for; so may a thing that is held by contacts prove that nothing comes of its acceleration.
+Criterion isBalanced(const Candidate& c, const SolverVelocity& u) {
+  const double gain =
+      fastestCorner(c.box, {c.rigid.x, {u.gained[0], u.gained[1]}, u.gained[2]}, {});
+  const double largest = largestGain(c.state, c.ties, c.velocity);
+  const bool balanced = gain <= largest;
+  const bool lasts = c.rigid.slow_steps * c.state.h >= c.state.settings.sleeping.time;
+  const bool holds =
+      c.ties.held ? lasts || (balanced && !c.ties.loaded) : balanced && (lasts || !c.ties.loaded);
+  return {"balance", kOwnSleeping, gain, largest, holds};
+}
+
+void recordRest(const State& state, Scratch& scratch, RigidId id, const Criterion& test,
+                int before) {
+  const BodyId body = state.firstBody(id);
+  Decision d = record(test, "AccumulateRelativeMotion", body, body, test.holds ? "below" : "awake");
+  d.before = before;
+  d.count = state[id].quiet_steps;
+  d.needed = state.settings.sleeping.steps;
+  scratch.notes->decisions.push_back(d);
+}
+
+}  // namespace
+
+void countQuietRigids(State& state, Scratch& scratch) {
+  const SleepingSettings& sleeping = state.settings.sleeping;
+  const std::vector<Ties>& ties = listTies(state, scratch);
+  for (const RigidId id : state.present) {
+    Rigid& r = state[id];
+    if (r.asleep || !canSleep(state, id)) continue;
+    const OrientedBox box = worldBox(state, r);
+    const double scale = thresholdScale(2.0 * box.half.minCoeff());
+    const Candidate candidate{state, r, ties[index(id)], box, sleeping.velocity * scale};
+    const Criterion slow = rests(candidate);
+    const int before = std::exchange(r.quiet_steps, 0);
+    r.slow_steps = slow.holds ? r.slow_steps + 1 : 0;
+    if (!slow.holds) {
+      if (scratch.notes) recordRest(state, scratch, id, slow, before);
+      continue;
+    }
+    const Criterion balanced = isBalanced(candidate, scratch.u[index(id)]);
+    if (balanced.holds) r.quiet_steps = before + 1;
+    if (!scratch.notes) continue;
+    recordRest(state, scratch, id, slow, before);
+    if (sleeping.time > 0.0) recordRest(state, scratch, id, balanced, before);
+  }
+}
+
+}  // namespace merge2d
