@@ -124,8 +124,9 @@ std::pair<double, double> pushed(int boxes, double part, Mode mode, double h) {
   return {start - 1.0, see(world, BodyId{1}).x.x()};
 }
 
-// a = (part − 1) μ g. It starts within 0.05 s, and 2 % are what boxes lose or gain in the first
-// steps, in which the push goes through the row.
+// a = (part − 1) μ g. It starts within 0.05 s, and 1.5 % are what boxes lose or gain in the first
+// steps, in which the push goes through the row: three of them 1.35 % in the reference at h = 1/60,
+// and 0.94 % merged.
 TEST(Balance, ARowThatIsPushedSlidesOff) {
   for (const int boxes : {1, 3}) {
     for (const double part : {1.03, 1.2}) {
@@ -134,7 +135,7 @@ TEST(Balance, ARowThatIsPushedSlidesOff) {
         const auto [start, way] = pushed(boxes, part, mode, h);
         const double acceleration = (part - 1.0) * 0.6 * kGravity;
         EXPECT_NEAR(start, 0.005 / acceleration, 0.05);
-        EXPECT_NEAR(way, 12.5 * acceleration, 0.02 * 12.5 * acceleration);
+        EXPECT_NEAR(way, 12.5 * acceleration, 0.015 * 12.5 * acceleration);
       });
     }
   }

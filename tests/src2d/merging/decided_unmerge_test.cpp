@@ -173,29 +173,61 @@ TEST(DecidedUnmerge, AWallOnASwingingPlatformStaysInOnePiece) {
   EXPECT_EQ(eventsAfterSettling(wallOnSwingingPlatform(12, 12, 0.4, 10.0), 25.0), 0);
 }
 
-/// The friction below carries the wall: its mass times the platform's acceleration.
-TEST(DecidedUnmerge, TheFrictionBelowASwingingWallIsThatOfItsMotion) {
-  Scene scene = wallOnSwingingPlatform(12, 12, 0.4, 4.0);
-  Simulation run(scene, Mode::Merge);
+/// How far the friction below a merged wall is from the wall's mass times the acceleration of its
+/// platform: at most, and in its amplitude, as parts of the largest that it should be.
+struct FrictionError {
+  double at_most = 0.0, of_amplitude = 0.0;
+};
+
+/// Over one period, from 8 s on, when all has merged.
+FrictionError frictionBelow(int rows, int columns) {
+  constexpr double kPeriod = 4.0;
+  Simulation run(wallOnSwingingPlatform(rows, columns, 0.4, kPeriod), Mode::Merge);
   run.until(8.0);
-  double largest = 0.0, off = 0.0, mass = 0.0;
+  double mass = 0.0, largest = 0.0, largest_friction = 0.0, off = 0.0;
   for (const BodyInfo& b : run.world().bodies()) {
     if (b.motion == Motion::Dynamic) mass += b.mass;
   }
-  for (int i = 0; i < 400; ++i) {
-    const double v = run.now().bodies[0].v.x();
-    run.steps(1);
+  double before = run.now().bodies[0].v.x();
+  run.steps(static_cast<int>(std::lround(kPeriod / 0.01)), [&] {
     const Snapshot now = run.now();
-    const double wanted = mass * (now.bodies[0].v.x() - v);
+    const double wanted = mass * (now.bodies[0].v.x() - before);
+    before = now.bodies[0].v.x();
     double friction = 0.0;
     for (const ContactView& c : now.contacts) {
       if (c.a != BodyId{0}) continue;
       friction += (c.lambda_n * c.normal + c.lambda_t * perpendicular(c.normal)).x();
     }
     largest = std::max(largest, std::abs(wanted));
+    largest_friction = std::max(largest_friction, std::abs(friction));
     off = std::max(off, std::abs(friction - wanted));
+  });
+  EXPECT_EQ(run.world().stats().active_bodies, 1) << "all is merged";
+  return {.at_most = off / largest, .of_amplitude = std::abs(largest_friction / largest - 1.0)};
+}
+
+/// The friction below carries the wall: its mass times the platform's acceleration. Measured in
+/// walls of 105 to 1,040 bodies: 2.2 to 2.8 % off at most, 0.8 to 2.1 % in the amplitude. A lag of
+/// 0.6 steps makes 1 % of that.
+TEST(DecidedUnmerge, TheFrictionBelowASwingingWallIsThatOfItsMotion) {
+  for (const auto& [rows, columns] :
+       {std::pair{10, 10}, {14, 7}, {12, 12}, {18, 18}, {26, 12}, {32, 32}, {45, 22}}) {
+    const FrictionError error = frictionBelow(rows, columns);
+    EXPECT_LE(error.at_most, 0.03) << rows << " rows of " << columns;
+    EXPECT_LE(error.of_amplitude, 0.03) << rows << " rows of " << columns;
   }
-  EXPECT_LT(off, 0.06 * largest);
+}
+
+TEST(LongDecidedUnmerge, TheFrictionBelowASwingingWallOf5000IsThatOfItsMotion) {
+  const FrictionError square = frictionBelow(71, 71);
+  EXPECT_LE(square.at_most, 0.03);
+  EXPECT_LE(square.of_amplitude, 0.03);
+  // A search ends with residuals of 5 µm/s in each row, of the 4 mm/s that the platform gains in a
+  // step. Over 100 rows they add up to as much as 6 % in the mean: measured 4.5 % in a quarter of
+  // the period, and 2.0 % in the amplitude.
+  const FrictionError tower = frictionBelow(100, 50);
+  EXPECT_LE(tower.at_most, 0.05);
+  EXPECT_LE(tower.of_amplitude, 0.03);
 }
 
 TEST(DecidedUnmerge, SaysWhichMotionItDecidedFromAndCitesItsPage) {
