@@ -104,8 +104,10 @@ inline int moved(const Snapshot& before, const Snapshot& after, double distance)
 }
 
 /// Bodies that a ball of 10 kg has moved by 10 cm, 3.5 s after it was let go at a wall of 120.
-inline int movedByBall(Mode mode, const Vec2& velocity, int iterations) {
+inline int movedByBall(Mode mode, const Vec2& velocity, int iterations,
+                       UnmergingRule rule = UnmergingRule::Default) {
   Scene scene = wall(12, 10);
+  scene.settings.unmerging.rule = rule;
   scene.settings.solver.iterations = iterations;
   BodyDesc ball = disc(0.5, {-9.0, 4.0});
   ball.mass = 10.0;

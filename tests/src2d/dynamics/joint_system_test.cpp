@@ -60,6 +60,23 @@ TEST(JointSystem, ACantileverBreaksWhereStaticsSay) {
   }
 }
 
+/// The moment of a force at the last plank comes to the wall by one joint in a step, or so.
+TEST(JointSystem, UnderThePapersRuleACantileverBreaksStepsLater) {
+  const auto stepOfBreaking = [](int count, const Overrides& overrides) {
+    constexpr double kForce = 12.8;
+    Simulation run(cantilever(count, kForce, momentAtWall(count, kForce) / 1.05), Mode::Merge,
+                   overrides);
+    run.until(kFrom);
+    const std::int64_t from = run.world().steps();
+    while (run.count(EventType::Break) == 0 && run.world().time() < 10.0) run.steps(1);
+    return run.world().steps() - from;
+  };
+  for (const auto& [count, later] : {std::pair{3, 6}, {5, 8}, {7, 10}}) {
+    EXPECT_EQ(stepOfBreaking(count, {}), 1) << count;
+    EXPECT_EQ(stepOfBreaking(count, kPaper), later) << count;
+  }
+}
+
 TEST(JointSystem, ABridgeBreaksUnderAWeightAsInTheReference) {
   std::string toml = kGround;
   for (const double x : {-4.0, 4.0}) {

@@ -26,6 +26,18 @@ TEST(Balance, WhatFallsSlowlyFallsOn) {
   }
 }
 
+/// It was thrown up, and would be back where it was.
+TEST(Balance, WithoutATimeAStoneHangsAtTheTopOfItsFlight) {
+  for (const double time : {SleepingSettings{}.time, 0.0}) {
+    Scene scene = sceneOf(
+        "gravity = [0, -1e-4]\n[[body]]\nname = \"stone\"\ncircle = 0.1\nvelocity = [0, 0.003]\n");
+    scene.settings.sleeping.time = time;
+    World world(scene, inMode(Mode::Sleep));
+    runSeconds(world, 60.0);
+    EXPECT_NEAR(see(world, "stone").x.y(), time > 0.0 ? 0.0 : 0.045, 1e-3) << time;
+  }
+}
+
 TEST(Balance, ASlowSpringSwingsOn) {
   for (const double stretch : {0.5, 0.005}) {
     SCOPED_TRACE(stretch);

@@ -45,6 +45,13 @@ TEST(Blow, IsFeltWhenItHitsTheWallInTheSecondStepOfItsContact) {
   EXPECT_EQ(movedByBall(Mode::MergeSleep, {9.0, 1.0}, 150), 12);
 }
 
+/// The ball itself is counted, too.
+TEST(Blow, UnderThePapersRuleABallMovesNoBrickOfAWall) {
+  EXPECT_NEAR(movedByBall(Mode::Reference, {20.0, 1.0}, 150), 98, 3);
+  EXPECT_NEAR(movedByBall(Mode::MergeSleep, {20.0, 1.0}, 150), 99, 3);
+  EXPECT_EQ(movedByBall(Mode::MergeSleep, {20.0, 1.0}, 150, UnmergingRule::Paper), 1);
+}
+
 /// Bodies that have moved by 1 cm two seconds after one of them was struck.
 int movedByKick(Scene scene, Mode mode, std::uint32_t body, const Vec2& impulse) {
   scene.settings.solver.iterations = 50;
@@ -125,9 +132,11 @@ TEST(Blow, WhatWouldMoveGoesAtOnce) {
 }
 
 /// Three columns side by side, each a collection: a box is struck that pushes those beside it.
+/// Of three columns side by side, the last of which is struck near its top.
 TEST(Blow, ABlowGoesThroughNeighboursThatPartInTheSameStep) {
-  const auto movedIn = [](Mode mode) {
+  const auto movedIn = [](Mode mode, UnmergingRule rule = UnmergingRule::Default) {
     Scene scene = onGround();
+    scene.settings.unmerging.rule = rule;
     scene.settings.solver.iterations = 50;
     for (const double x : {-1.0, 0.0, 1.0}) addColumn(scene, 8, {x, 0.0});
     Simulation run(scene, mode);
@@ -142,6 +151,7 @@ TEST(Blow, ABlowGoesThroughNeighboursThatPartInTheSameStep) {
   EXPECT_EQ(reference, 16);
   EXPECT_NEAR(movedIn(Mode::Merge), reference, 2);
   EXPECT_NEAR(movedIn(Mode::MergeSleep), reference, 2);
+  EXPECT_EQ(movedIn(Mode::Merge, UnmergingRule::Paper), 0);
 }
 
 /// Ten boxes on the ground, `gap` apart and each merged with it, of which the first is struck.

@@ -186,6 +186,17 @@ TEST(Merge, APairOnTheEdgeOfItsConeMergesUnderThePapersRule) {
   EXPECT_GT(mergeStep(kSteep, "box", {{"merging.rule", "\"paper\""}}), 0);
 }
 
+TEST(Merge, APairOnTheEdgeOfItsConeStaysUnderThePapersRules) {
+  const auto wayIn10Seconds = [](const Overrides& overrides) {
+    Simulation run(kSteep, Mode::Merge, overrides);
+    const Vec2 start = run.body("box").x;
+    run.until(10.0);
+    return (run.body("box").x - start).norm();
+  };
+  EXPECT_NEAR(wayIn10Seconds({}), 0.36, 0.01);  // exactly 0.36 m
+  EXPECT_NEAR(wayIn10Seconds(kPaper), 0.0, 1e-3);
+}
+
 /// A box lands beside another, along which it slid, and comes to rest on the same ground: bodies
 /// that are fixed to one frame do not slide, whatever they did before.
 TEST(Merge, TwoThatSlidAlongEachOtherMergeOnceBothRestOnOneFrame) {
@@ -274,8 +285,7 @@ TEST(Merge, DiscsThatLeanOnEachOtherAreWeldedAsACycleOfThree) {
   EXPECT_EQ(run.collectionOf("disc[0,0]"), run.collectionOf("disc[1,0]"));
 }
 
-TEST(Merge, TwoDiscsStackedAreNotWelded) {
-  Simulation run(kGround + R"(
+const std::string kTwoDiscs = kGround + R"(
 [[body]]
 name = "disc"
 at = [0, 0.5]
@@ -284,10 +294,19 @@ circle = 0.5
 name = "upper"
 at = [0.001, 1.5]
 circle = 0.5
-)",
-                 Mode::Merge);
+)";
+
+TEST(Merge, TwoDiscsStackedAreNotWelded) {
+  Simulation run(kTwoDiscs, Mode::Merge);
   run.steps(500, [&] { ASSERT_FALSE(run.merged("upper")); });
   EXPECT_LT(run.body("upper").x.y(), 0.7) << "it has fallen";
+}
+
+TEST(Merge, UnderThePapersRulesADiscStaysOnTopOfAnother) {
+  Simulation run(kTwoDiscs, Mode::Merge, kPaper);
+  run.until(5.0);
+  EXPECT_TRUE(run.merged("upper"));
+  EXPECT_NEAR(run.body("upper").x.y(), 1.5, 0.01);
 }
 
 TEST(Merge, WeldedToAPinnedBodyIsAnchoredAndStill) {

@@ -121,14 +121,14 @@ double heldOnItsCircle(const Overrides& overrides) {
 TEST(Sweep, HoldsASpinningMemberOnItsCircle) { EXPECT_NEAR(heldOnItsCircle({}), 1.0, 5e-4); }
 
 TEST(Sweep, UnderThePapersRuleTheForceOnACircleIsMissing) {
-  EXPECT_LT(heldOnItsCircle({{"unmerging.rule", "paper"}}), 0.8);
+  EXPECT_NEAR(heldOnItsCircle({{"unmerging.rule", "paper"}}), 0.58, 0.01);
 }
 
 TEST(Sweep, UnderThePapersRuleAColumnsForcesFollowTheFrozenOverlap) {
   Simulation run(kColumn, Mode::Merge, {{"unmerging.rule", "paper"}});
   run.until(10.0);
   ASSERT_TRUE(run.merged("box[0,9]"));
-  EXPECT_GT(columnError(run, 0.0), 1e-6 * kBoxes * 2.0 * kGravity);
+  EXPECT_NEAR(columnError(run, 0.0) / (kBoxes * 2.0 * kGravity), 0.033, 0.002);
 }
 
 TEST(Sweep, HoldsABoxInASpinningDrumOnItsCircle) {

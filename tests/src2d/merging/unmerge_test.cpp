@@ -101,6 +101,7 @@ TEST(Unmerge, ABlockOnATiltingSlopeSlidesAsInTheReference) {
 }
 
 TEST(Unmerge, UnderThePapersRuleTheBlockSticksForDegreesMore) {
+  EXPECT_NEAR(slidingAngle(Mode::Merge, kPaper), 36.05, 0.05);
   EXPECT_GT(slidingAngle(Mode::Merge, kPaper), slidingAngle(Mode::Reference) + 3.0);
 }
 
@@ -321,6 +322,10 @@ TEST(Unmerge, APushThatTipsABoxIsFeltInTheStepInWhichItBegins) {
   }
 }
 
+TEST(Unmerge, UnderThePapersRuleAPushThatTipsABoxIsFeltStepsLater) {
+  EXPECT_EQ(stepOfTipping(Mode::Merge, 1.35, kPaper), 114);
+}
+
 // ---- impacts ----
 
 TEST(Unmerge, AProjectileMovesAsManyBodiesAsInTheReference) {
@@ -374,6 +379,23 @@ int wallEvents(const Scene& scene) {
 }
 
 TEST(Unmerge, AWallOnTheGroundDoesNotFlicker) { EXPECT_EQ(wallEvents(wall(18, 18)), 0); }
+
+/// Partings in the first ten seconds of a wall that merges while it sinks in.
+int partingsOfASettlingWall(MergingRule merging, UnmergingRule unmerging) {
+  Scene scene = wall(18, 18);
+  scene.settings.merging.rule = merging;
+  scene.settings.unmerging.rule = unmerging;
+  Simulation run(scene, Mode::Merge);
+  run.until(10.0);
+  return run.count(EventType::Unmerge);
+}
+
+TEST(Unmerge, UnderThePapersRulesAWallPartsWhileItSettles) {
+  EXPECT_NEAR(partingsOfASettlingWall(MergingRule::Default, UnmergingRule::Default), 8, 5);
+  EXPECT_NEAR(partingsOfASettlingWall(MergingRule::Paper, UnmergingRule::Default), 150, 15);
+  EXPECT_NEAR(partingsOfASettlingWall(MergingRule::Default, UnmergingRule::Paper), 188, 15);
+  EXPECT_NEAR(partingsOfASettlingWall(MergingRule::Paper, UnmergingRule::Paper), 390, 30);
+}
 
 TEST(Unmerge, AWallOnASwingingPlatformDoesNotFlicker) {
   EXPECT_EQ(wallEvents(wallOnSwingingPlatform(18, 18, 0.4, 10.0)), 0);
