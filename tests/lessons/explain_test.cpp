@@ -61,6 +61,42 @@ TEST(Explain, SaysThatAPairIsStillCounting) {
   EXPECT_THAT(text, HasSubstr("they passed every test, but only for 1 of 3 steps."));
 }
 
+TEST(Explain, SaysWhichPartOfALoadTheKnownOnesLeaveOver) {
+  World world(column(3), kAsking);
+  const auto all = firstStepWith(world, Outcome::Carried);
+  const std::string text = textOf(all, Outcome::Carried);
+  EXPECT_THAT(text, HasSubstr("C1 (body1"));
+  EXPECT_THAT(text, HasSubstr("carries its load at step " + std::to_string(world.steps()) + ": "));
+}
+
+TEST(Explain, SaysHowFarTheSearchForALoadHasComeAndWhatEndedIt) {
+  World world(column(3), kAsking);
+  const auto all = firstStepWith(world, Outcome::Carried);
+  const auto e = std::ranges::find(all, Outcome::Carried, &Explanation::outcome);
+  ASSERT_NE(e, all.end());
+  ASSERT_EQ(e->tests.size(), 2u) << "a first load is sought: no other is known";
+  EXPECT_EQ(e->tests.front().criterion, "proof");
+  EXPECT_EQ(e->tests.front().verdict, "search");
+  EXPECT_EQ(e->tests.front().needed, 0);
+  EXPECT_EQ(e->tests.back().criterion, "residual");
+  EXPECT_EQ(e->tests.back().verdict, "carried");
+  EXPECT_LE(e->tests.back().value, e->tests.back().threshold);
+  world.step();
+  const auto next = explainStep(Words(world.bodies()), world.capture());
+  EXPECT_THAT(textOf(next, Outcome::Carried),
+              HasSubstr("the part that the one known load leaves over"));
+}
+
+TEST(Explain, SaysForHowLongAHitOpensACollection) {
+  World world(column(3), kAsking);
+  ASSERT_FALSE(firstStepWith(world, Outcome::Carried).empty());
+  world.applyImpulse(*Words(world.bodies()).find("body3"), {0.5, 0.0});
+  world.step();
+  const auto all = explainStep(Words(world.bodies()), world.capture());
+  EXPECT_THAT(textOf(all, Outcome::Opened),
+              HasSubstr("something hit it 0 steps ago, and a hit opens it for 3 steps"));
+}
+
 TEST(Explain, SaysForHowLongAPairWaitsThatPartedSlowly) {
   const Decision patience{.a = BodyId{0},
                           .b = BodyId{1},
