@@ -31,10 +31,9 @@ struct DecidedSettings {
   /// motion of some weld: where it need only be smaller, a wall on a swinging platform loses
   /// bricks.
   double tolerance = 0.1;
-  /// Row sweeps per step: a search goes on in the next step. It begins with few and doubles them
-  /// from step to step, as many loads do not last: the collapsing tower-platform then takes half as
-  /// many. However many rows there are, it may take as many sweeps as the full solve.
-  double row_sweeps = 1e4, first_row_sweeps = 500.0;
+  /// Row sweeps per step, and at most so many sweeps: a search goes on in the next step. However
+  /// many rows there are, it may take as many sweeps as the full solve.
+  double row_sweeps = 1e4;
   int most_sweeps = 200;
   /// Times as many where a search has found motion: without, a wall of 5,000 that swings takes
   /// three times as long on average.

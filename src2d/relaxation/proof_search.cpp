@@ -109,7 +109,8 @@ void continueSearch(const State& state, Scratch& scratch, Collection& c, double 
   const bool begins = isDirect(state, search) && c.residual > toleratedResidual(state);
   if ((begins || search.isSuspended()) && !solveDirectly(state, scratch, c)) return;
   startMembers(state, scratch, c, true);
-  c.residual = static_cast<float>(relax(state, scratch, c, tolerance));
+  const auto budget = SweepBudget::ofSearch(state, c.blocks.size(), search.steps);
+  c.residual = static_cast<float>(relax(state, scratch, c, tolerance, budget, &search));
   if (search.ahead) swapImpulses(c, search.load);
 }
 

@@ -74,13 +74,11 @@ double relaxRegion(State& state, Scratch& scratch, OpenRegion& region) {
     startRelaxed(state, scratch, c, member, {});
   });
   double residual = reached.look(blocksAt(c, region.members));
-  double left = rowSweeps(state, reached.blocks().size());
-  int sweeps = 0;
-  while (residual > sweeps_of.tolerance && sweeps < kDecided.most_sweeps && left > 0.0) {
+  auto budget = SweepBudget::ofStep(state, reached.blocks().size());
+  while (residual > sweeps_of.tolerance && !budget.isSpent()) {
     const int done =
         sweeps_of.run(ReachedRows::kRound, reached.blocks(), reached.bodies(), scratch.nncg, false);
-    sweeps += done;
-    left -= done * static_cast<double>(reached.blocks().size());
+    budget.spend(done, reached.blocks().size());
     residual = reached.lookAgain();
   }
   return residual;
@@ -94,17 +92,21 @@ void addAll(State& state, Scratch& scratch, OpenRegion& region) {
   }
 }
 
+/// A search that a hit interrupts in a small collection lends its gradient, and its budget.
 double relaxWhole(State& state, Scratch& scratch, OpenRegion& region) {
   Collection& c = state.collections[region.slot];
   const double tolerance = toleranceFor(state, c, region.members);
   const double residual = BlockSweeps(scratch, c, tolerance).largestResidual();
   if (residual <= tolerance) return residual;
   ProofSearch& search = c.certificate.front().search;
-  ProofSearch waiting;
-  if (isLarge(state, c)) std::swap(waiting, search);
-  const double left = relax(state, scratch, c, tolerance);
-  if (isLarge(state, c)) std::swap(waiting, search);
-  return left;
+  const std::size_t rows = c.blocks.size();
+  if (search.isUnderWay() && !isLarge(state, c)) {
+    const auto budget = SweepBudget::ofSearch(state, rows, search.steps);
+    return relax(state, scratch, c, tolerance, budget, &search);
+  }
+  const auto budget =
+      isHit(state, c) ? SweepBudget::ofStep(state, rows) : SweepBudget::ofOpened(state, rows);
+  return relax(state, scratch, c, tolerance, budget, nullptr);
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 #include "src2d/relaxation/relaxation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "src2d/collections/collection.h"
-#include "src2d/proofs/decided_settings.h"
 #include "src2d/relaxation/block_sweeps.h"
 #include "src2d/relaxation/reached_rows.h"
 
@@ -16,30 +14,28 @@ namespace {
 /// has one, or they are half of all, over all rows.
 class Relaxation {
  public:
-  Relaxation(const State& state, Scratch& scratch, Collection& c, double tolerance)
+  Relaxation(Scratch& scratch, Collection& c, double tolerance, bool large, SweepBudget budget,
+             ProofSearch* search)
       : scratch_(scratch),
         c_(c),
         sweeps_of_(scratch, c, tolerance),
         reached_(sweeps_of_, c, [](std::uint32_t) {}),
-        large_(isLarge(state, c)),
-        left_(rowSweeps(state, c.blocks.size())) {
-    if (isSearch()) {
-      left_ = std::min(left_, std::ldexp(kDecided.first_row_sweeps, search().steps));
-    }
-    if (!isSearch() && !isHit(state, c)) left_ *= kDecided.when_open;
+        large_(large),
+        budget_(budget),
+        search_(search) {
     listWeldsOfMembers(c);
     all_.resize(c.blocks.size());
     std::iota(all_.begin(), all_.end(), 0u);
   }
 
   double run() {
-    if (whole_) sweepAll(affordable(c_.blocks.size()));
+    if (whole_) sweepAll(budget_.affordable(c_.blocks.size()));
     double residual = reached_.look(all_);
-    while (mayGoOn() && !hasEnded(residual)) {
+    while ((budget_.isUntouched() || !budget_.isSpent()) && !hasEnded(residual)) {
       const bool quiet = residual <= sweeps_of_.tolerance;
       whole_ |= quiet || 2 * reached_.blocks().size() >= c_.blocks.size();
       if (whole_) {
-        sweepAll(quiet ? BlockSweeps::kLookEvery : affordable(c_.blocks.size()));
+        sweepAll(quiet ? BlockSweeps::kLookEvery : budget_.affordable(c_.blocks.size()));
         residual = sweeps_of_.largestResidual();
       } else {
         sweep(ReachedRows::kRound, reached_.blocks(), reached_.bodies());
@@ -61,39 +57,30 @@ class Relaxation {
 
   void sweep(int most, std::span<const std::uint32_t> blocks, std::span<const BodyId> bodies) {
     // Those over all rows of a search are continued in the next step.
-    NncgBuffers& buffers = isSearch() && whole_ ? search().nncg : scratch_.nncg;
-    const int done = sweeps_of_.run(most, blocks, bodies, buffers, isUnderWay());
-    sweeps_ += done;
-    left_ -= done * static_cast<double>(blocks.size());
+    NncgBuffers& buffers = search_ && whole_ ? search_->nncg : scratch_.nncg;
+    const int done = sweeps_of_.run(most, blocks, bodies, buffers, goesOn());
+    budget_.spend(done, blocks.size());
   }
 
-  ProofSearch& search() { return c_.certificate.front().search; }
-  bool isSearch() { return search().isUnderWay(); }
-  /// Sweeps over all rows that go on.
-  bool isUnderWay() { return isSearch() && search().isInAllRows(); }
-
-  bool mayGoOn() const { return sweeps_ == 0 || (sweeps_ < kDecided.most_sweeps && left_ > 0.0); }
-  /// Sweeps over so many rows that this step can still spend.
-  int affordable(std::size_t rows) const {
-    const double sweeps = left_ / static_cast<double>(std::max<std::size_t>(rows, 1));
-    return std::clamp(static_cast<int>(sweeps), 1, std::max(1, kDecided.most_sweeps - sweeps_));
-  }
+  /// Sweeps over all rows are under way.
+  bool goesOn() const { return search_ && search_->isInAllRows(); }
 
   Scratch& scratch_;
   Collection& c_;
   BlockSweeps sweeps_of_;
   ReachedRows reached_;
-  bool whole_ = isUnderWay();  ///< all rows are swept
   bool large_;
-  double left_;  ///< row sweeps that may still be spent
-  int sweeps_ = 0;
+  SweepBudget budget_;
+  ProofSearch* search_;
+  bool whole_ = goesOn();           ///< all rows are swept
   std::vector<std::uint32_t> all_;  ///< blocks
 };
 
 }  // namespace
 
-double relax(const State& state, Scratch& scratch, Collection& c, double tolerance) {
-  return Relaxation(state, scratch, c, tolerance).run();
+double relax(const State& state, Scratch& scratch, Collection& c, double tolerance,
+             SweepBudget budget, ProofSearch* search) {
+  return Relaxation(scratch, c, tolerance, isLarge(state, c), budget, search).run();
 }
 
 }  // namespace merge2d

@@ -2,13 +2,15 @@
 /// The rows inside one collection, solved until they have converged (block_sweeps.h).
 
 #include "src2d/dynamics/state.h"
+#include "src2d/relaxation/sweep_budget.h"
 
 namespace merge2d {
 
 /// Solves the rows inside, with the velocities in `scratch.trial_u`, until their residual is
-/// below `tolerance` [m/s] or the sweeps of a step are spent (DecidedSettings); returns it [m/s].
-/// Where a search is under way it goes on as if there had been no pause.
-double relax(const State& state, Scratch& scratch, Collection& collection, double tolerance);
+/// below `tolerance` [m/s] or the budget is spent; returns it [m/s]. The sweeps over all rows of a
+/// search go on as if there had been no pause. `search` is null where there is none.
+double relax(const State& state, Scratch& scratch, Collection& collection, double tolerance,
+             SweepBudget budget, ProofSearch* search);
 
 /// Goes on, after the full solve, with the contacts inside an open collection until they have
 /// converged, or for as many sweeps as a step may spend; forces from outside stay as they are. A
