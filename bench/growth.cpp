@@ -61,7 +61,7 @@ struct Situation {
   double limit;  ///< of the exponent
   std::vector<int> sizes;
   std::function<double(int n)> seconds;
-  /// The same without what the situation is about: its ratio to that is printed as well.
+  /// The same step without the disturbance: the ratio of the two is printed as well.
   std::function<double(int n)> without = nullptr;
 };
 

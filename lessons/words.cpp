@@ -86,9 +86,9 @@ std::string cycle(const Decision& d, const std::string& group) {
 std::string proof(const Decision& d) {
   if (d.needed == 0) return "no load is known yet that its contacts carry";
   const std::string what =
-      d.needed == 1 ? "the part that the one known load leaves over"
-                    : fmt::format("the part that {} of the {} known loads leave over", d.count,
-                                  d.needed);
+      d.needed == 1
+          ? "the part that the one known load leaves over"
+          : fmt::format("the part that {} of the {} known loads leave over", d.count, d.needed);
   return compared(what, d, "/s");
 }
 

@@ -97,7 +97,7 @@ Doubt doubtAboutJoints(State& state, Collection& c, const Coverage& coverage) {
 }
 
 /// For any other load impulses are sought, unless those for a load beyond it are already, or
-/// contacts can pass on what is new of it.
+/// contacts can pass on its new part.
 Doubt seek(State& state, const Scratch& scratch, Collection& c, const CollectionLoad& load) {
   const LoadCertificate& proof = c.certificate.front();
   if (proof.search.isUnderWay() && !proof.in_doubt && leadsTo(state, c, load)) {
