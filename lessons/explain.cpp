@@ -155,15 +155,19 @@ class Explainer {
     const std::string_view verdict = out.tests.back().verdict;
     if (verdict == "open") {
       out.outcome = Outcome::Opened;
-      out.text =
-          fmt::format("{} is open {}, and each member moves on its own: {}.", who, atStep(), why);
+      out.text = fmt::format(
+          "{} is open {}: the members that this reaches take part in the full solve: {}.", who,
+          atStep(), why);
     } else if (verdict == "search") {
       out.outcome = Outcome::Sought;
       out.text = fmt::format("{} stays whole {} while impulses that carry its load are sought: {}.",
                              who, atStep(), why);
     } else {
       out.outcome = Outcome::Carried;
-      out.text = fmt::format("{} carries its load {}: {}.", who, atStep(), why);
+      const bool passed = verdict == "passed";
+      out.text = fmt::format(
+          "{} {} {}: {}.", who,
+          passed ? "passes a load that is new on to its frame" : "carries its load", atStep(), why);
     }
   }
 
@@ -290,7 +294,7 @@ const char* heading(Outcome outcome) {
                                                        "Stayed awake",
                                                        "Welds that hold",
                                                        "Opened",
-                                                       "Loads that are looked into",
+                                                       "Loads that are sought",
                                                        "Loads that are carried"};
   return kHeadings[static_cast<std::size_t>(outcome)];
 }

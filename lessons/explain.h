@@ -23,7 +23,7 @@ enum class Outcome {
   Apart,    ///< a pair failed a test
   Awake,    ///< something could not fall asleep
   Held,     ///< a weld holds
-  Opened,   ///< a collection whose members move on their own in this step
+  Opened,   ///< a collection of which members take part in the full solve of this step
   Sought,   ///< a collection about whose load nothing is known yet
   Carried,  ///< a collection whose load its contacts are known to carry
 };

@@ -97,7 +97,8 @@ class StageTables {
     TextTable table({"a", "b", "verdict", "count", "at [m]", "test"});
     for (const Decision& d : record_[stage].after.decisions) {
       if (!filter_.wants(d.a, d.b)) continue;
-      const bool calm = d.verdict == "keep" || d.verdict == "below" || d.verdict == "wait";
+      const bool calm = d.verdict == "keep" || d.verdict == "below" || d.verdict == "wait" ||
+                        d.verdict == "carried" || d.verdict == "passed";
       const double ratio = d.threshold > 0.0 ? std::min(d.value / d.threshold, 10.0) : 0.0;
       const std::string count = d.needed > 0 ? fmt::format("{}/{}", d.count, d.needed) : "";
       table.add({a(d.a), d.a == d.b ? "" : a(d.b), std::string(d.verdict), count,

@@ -23,7 +23,9 @@ constexpr Measure kMeasures[] = {
     {"hits", "time of hits", "s"},
     {"load", "change of load", "1/s"},
     {"proof", "part of the load that known ones leave over", "m/s"},
+    {"proof-motion", "motion that known impulses leave", "m/s"},
     {"residual", "residual of the rows inside", "m/s"},
+    {"search-motion", "motion that a search found", "m/s"},
 };
 
 const Measure* measureOf(std::string_view criterion) {

@@ -84,7 +84,7 @@ std::string cycle(const Decision& d, const std::string& group) {
 
 /// The load of a collection beside those that its contacts are known to carry.
 std::string proof(const Decision& d) {
-  if (d.needed == 0) return "no load is known yet that its contacts carry";
+  if (d.needed == 0) return "no load is known that its contacts carry";
   const std::string what =
       d.needed == 1
           ? "the part that the one known load leaves over"
@@ -176,6 +176,22 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
     return compared(d.stage == "Unmerge" ? "the slip of a contact" : "slip", d, "/s");
   }
   if (c == "proof") return proof(d);
+  if (c == "proof-motion") return compared("the motion that known impulses leave", d, "/s");
+  if (c == "search-motion") return compared("the fastest motion that was found", d, "/s");
+  if (c == "in-doubt") {
+    return fmt::format("its proofs are in doubt, as contacts or forces are new ({})",
+                       equationName(d.equation));
+  }
+  if (c == "joints") {
+    return fmt::format("a joint inside bears more than its strength ({})",
+                       equationName(d.equation));
+  }
+  if (c == "neighbour-hit") {
+    return fmt::format("something that it touches was hit ({})", equationName(d.equation));
+  }
+  if (c == "dragged") {
+    return fmt::format("a frame that moves drags at it ({})", equationName(d.equation));
+  }
   if (c == "residual") return compared("the residual of the rows inside", d, "/s");
   if (c == "hit") {
     return fmt::format("something hit it {} ago, and a hit opens it for {} ({})",

@@ -17,14 +17,13 @@ inline constexpr std::string_view kOwnMerging = "docs/decisions/cures.md#when-to
                                   kOwnDecided = "docs/decisions/decided.md#decision",
                                   kOwnCycles = "docs/cycles.md";
 
-/// A criterion about a pair, a weld or a rigid thing, asked once: a value. Whoever asks acts on it,
-/// and records it.
+/// One criterion, asked once: a value. The caller acts on it and records it.
 struct Criterion {
   std::string_view criterion{};  ///< "relative-motion", "sliding", "breathing", …
   std::string_view equation{};   ///< "(17)", "Section 5.1", or kOwnMerging and its like
   double value = 0.0;
   double threshold = 0.0;
-  bool holds = false;  ///< by this criterion they may be, or stay, at rest against each other
+  bool holds = false;  ///< nothing speaks against merging, staying merged or sleeping
 };
 
 /// A criterion that holds where a value is below its threshold.

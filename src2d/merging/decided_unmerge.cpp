@@ -212,12 +212,20 @@ double fastestOf(const State& state, const Scratch& scratch, const Collection& c
   return most;
 }
 
+/// The rows inside are solved so far that less than a tenth of the slowest motion that cuts is
+/// left.
+Criterion hasConverged(const State& state, const Collection& c) {
+  const auto residual = static_cast<double>(c.residual);
+  const double most = toleratedResidual(state);
+  return {"residual", kOwnDecided, residual, most, residual <= most};
+}
+
 /// No part comes off in the full solve: a proof, where that has converged to rest. A search that
 /// had not goes on; one that had, with the load of an earlier step, begins anew.
 void keepTogether(const State& state, Scratch& scratch, Collection& c, const OpenRegion& region,
                   ProofSearch&& search) {
   LoadCertificate& proof = c.certificate.front();
-  const bool converged = c.residual <= toleratedResidual(state);
+  const bool converged = hasConverged(state, c).holds;
   const bool hit = isHit(state, c);
   const double motion = converged && !hit ? fastestOf(state, scratch, c) : 0.0;
   c.settled = !hit && converged && motion <= cutSpeed(state);
@@ -282,6 +290,21 @@ bool restsIn(const State& state, Scratch& scratch, Collection& c) {
   return !turnsBy(sure());
 }
 
+/// The fastest motion that a search has found, of one that was told to have found some (restsIn).
+Criterion movesNowhere(const State& state, const Scratch& scratch, const Collection& c) {
+  return {"search-motion", kOwnDecided, fastestOf(state, scratch, c), cutSpeed(state), false};
+}
+
+/// The record of a search for the load of a step, with its step; none of one that looks ahead.
+void recordSearch(const State& state, const Scratch& scratch, const Collection& c,
+                  const ProofSearch& search, const Criterion& test, std::string_view verdict) {
+  if (!scratch.notes || search.ahead) return;
+  const BodyId first = state.firstBody(c.rigid);
+  Decision d = record(test, "SingleIterationPGS", first, first, verdict);
+  d.count = search.steps;
+  scratch.notes->decisions.push_back(d);
+}
+
 /// Per weld: whether its bodies move in a search.
 std::vector<std::uint8_t> moversOf(const State& state, const Scratch& scratch,
                                    const Collection& c) {
@@ -302,26 +325,34 @@ bool overloadsJoints(State& state, const Collection& c) {
   return anyJointBreaks(state, c);
 }
 
-SearchEnd endSearch(State& state, Scratch& scratch, Collection& c) {
+bool endSearch(State& state, Scratch& scratch, Collection& c) {
   LoadCertificate& proof = c.certificate.front();
-  if (proof.search.isSuspended()) return SearchEnd::GoesOn;
+  if (proof.search.isSuspended()) return true;
   const bool rests = restsIn(state, scratch, c);
-  if (rests && c.residual > toleratedResidual(state)) {
+  const Criterion converged = hasConverged(state, c);
+  if (rests && !converged.holds) {
+    recordSearch(state, scratch, c, proof.search, converged, "search");
     c.settled = proof.search.ahead;
-    return SearchEnd::GoesOn;
+    return true;  // it goes on
   }
   ProofSearch search = std::exchange(proof.search, {});
   if (rests) search.load.motion = fastestOf(state, scratch, c);
   if (search.ahead) {
     c.settled = true;
     if (rests) remember(state, c, std::move(search.load));
-    return SearchEnd::Over;
+    return true;
   }
   if (!rests) proof.search.movers = moversOf(state, scratch, c);
   readImpulses(c, search.load);
   c.settled = rests && !overloadsJoints(state, c);
+  if (c.settled) {
+    recordSearch(state, scratch, c, search, converged, "carried");
+  } else if (scratch.notes) {
+    const Criterion why = rests ? kOverloaded : movesNowhere(state, scratch, c);
+    recordSearch(state, scratch, c, search, why, "open");
+  }
   if (rests) prove(state, c, std::move(search.load));
-  return c.settled ? SearchEnd::Over : SearchEnd::Motion;
+  return c.settled;
 }
 
 void unmergeMovers(State& state, Scratch& scratch) {

@@ -9,17 +9,14 @@
 
 namespace merge2d {
 
-/// How a search stands after a step.
-enum class SearchEnd : std::uint8_t {
-  GoesOn,
-  Over,   ///< its proof is kept; or there is none, of a load that is not there yet
-  Motion  ///< some weld moves, or a joint bears too much
-};
-SearchEnd endSearch(State& state, Scratch& scratch, Collection& collection);
+/// After a step of a search: where it has converged, keeps its proof. False where it has found
+/// motion, or a joint that bears too much.
+bool endSearch(State& state, Scratch& scratch, Collection& collection);
 
 /// Some joint inside bears too much with the impulses of the collection's blocks, which it takes
 /// over.
 bool overloadsJoints(State& state, const Collection& collection);
+inline constexpr Criterion kOverloaded{"joints", kOwnDecided, 1.0, 0.0, false};
 
 /// After the full solve with open collections.
 void unmergeMovers(State& state, Scratch& scratch);

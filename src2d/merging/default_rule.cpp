@@ -19,6 +19,8 @@ namespace {
 constexpr PairCriterion kMergeCriteria[] = {slidesSlowly, hardlyBreathes, isNotAboutToSlide,
                                             hasSettledLoad, movesAsOne};
 
+void uniteNone(const Collection&, PartFinder&) {}
+
 CycleCriterion asSet(const MergingSettings& settings) { return settings.cycles; }
 
 void countStep(ProofSearch& search) {
@@ -26,39 +28,13 @@ void countStep(ProofSearch& search) {
   if (search.steps < kMost) ++search.steps;
 }
 
-/// The rows inside are solved so far that less than a tenth of the slowest motion that cuts is
-/// left.
-Criterion hasConverged(const State& state, const Collection& c) {
-  const auto residual = static_cast<double>(c.residual);
-  const double most = toleratedResidual(state);
-  return {"residual", kOwnDecided, residual, most, residual <= most};
-}
-
-/// The record of a search for the load of a step, and for how many steps it has gone on.
-void recordSearch(const State& state, const Scratch& scratch, const Collection& c, int steps,
-                  SearchEnd end) {
-  if (!scratch.notes) return;
-  const BodyId first = state.firstBody(c.rigid);
-  Decision d = record(hasConverged(state, c), "SingleIterationPGS", first, first,
-                      end == SearchEnd::GoesOn ? "search"
-                      : end == SearchEnd::Over ? "carried"
-                                               : "open");
-  d.count = steps;
-  scratch.notes->decisions.push_back(d);
-}
-
 /// Where a search has found motion, the full solve of the same step finds the moving welds.
 void solveDoubted(State& state, Scratch& scratch) {
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) != Doubt::Search) continue;
     continueSearch(state, scratch, c, toleratedResidual(state));
-    ProofSearch& search = c.certificate.front().search;
-    countStep(search);
-    const bool needed = search.isNeeded();
-    const int steps = search.steps;
-    const SearchEnd end = endSearch(state, scratch, c);
-    if (needed) recordSearch(state, scratch, c, steps, end);
-    if (end == SearchEnd::Motion) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
+    countStep(c.certificate.front().search);
+    if (!endSearch(state, scratch, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
   }
   if (std::ranges::find(scratch.doubts, Doubt::Open) != scratch.doubts.end()) {
     solveOpened(state, scratch);
@@ -100,6 +76,7 @@ constinit const MergingMethod kDefaultMerging{
     .criteria = kMergeCriteria,
     .cycles = asSet,
     .weld = weldPairs,
+    .uniteParts = uniteNone,
 };
 
 constinit const UnmergingMethod kDefaultUnmerging{

@@ -71,71 +71,84 @@ Criterion isCalm(const State& state, const Collection& c) {
   return {"hit", kOwnDecided, since, static_cast<double>(hitSteps(state)), !isHit(state, c)};
 }
 
-/// The record of a collection's load: `count` proofs of the `needed` ones that are known have a
-/// part in the combination that is nearest to it.
-void recordLoad(const State& state, const Scratch& scratch, const Collection& c,
-                const Criterion& test, const LoadCertificate::Weights& weights,
-                std::string_view verdict) {
-  if (!scratch.notes) return;
+/// Proofs are needed whatever the load: none is known yet, or contacts or forces have changed.
+constexpr Criterion kInDoubt{"in-doubt", kOwnDecided, 1.0, 0.0, false};
+/// Something that it touches was hit.
+constexpr Criterion kNeighbourHit{"neighbour-hit", kOwnDecided, 1.0, 0.0, false};
+/// A frame that moves drags at it.
+constexpr Criterion kDragged{"dragged", kOwnDecided, 1.0, 0.0, false};
+
+/// The doubt about a collection, with the criterion that decided it: `used` of the `known` proofs
+/// have a part in the combination that is nearest to its load.
+struct Finding {
+  Doubt doubt = Doubt::None;
+  Criterion because{};
+  std::string_view verdict{};
+  int used = 0, known = 0;
+};
+
+void recordFinding(const State& state, const Scratch& scratch, const Collection& c,
+                   const Finding& finding) {
+  if (!scratch.notes || finding.because.criterion.empty()) return;
   const BodyId first = state.firstBody(c.rigid);
-  Decision d = record(test, "WarmStart", first, first, verdict);
-  d.count = static_cast<int>(std::ranges::count_if(weights, [](double w) { return w > 0.0; }));
-  d.needed = static_cast<int>(c.certificate.front().witnesses.size());
+  Decision d = record(finding.because, "WarmStart", first, first, finding.verdict);
+  d.count = finding.used;
+  d.needed = finding.known;
   scratch.notes->decisions.push_back(d);
 }
 
 /// A load that known proofs carry leaves the collection quiet, if its joints bear it too.
-Doubt doubtAboutJoints(State& state, Collection& c, const Coverage& coverage) {
+Finding carry(State& state, Collection& c, Finding finding, const Coverage& coverage) {
   carryBy(c, coverage.weights);
   if (!c.joints.empty()) {
     writeImpulses(c);
-    if (overloadsJoints(state, c)) return Doubt::Open;
+    if (overloadsJoints(state, c)) return {Doubt::Open, kOverloaded, "open"};
   }
   c.settled = true;
-  const bool looks_ahead = c.certificate.front().search.isUnderWay();
-  return looks_ahead ? Doubt::Search : Doubt::None;
+  finding.verdict = "carried";
+  finding.doubt = c.certificate.front().search.isUnderWay() ? Doubt::Search : Doubt::None;
+  return finding;
 }
 
 /// For any other load impulses are sought, unless those for a load beyond it are already, or
-/// contacts can pass on its new part.
-Doubt seek(State& state, const Scratch& scratch, Collection& c, const CollectionLoad& load) {
+/// contacts can pass its new part on.
+Finding seek(State& state, const Scratch& scratch, Collection& c, Finding finding,
+             const CollectionLoad& load) {
   const LoadCertificate& proof = c.certificate.front();
-  if (proof.search.isUnderWay() && !proof.in_doubt && leadsTo(state, c, load)) {
-    return Doubt::Search;
-  }
+  finding.doubt = Doubt::Search;
+  finding.verdict = "search";
+  if (proof.search.isUnderWay() && !proof.in_doubt && leadsTo(state, c, load)) return finding;
   bringBlocksBack(state, c);
   writeImpulses(c);
   if (passesOn(state, scratch, c, load)) {
     c.settled = true;
-    return Doubt::None;
+    finding.doubt = Doubt::None;
+    finding.verdict = "passed";
+    return finding;
   }
   beginSearch(state, c, load);
-  return Doubt::Search;
+  return finding;
 }
 
 /// The doubt about the load of a collection in this step.
-Doubt findDoubt(State& state, const Scratch& scratch, Collection& c) {
+Finding findDoubt(State& state, const Scratch& scratch, Collection& c) {
   const LoadCertificate& proof = c.certificate.front();
-  if (const Criterion calm = isCalm(state, c); !calm.holds) {
-    recordLoad(state, scratch, c, calm, {}, "open");
-    return Doubt::Open;
-  }
+  if (const Criterion calm = isCalm(state, c); !calm.holds) return {Doubt::Open, calm, "open"};
   c.settled = false;
-  if (!isLookedAt(state, c)) return Doubt::None;
+  if (!isLookedAt(state, c)) return {};
   if (proof.search.isNeeded()) {
     if (isDirect(state, proof.search)) renewLoad(state, c, loadOn(state, scratch, c));
-    return Doubt::Search;
+    return {Doubt::Search};
   }
   const CollectionLoad load = loadOn(state, scratch, c);
+  if (proof.in_doubt) return seek(state, scratch, c, {.because = kInDoubt}, load);
   const Coverage coverage = coverageOf(state, c, load);
-  const bool carried = coverage.carried.holds && !proof.in_doubt;
-  const Doubt doubt =
-      carried ? doubtAboutJoints(state, c, coverage) : seek(state, scratch, c, load);
-  recordLoad(state, scratch, c, coverage.carried, coverage.weights,
-             doubt == Doubt::Open              ? "open"
-             : carried || doubt == Doubt::None ? "carried"
-                                               : "search");
-  return doubt;
+  Finding finding{.because = coverage.carried};
+  finding.used =
+      static_cast<int>(std::ranges::count_if(coverage.weights, [](double w) { return w > 0.0; }));
+  finding.known = static_cast<int>(proof.witnesses.size());
+  return coverage.carried.holds ? carry(state, c, finding, coverage)
+                                : seek(state, scratch, c, finding, load);
 }
 
 /// Nothing has been sought inside for so long that its blocks are put away in this step.
@@ -161,9 +174,12 @@ void findDoubts(State& state, Scratch& scratch) {
     openCertificate(state, c);
     Doubt& doubt = scratch.doubts[state.collections.slotOf(c)];
     if (doubt == Doubt::None) {
-      doubt = findDoubt(state, scratch, c);
+      const Finding finding = findDoubt(state, scratch, c);
+      doubt = finding.doubt;
+      recordFinding(state, scratch, c, finding);
     } else {
       c.certificate.front().search = {};  // whose load lacks the drag of the frame
+      recordFinding(state, scratch, c, {doubt, kDragged, "open"});
     }
     any |= doubt != Doubt::None;
     if (doubt == Doubt::None && isLongQuiet(state, c)) putBlocksAway(c);
@@ -171,7 +187,12 @@ void findDoubts(State& state, Scratch& scratch) {
   scratch.sweeping = any;
   if (!any) return;
   scratch.last_doubt = state.step;
+  const std::vector<Doubt> before = scratch.notes ? scratch.doubts : std::vector<Doubt>();
   spreadHits(state, scratch);
+  for (std::size_t slot = 0; slot < before.size(); ++slot) {
+    if (before[slot] == scratch.doubts[slot]) continue;
+    recordFinding(state, scratch, state.collections[slot], {Doubt::Open, kNeighbourHit, "open"});
+  }
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) == Doubt::None) continue;
     bringBlocksBack(state, c);

@@ -14,10 +14,10 @@ namespace merge2d {
 /// Welds the pairs that were ready for `merging.steps` steps.
 void merge(State& state, Scratch& scratch);
 
-/// Makes one of the bodies of each pair, other than of two frames. Collections on one floor stay
-/// apart (collection.h).
+/// Welds each pair, unless its bodies are fixed to two frames. Collections on one floor stay apart
+/// (collection.h).
 void weldPairs(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs);
-/// The same; tells of each body of a frame to which a member is welded.
+/// Also calls `on_floor` for each weld to a body of a frame.
 using OnFloor = std::function<void(BodyId floor, BodyId member)>;
 void weldPairs(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs,
                const OnFloor& on_floor);

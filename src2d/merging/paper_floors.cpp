@@ -35,7 +35,14 @@ class Floors {
   std::map<BodyId, BodyId> on_;  ///< a member that is welded to each of them
 };
 
-/// All members welded to one body of the frame are one part.
+}  // namespace
+
+void weldPairsAndFloors(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs) {
+  bringAllBack(state, scratch);  // what sleeps on a floor may be united too
+  Floors floors(state);
+  weldPairs(state, scratch, pairs, [&](BodyId floor, BodyId member) { floors.add(floor, member); });
+}
+
 void uniteOnFloors(const Collection& c, PartFinder& finder) {
   std::map<BodyId, std::uint32_t> on;  // per body of the frame: a member that it holds
   for (const Weld& weld : c.welds) {
@@ -47,20 +54,12 @@ void uniteOnFloors(const Collection& c, PartFinder& finder) {
   }
 }
 
-}  // namespace
-
-void weldPairsAndFloors(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs) {
-  bringAllBack(state, scratch);  // what sleeps on a floor may be united too
-  Floors floors(state);
-  weldPairs(state, scratch, pairs, [&](BodyId floor, BodyId member) { floors.add(floor, member); });
-}
-
 Parts connectedParts(const State& state, const Collection& c) {
   PartFinder finder(c);
   for (const Weld& weld : c.welds) {
     if (!weld.cut && !weld.expected && activeContacts(c, weld) > 0) finder.join(weld);
   }
-  if (!state[c.rigid].floating()) uniteOnFloors(c, finder);
+  mergingMethod(state).uniteParts(c, finder);
   return finder.parts();
 }
 

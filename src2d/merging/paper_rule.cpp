@@ -86,6 +86,7 @@ constinit const MergingMethod kPaperMerging{
     .criteria = kPaperCriteria,
     .cycles = noCycles,
     .weld = weldPairsAndFloors,
+    .uniteParts = uniteOnFloors,
 };
 
 constinit const UnmergingMethod kPaperUnmerging{

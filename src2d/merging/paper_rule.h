@@ -21,8 +21,10 @@ void unmergeByContacts(State& state, Scratch& scratch);
 /// Welds pairs, and makes one collection of all that is welded to one floor.
 void weldPairsAndFloors(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs);
 
-/// The connected components of the remaining welds that have an active contact or a joint; what is
-/// welded to one floor is one part.
+/// All members that are welded to one body of a frame are one part.
+void uniteOnFloors(const Collection& c, PartFinder& finder);
+
+/// The connected components of the remaining welds that have an active contact or a joint.
 Parts connectedParts(const State& state, const Collection& c);
 
 /// Section 7: each body and each collection sleeps, and wakes, by itself.

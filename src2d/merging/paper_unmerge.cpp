@@ -23,12 +23,13 @@ Criterion sticks(const UnmergingSettings& settings, double slip) {
   return {"sliding", "(19)", slip, settings.sliding, slip <= settings.sliding};
 }
 
-/// Eq. (17) at unmerging (Section 6.4): has the pair been faster for so many steps?
+/// Eq. (17) at unmerging (Section 6.4).
 Criterion movesSlowly(const UnmergingSettings& settings, double motion) {
   return {"relative-motion", "(17)", motion, settings.velocity, motion <= settings.velocity};
 }
 
-/// Asks the criteria of the welds of one collection in one step, and cuts those that do not hold.
+/// Asks the criteria of the welds of one collection in one step, and cuts the welds for which one
+/// does not hold.
 class WeldCutter {
  public:
   WeldCutter(const State& state, const Scratch& scratch, Collection& c)
@@ -65,7 +66,8 @@ class WeldCutter {
       if (!point.lost && !onEdge(k, i)) continue;
       const Criterion test = point.lost ? presses : sticks(state_.settings.unmerging, slipAt(k, i));
       const EventReason reason = point.lost ? EventReason::Broken : EventReason::Sliding;
-      Decision* d = take(weld, test, reason);
+      if (!test.holds) cut(weld, reason);
+      Decision* d = recordWeld(weld, test, test.holds ? "keep" : "unmerge");
       if (d) d->at = state_[c_.rigid].frame() * inner.point(i).position;
     }
   }
@@ -80,14 +82,13 @@ class WeldCutter {
   void askMotion(Weld& weld) {
     constexpr int kMost = 10'000;  // steps that are counted
     const UnmergingSettings& settings = state_.settings.unmerging;
-    Criterion test = movesSlowly(settings, motionOf(weld));
+    const Criterion slow = movesSlowly(settings, motionOf(weld));
     const int before = weld.moving;
-    weld.moving = test.holds ? 0 : static_cast<std::uint16_t>(std::min(before + 1, kMost));
-    const bool waits = weld.moving > 0 && weld.moving < settings.steps;
-    test.holds |= waits;
-    Decision* d = take(weld, test, EventReason::RelativeMotion);
+    weld.moving = slow.holds ? 0 : static_cast<std::uint16_t>(std::min(before + 1, kMost));
+    const bool cuts = weld.moving >= settings.steps;
+    if (cuts) cut(weld, EventReason::RelativeMotion);
+    Decision* d = recordWeld(weld, slow, cuts ? "unmerge" : slow.holds ? "keep" : "wait");
     if (!d) return;
-    if (waits) d->verdict = "wait";
     d->count = weld.moving;
     d->needed = settings.steps;
     d->before = before;
@@ -113,15 +114,17 @@ class WeldCutter {
     return fastest;
   }
 
-  /// Cuts the weld where the criterion does not hold. Returns the record, or null.
-  Decision* take(Weld& weld, const Criterion& test, EventReason reason) {
-    if (!test.holds && !weld.cut) {
-      weld.cut = any_ = true;
-      weld.reason = reason;
-    }
+  void cut(Weld& weld, EventReason reason) {
+    if (weld.cut) return;
+    weld.cut = any_ = true;
+    weld.reason = reason;
+  }
+
+  /// Returns the record, or null.
+  Decision* recordWeld(const Weld& weld, const Criterion& test, std::string_view verdict) const {
     if (!scratch_.notes) return nullptr;
     return &scratch_.notes->decisions.emplace_back(
-        record(test, "Unmerge", weld.a, weld.b, test.holds ? "keep" : "unmerge"));
+        record(test, "Unmerge", weld.a, weld.b, verdict));
   }
 
   const State& state_;

@@ -1,6 +1,8 @@
 #include "src2d/merging/quiet_rigids.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "src2d/core/memory.h"
 #include "src2d/merging/pair_metric.h"

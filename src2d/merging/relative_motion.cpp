@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kStage = "AccumulateRelativeMotion";
 
-/// A pair that parted slowly may be looked at again: its count is no longer negative.
+/// A pair that parted slowly has waited, but for the last step, which counts.
 Criterion hasWaited(int count) {
   return {"patience", kOwnMerging, static_cast<double>(-count), 0.0, count >= -1};
 }
@@ -35,7 +35,7 @@ bool hasStopped(const State& state, const BodyPair& pair, const Contact& contact
 
 /// The criteria of one pair in one step.
 struct Readiness {
-  bool ready = true;
+  bool pressed = false, ready = true;
   std::vector<Criterion> asked{};  ///< for the record; empty where nobody asks for one
 };
 
@@ -53,6 +53,7 @@ Readiness readinessOf(const State& state, const BodyPair& pair, bool recorded) {
     ask(press);
     return r;
   }
+  r.pressed = true;
   for (const PairCriterion criterion : mergingMethod(state).criteria) {
     ask(criterion(seen));
     if (!r.ready && !recorded) break;
@@ -74,7 +75,7 @@ void recordReadiness(const State& state, Notes* notes, const BodyPair& pair, con
     d.needed = state.settings.merging.steps;
     notes->decisions.push_back(d);
   }
-  if (r.asked.size() > 1) noteCorners(state, pair, notes);  // its contacts press
+  if (r.pressed) noteCorners(state, pair, notes);
 }
 
 constexpr int kMostSteps = std::numeric_limits<std::int16_t>::max();  ///< that are counted

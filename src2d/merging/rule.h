@@ -20,6 +20,8 @@ struct MergingMethod {
   CycleCriterion (*cycles)(const MergingSettings& settings);
   /// Welds pairs: makes their bodies one.
   void (*weld)(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs);
+  /// Parts of a collection that its welds do not join, but that are one all the same.
+  void (*uniteParts)(const Collection& collection, PartFinder& finder);
 };
 
 /// How the forces inside collections are kept, and which bodies come free (Sections 6 and 7).

@@ -112,9 +112,11 @@ Coverage coverageOf(const State& state, const Collection& c, const CollectionLoa
   const double scale = most * most / (outer * outer);  // of the loads from outside
   const auto leaving = [&](double left, const LoadCertificate::Weights& weights) {
     // Not where they are no numbers.
-    const bool carried = left <= most * most && motionOf(proof, weights) <= cutSpeed(state);
-    const double part = std::sqrt(std::max(0.0, left));
-    return Coverage{{"proof", kOwnDecided, part, most, carried}, weights};
+    const double part = left <= 0.0 ? 0.0 : std::sqrt(left), motion = motionOf(proof, weights);
+    const Criterion leaves{"proof", kOwnDecided, part, most, left <= most * most};
+    const Criterion rests{"proof-motion", kOwnDecided, motion, cutSpeed(state),
+                          motion <= cutSpeed(state)};
+    return Coverage{leaves.holds && !rests.holds ? rests : leaves, weights};
   };
   const std::size_t n = proof.witnesses.size();
   const double ll = weighed(load.norm * load.norm, square(load), scale);

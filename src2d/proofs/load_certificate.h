@@ -18,7 +18,9 @@ void restart(const State& state, LoadCertificate& proof);
 
 /// The combination of the loads that were carried which is nearest to a load.
 struct Coverage {
-  Criterion carried;  ///< "proof": how much of the load it leaves over [m/s]
+  /// "proof": how much of the load it leaves over; where that is little, but members move faster
+  /// under its impulses than welds are cut, "proof-motion" [m/s].
+  Criterion carried;
   LoadCertificate::Weights weights{};
 };
 Coverage coverageOf(const State& state, const Collection& c, const CollectionLoad& load);

@@ -92,7 +92,7 @@ void addAll(State& state, Scratch& scratch, OpenRegion& region) {
   }
 }
 
-/// A search that a hit interrupts in a small collection lends its gradient, and its budget.
+/// In a small collection a search that is under way goes on, with its gradient and its budget.
 double relaxWhole(State& state, Scratch& scratch, OpenRegion& region) {
   Collection& c = state.collections[region.slot];
   const double tolerance = toleranceFor(state, c, region.members);

@@ -8,7 +8,7 @@ namespace merge2d {
 
 /// Solves the rows inside, with the velocities in `scratch.trial_u`, until their residual is
 /// below `tolerance` [m/s] or the budget is spent; returns it [m/s]. The sweeps over all rows of a
-/// search go on as if there had been no pause. `search` is null where there is none.
+/// search go on as if there had been no pause. `search` is null where none goes on here.
 double relax(const State& state, Scratch& scratch, Collection& collection, double tolerance,
              SweepBudget budget, ProofSearch* search);
 

@@ -15,9 +15,8 @@ class SweepBudget {
   static SweepBudget ofStep(const State& state, std::size_t rows) {
     return SweepBudget(rowSweeps(state, rows));
   }
-  /// In the first step of a search one round over the most rows of which a step may take all its
-  /// sweeps; twice as much in each further step, as many loads do not last: the collapsing
-  /// tower-platform then takes half as many.
+  /// A search begins with 500 row sweeps, one round over 50 rows, and doubles them in each step, as
+  /// many loads do not last: the collapsing tower-platform then takes half as many.
   static SweepBudget ofSearch(const State& state, std::size_t rows, int step) {
     const double first = ReachedRows::kRound * kDecided.row_sweeps / kDecided.most_sweeps;
     return SweepBudget(std::min(rowSweeps(state, rows), std::ldexp(first, step)));

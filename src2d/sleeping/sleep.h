@@ -22,7 +22,7 @@ void markRestless(State& state, Scratch& scratch);
 /// Puts one rigid thing to sleep.
 void fallAsleep(State& state, Scratch& scratch, RigidId id);
 
-/// Notes whether a rigid thing stays awake, and the one test that decided it.
+/// Records whether a rigid thing stays awake, and the one test that decided it.
 void recordSleep(const State& state, const Scratch& scratch, RigidId id, bool stays_awake);
 
 /// Wakes one rigid thing; its island follows in the stage.
