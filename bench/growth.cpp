@@ -180,7 +180,6 @@ const std::vector<Situation> kSituations = {
      {5000, 10'000, 20'000, 40'000},
      allStacksMerge},
     // Their memory fits into no cache.
-    // freed.
     {"so many stacks of 5 merge at once: slowest step", kPass, {20'000, 80'000}, allStacksMerge},
     {"every body is kicked: that step",
      kWork,
