@@ -32,6 +32,14 @@ inline Criterion below(std::string_view criterion, std::string_view equation, do
   return {criterion, equation, value, threshold, value < threshold};
 }
 
+/// The count beside a criterion. Of most it counts consecutive steps; docs/records.md names the
+/// others.
+struct TestCount {
+  int before = 0;  ///< up to the last step
+  int count = 0;   ///< this step included; 0: starts anew
+  int needed = 0;  ///< how many it takes
+};
+
 /// A criterion that a step asked about a pair, and what followed. The words for it are in
 /// docs/records.md.
 struct Decision {
@@ -40,19 +48,18 @@ struct Decision {
   std::string_view criterion{}, equation{};
   double value = 0.0;
   double threshold = 0.0;
-  int count = 0;  ///< consecutive steps, this one included; 0: starts anew
-  int needed = 0;
+  int count = 0, needed = 0;   ///< TestCount
   std::string_view verdict{};  ///< "merge", "wait", "apart", "keep", "unmerge", …
-  int before = 0;              ///< the count up to the last step
+  int before = 0;              ///< TestCount
   Vec2 at = Vec2::Zero();      ///< of tests of one contact: where it is, in the world [m]
   /// Of "cycle": the first body of the group that holds the pair; −1: none.
   std::int32_t group = -1;
   std::int32_t members = -1;  ///< all its bodies: an index of Snapshot::groups
 };
 
-/// The record of a criterion; the caller adds counts where there are any.
+/// The record of a criterion.
 inline Decision record(const Criterion& test, std::string_view stage, BodyId a, BodyId b,
-                       std::string_view verdict) {
+                       std::string_view verdict, const TestCount& count = {}) {
   return {.a = a,
           .b = b,
           .stage = stage,
@@ -60,7 +67,10 @@ inline Decision record(const Criterion& test, std::string_view stage, BodyId a, 
           .equation = test.equation,
           .value = test.value,
           .threshold = test.threshold,
-          .verdict = verdict};
+          .count = count.count,
+          .needed = count.needed,
+          .verdict = verdict,
+          .before = count.before};
 }
 
 /// True when a step welded a pair, of which these are all tests: it was ready, a group holds it

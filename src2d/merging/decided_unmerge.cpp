@@ -105,9 +105,9 @@ Criterion staysTogether(double speed, double limit) {
 
 void recordWeld(const Scratch& scratch, const Weld& weld, const Criterion& test) {
   if (!scratch.notes) return;
-  Decision d = record(test, "Unmerge", weld.a, weld.b, test.holds ? "keep" : "unmerge");
-  d.count = test.holds ? 0 : 1;
-  scratch.notes->decisions.push_back(d);
+  const std::string_view verdict = test.holds ? "keep" : "unmerge";
+  scratch.notes->decisions.push_back(
+      record(test, "Unmerge", weld.a, weld.b, verdict, {.count = test.holds ? 0 : 1}));
 }
 
 /// The bodies of some weld move against each other, at their corners, by more than `noise`: a beam
@@ -300,9 +300,8 @@ void recordSearch(const State& state, const Scratch& scratch, const Collection& 
                   const ProofSearch& search, const Criterion& test, std::string_view verdict) {
   if (!scratch.notes || search.ahead) return;
   const BodyId first = state.firstBody(c.rigid);
-  Decision d = record(test, "SingleIterationPGS", first, first, verdict);
-  d.count = search.steps;
-  scratch.notes->decisions.push_back(d);
+  scratch.notes->decisions.push_back(
+      record(test, "SingleIterationPGS", first, first, verdict, {.count = search.steps}));
 }
 
 /// Per weld: whether its bodies move in a search.

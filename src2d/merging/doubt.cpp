@@ -91,10 +91,9 @@ void recordFinding(const State& state, const Scratch& scratch, const Collection&
                    const Finding& finding) {
   if (!scratch.notes || finding.because.criterion.empty()) return;
   const BodyId first = state.firstBody(c.rigid);
-  Decision d = record(finding.because, "WarmStart", first, first, finding.verdict);
-  d.count = finding.used;
-  d.needed = finding.known;
-  scratch.notes->decisions.push_back(d);
+  scratch.notes->decisions.push_back(record(finding.because, "WarmStart", first, first,
+                                            finding.verdict,
+                                            {.count = finding.used, .needed = finding.known}));
 }
 
 /// A load that known proofs carry leaves the collection quiet, if its joints bear it too.

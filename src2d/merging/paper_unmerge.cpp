@@ -87,11 +87,11 @@ class WeldCutter {
     weld.moving = slow.holds ? 0 : static_cast<std::uint16_t>(std::min(before + 1, kMost));
     const bool cuts = weld.moving >= settings.steps;
     if (cuts) cut(weld, EventReason::RelativeMotion);
-    Decision* d = recordWeld(weld, slow, cuts ? "unmerge" : slow.holds ? "keep" : "wait");
-    if (!d) return;
-    d->count = weld.moving;
-    d->needed = settings.steps;
-    d->before = before;
+    recordWeld(weld, slow,
+               cuts         ? "unmerge"
+               : slow.holds ? "keep"
+                            : "wait",
+               {before, weld.moving, settings.steps});
   }
 
   /// Eq. (15) with the velocities of the sweep; of a pair with a pinned body only the other's box.
@@ -121,10 +121,11 @@ class WeldCutter {
   }
 
   /// Returns the record, or null.
-  Decision* recordWeld(const Weld& weld, const Criterion& test, std::string_view verdict) const {
+  Decision* recordWeld(const Weld& weld, const Criterion& test, std::string_view verdict,
+                       const TestCount& count = {}) const {
     if (!scratch_.notes) return nullptr;
     return &scratch_.notes->decisions.emplace_back(
-        record(test, "Unmerge", weld.a, weld.b, verdict));
+        record(test, "Unmerge", weld.a, weld.b, verdict, count));
   }
 
   const State& state_;

@@ -82,11 +82,9 @@ Criterion isBalanced(const Candidate& c, const SolverVelocity& u) {
 void recordRest(const State& state, Scratch& scratch, RigidId id, const Criterion& test,
                 int before) {
   const BodyId body = state.firstBody(id);
-  Decision d = record(test, "AccumulateRelativeMotion", body, body, test.holds ? "below" : "awake");
-  d.before = before;
-  d.count = state[id].quiet_steps;
-  d.needed = state.settings.sleeping.steps;
-  scratch.notes->decisions.push_back(d);
+  scratch.notes->decisions.push_back(
+      record(test, "AccumulateRelativeMotion", body, body, test.holds ? "below" : "awake",
+             {before, state[id].quiet_steps, state.settings.sleeping.steps}));
 }
 
 }  // namespace

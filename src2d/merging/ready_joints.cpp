@@ -36,12 +36,10 @@ void countQuietJoint(State& state, Joint& joint, Notes* notes) {
   joint.quiet_steps = breath.holds && motion.holds ? before + 1 : 0;
   if (!notes) return;
   noteCorners(state, pair, notes);
+  const TestCount count{before, joint.quiet_steps, state.settings.merging.steps};
   for (const Criterion& test : {breath, motion}) {
-    Decision d = record(test, "AccumulateRelativeMotion", a, b, test.holds ? "below" : "apart");
-    d.count = joint.quiet_steps;
-    d.needed = state.settings.merging.steps;
-    d.before = before;
-    notes->decisions.push_back(d);
+    const std::string_view verdict = test.holds ? "below" : "apart";
+    notes->decisions.push_back(record(test, "AccumulateRelativeMotion", a, b, verdict, count));
   }
 }
 

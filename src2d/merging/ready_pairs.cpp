@@ -78,12 +78,11 @@ std::vector<Pin> MergeGraph::pinsOf(const std::vector<ReadyPair>& ready) const {
 Decision* recordMerge(const State& state, Notes* notes, const BodyPair& pair,
                       const Criterion& test) {
   if (!notes) return nullptr;
-  Decision d = record(test, "Merge", pair.a, pair.b, test.holds ? "merge" : "wait");
-  d.needed = state.settings.merging.steps;
+  const int needed = state.settings.merging.steps;
   const bool touches = pair.count > 0;  // or is held by joints alone
-  d.count = touches ? state.contacts[state.contacts.order[pair.first]].quiet_steps : d.needed;
-  d.before = d.count;
-  return &notes->decisions.emplace_back(d);
+  const int steps = touches ? state.contacts[state.contacts.order[pair.first]].quiet_steps : needed;
+  return &notes->decisions.emplace_back(
+      record(test, "Merge", pair.a, pair.b, test.holds ? "merge" : "wait", {steps, steps, needed}));
 }
 
 namespace {
@@ -130,9 +129,8 @@ void recordTwoFrames(const State& state, Scratch& scratch) {
   const auto ask = [&](BodyId a, BodyId b) {
     const Criterion one = haveOneFrame(state, a, b);
     if (one.holds) return;
-    Decision d = record(one, "Merge", a, b, "apart");
-    d.needed = state.settings.merging.steps;
-    scratch.notes->decisions.push_back(d);
+    scratch.notes->decisions.push_back(
+        record(one, "Merge", a, b, "apart", {.needed = state.settings.merging.steps}));
   };
   for (const BodyPair& pair : scratch.pairs) ask(pair.a, pair.b);
   for (const JointEdge& joint : readyJoints(state)) ask(joint.a, joint.b);

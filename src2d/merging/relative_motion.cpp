@@ -68,12 +68,10 @@ void recordReadiness(const State& state, Notes* notes, const BodyPair& pair, con
   if (const Criterion waited = hasWaited(before); !waited.holds) {
     notes->decisions.push_back(record(waited, kStage, pair.a, pair.b, "wait"));
   }
+  const TestCount count{before, now, state.settings.merging.steps};
   for (const Criterion& test : r.asked) {
-    Decision d = record(test, kStage, pair.a, pair.b, test.holds ? "below" : "apart");
-    d.before = before;
-    d.count = now;
-    d.needed = state.settings.merging.steps;
-    notes->decisions.push_back(d);
+    notes->decisions.push_back(
+        record(test, kStage, pair.a, pair.b, test.holds ? "below" : "apart", count));
   }
   if (r.pressed) noteCorners(state, pair, notes);
 }

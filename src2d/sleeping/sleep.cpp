@@ -97,13 +97,10 @@ void recordSleep(const State& state, const Scratch& scratch, RigidId id, bool st
   const Rigid& r = state[id];
   if (!scratch.notes || (r.asleep && !stays_awake)) return;
   const BodyId first = state.firstBody(id);
-  Decision d = record(reasonOf(state, scratch, id, stays_awake), "SleepAndWake", first, first,
-                      r.asleep      ? "wake"
-                      : stays_awake ? "wait"
-                                    : "sleep");
-  d.count = d.before = r.quiet_steps;
-  d.needed = state.settings.sleeping.steps;
-  scratch.notes->decisions.push_back(d);
+  const std::string_view verdict = r.asleep ? "wake" : stays_awake ? "wait" : "sleep";
+  scratch.notes->decisions.push_back(
+      record(reasonOf(state, scratch, id, stays_awake), "SleepAndWake", first, first, verdict,
+             {r.quiet_steps, r.quiet_steps, state.settings.sleeping.steps}));
 }
 
 namespace {
