@@ -84,8 +84,9 @@ class WeldMotions {
   const std::vector<SolverVelocity>& u_;
 };
 
-/// Broken where nothing presses, sliding where a contact is on the edge of its cone.
-EventReason reasonOf(const Collection& c, const Weld& weld) {
+/// Why a weld ends: broken where nothing presses, sliding where a contact is on the edge of its
+/// cone.
+EventReason reasonOfCut(const Collection& c, const Weld& weld) {
   bool presses = weld.joints > 0, slides = false;
   for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
     const ContactBlock& k = c.blocks[c.contacts[i].block];
@@ -143,7 +144,7 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRe
     if (search.hasFoundMotion() && search.movers[i] == 0) continue;
     weld.cut = true;
     weld.motion = static_cast<float>(speed);
-    weld.reason = reasonOf(c, weld);
+    weld.reason = reasonOfCut(c, weld);
     any = true;
   }
   return any;
@@ -171,7 +172,7 @@ void stepBack(const State& state, Scratch& scratch, Collection& c, const Criteri
   for (Weld& weld : c.welds) {
     if (weld.expected || weld.joints >= kRigid) continue;
     recordWeld(scratch, weld, brief);
-    if (!weld.cut) weld.reason = reasonOf(c, weld);
+    if (!weld.cut) weld.reason = reasonOfCut(c, weld);
     weld.cut = true;
     weld.motion = static_cast<float>(state.settings.merging.velocity / kDecided.past_steps);
   }

@@ -15,12 +15,12 @@ Vec2 endOf(const State& state, const Joint& joint) {
 }
 
 /// The joint has come to rest.
-Criterion hardlyBreathes(const State& state, const Joint& joint, double scale) {
+Criterion jointHardlyBreathes(const State& state, const Joint& joint, double scale) {
   return below("breathing", kOwnMerging, joint.breath, scale * state.settings.merging.breathing);
 }
 
 /// Eqs. (15) to (17) for the bodies of a joint.
-Criterion movesAsOne(const State& state, const BodyPair& pair, double scale) {
+Criterion jointedBodiesMoveAsOne(const State& state, const BodyPair& pair, double scale) {
   const double most = scale * state.settings.merging.velocity;
   return below("relative-motion", kOwnMerging, relativeMotion(state, pair), most);
 }
@@ -29,8 +29,8 @@ void countQuietJoint(State& state, Joint& joint, Notes* notes) {
   const auto [a, b] = pairOf(joint);
   const BodyPair pair{a, b, 0, 0};
   const double scale = thresholdScale(contactSize(state, joint.a, joint.b));
-  const Criterion breath = hardlyBreathes(state, joint, scale);
-  const Criterion motion = movesAsOne(state, pair, scale);
+  const Criterion breath = jointHardlyBreathes(state, joint, scale);
+  const Criterion motion = jointedBodiesMoveAsOne(state, pair, scale);
   joint.yielded = {};
   const int before = joint.quiet_steps;
   joint.quiet_steps = breath.holds && motion.holds ? before + 1 : 0;
@@ -52,7 +52,7 @@ void countQuietJoints(State& state, Scratch& scratch) {
   }
 }
 
-std::vector<JointEdge> readyJoints(const State& state) {
+std::vector<JointEdge> pairsOfQuietJoints(const State& state) {
   std::vector<const Joint*> ready;
   for (const Joint& joint : state.joints) {
     const bool quiet = joint.quiet_steps >= state.settings.merging.steps && !joint.to_world;

@@ -20,6 +20,6 @@ struct JointEdge {
 };
 
 /// The pairs whose joints were quiet for `merging.steps` steps, ascending.
-std::vector<JointEdge> readyJoints(const State& state);
+std::vector<JointEdge> pairsOfQuietJoints(const State& state);
 
 }  // namespace merge2d

@@ -101,7 +101,7 @@ void listReadyContacts(const State& state, Scratch& scratch, const MergeGraph& g
 }
 
 void listReadyJoints(const State& state, Scratch& scratch, const MergeGraph& graph) {
-  for (const JointEdge& joint : readyJoints(state)) {
+  for (const JointEdge& joint : pairsOfQuietJoints(state)) {
     const BodyPair pair{joint.a, joint.b, 0, 0};
     const Criterion held = isHeldByJoints(joint);
     recordMerge(state, scratch.notes, pair, held);
@@ -133,7 +133,7 @@ void recordTwoFrames(const State& state, Scratch& scratch) {
         record(one, "Merge", a, b, "apart", {.needed = state.settings.merging.steps}));
   };
   for (const BodyPair& pair : scratch.pairs) ask(pair.a, pair.b);
-  for (const JointEdge& joint : readyJoints(state)) ask(joint.a, joint.b);
+  for (const JointEdge& joint : pairsOfQuietJoints(state)) ask(joint.a, joint.b);
 }
 
 std::vector<ReadyPair> pairsToJudge(const State& state, const Scratch& scratch,

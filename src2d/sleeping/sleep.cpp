@@ -73,8 +73,8 @@ void fallAsleep(State& state, Scratch& scratch, RigidId id) {
 
 namespace {
 
-/// The reason for which something falls asleep, wakes or stays awake.
-Criterion reasonOf(const State& state, const Scratch& scratch, RigidId id, bool stays_awake) {
+/// The criterion that decides whether something falls asleep, wakes or stays awake.
+Criterion sleepCriterion(const State& state, const Scratch& scratch, RigidId id, bool stays_awake) {
   const Rigid& r = state[id];
   const int needed = state.settings.sleeping.steps;
   const auto keepsAwake = [](std::string_view criterion, std::string_view source) {
@@ -99,7 +99,7 @@ void recordSleep(const State& state, const Scratch& scratch, RigidId id, bool st
   const BodyId first = state.firstBody(id);
   const std::string_view verdict = r.asleep ? "wake" : stays_awake ? "wait" : "sleep";
   scratch.notes->decisions.push_back(
-      record(reasonOf(state, scratch, id, stays_awake), "SleepAndWake", first, first, verdict,
+      record(sleepCriterion(state, scratch, id, stays_awake), "SleepAndWake", first, first, verdict,
              {r.quiet_steps, r.quiet_steps, state.settings.sleeping.steps}));
 }
 
