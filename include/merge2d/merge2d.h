@@ -543,15 +543,16 @@ M2_API m2_status m2_world_events(m2_world* world, const m2_event** events, size_
 M2_API const char* m2_event_type_name(m2_event_type type); /**< "merge", … */
 M2_API const char* m2_reason_name(m2_reason reason);       /**< "relative-motion", … */
 
-/** One test of one criterion about a pair: Eqs. (15) to (20) of the paper, and those of our own
- * (docs/records.md lists them all). */
+/** One test of one criterion about a pair, or about a collection by its first body: Eqs. (15) to
+ * (20) of the paper, and those of our own. docs/records.md lists them all, and which of them count
+ * something else than steps. */
 typedef struct m2_decision {
   m2_body a;          /**< of the pair the lower number */
   m2_body b;          /**< the other, or `a` where one thing is meant */
   double value;       /**< in the unit of the criterion */
   double threshold;   /**< in the same unit */
-  int32_t count;      /**< consecutive steps, this one included */
-  int32_t needed;     /**< how many it takes */
+  int32_t count;      /**< consecutive steps, this one included; negative: still to wait */
+  int32_t needed;     /**< how many it takes, or 0 */
   int32_t before;     /**< the count up to the last step */
   int32_t reserved;   /**< 0 */
   char stage[32];     /**< of Algorithm 1 */

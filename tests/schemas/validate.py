@@ -62,6 +62,7 @@ OUTPUTS = [
     ("explain", ["explain", "stack.toml", "--at", "10"]),
     ("explain", ["explain", "books", "--at", "7", "--pair", "cookbook", "diary"]),
     ("explain", ["explain", "tower-platform", "--at", "118"]),
+    ("explain", ["explain", "pile", "--at", "295"]),  # pairs wait: their counts are negative
     ("explain-weld", ["explain", "books", "--weld", "cookbook", "diary"]),
     ("render", ["render", "stack.toml", "-r", "160x120", "--seconds", "0.1"]),
     ("render", ["render", "stack.toml", "--format", "svg", "--seconds", "0.1", "-o", "vector"]),
