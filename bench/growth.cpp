@@ -1,6 +1,6 @@
 /// The cost of a step against the number of bodies, in situations that a careless step would make
-/// grow faster than linearly. Fails where it grows faster than N^1.15, or N^1.5 where a step is so
-/// short that caches decide.
+/// grow faster than linearly. Fails where it grows faster than N^1.15, or N^1.5 where
+/// caches decide.
 
 #include <fmt/format.h>
 
@@ -19,9 +19,10 @@ namespace {
 
 constexpr int kRepeats = 3;    ///< of which the fastest counts
 constexpr int kHuge = 99'000;  ///< bodies of which one run counts, as it takes half a minute
-/// Largest exponents: of costs that are work, and of those that are a microsecond: their memory is
-/// in the first cache where bodies are few, and is not where they are many, which grows like N^1.2
-/// to N^1.4.
+/// Largest exponents. `kWork` is that of costs which the work of a step decides. `kPass` is that of
+/// costs which the memory of a pass decides: it lies in a near cache where bodies are few and not
+/// where they are many, so that the cost grows like N^1.2 to N^1.4. These are steps of about a
+/// microsecond, and those of so many bodies that no cache holds them.
 constexpr double kWork = 1.15, kPass = 1.5;
 constexpr int kMany = 2000;  ///< short steps, of which the mean or the median counts
 
