@@ -100,6 +100,7 @@ void checkScript(const Script& script, const Numbers<Home>& in) {
     const Keyframes::Key* before = nullptr;
     for (const Keyframes::Key& key : path->keys) {
       in.number("keyframes", key.time);
+      for (const double coordinate : key.position) in.number("keyframes", coordinate);
       in.number("keyframes", key.angle, kRadians);
       in.obey(judgeKey(key, before));
       before = &key;

@@ -38,6 +38,56 @@ TEST(PublicRefusals, NumbersAndNamesThatMakeNoSense) {
   EXPECT_THAT(refusal([&] { world.restore("rubbish"); }), HasSubstr("saved state"));
 }
 
+TEST(PublicRefusals, ActionsOfASceneHaveFiniteNumbers) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [](auto&& add) {
+    Scene scene = towerOf(1);
+    add(scene);
+    return refusal([&] { World world(scene); });
+  };
+  EXPECT_EQ(refused([](Scene&) {}), "accepted");
+  EXPECT_EQ(refused([](Scene& s) {
+              s.addForce(1, {0.0, 0.0}, {1.0, 0.0}, 0.0, HUGE_VAL);
+            }),
+            "accepted");
+  EXPECT_EQ(refused([&](Scene& s) {
+              s.addForce(1, {0.0, 0.0}, {nan, 0.0});
+            }),
+            "'force[0]' in force[0] must be a finite number below 1e12 in size, but is nan");
+  EXPECT_THAT(refused([&](Scene& s) {
+                s.addForce(1, {0.0, 0.0}, {1.0, 0.0}, 0.0, nan);
+              }),
+              HasSubstr("'until' in force[0] must be a finite number"));
+  EXPECT_THAT(refused([&](Scene& s) {
+                s.addImpulse(1, {0.0, 0.0}, {1.0, HUGE_VAL}, 0.0);
+              }),
+              HasSubstr("'impulse[1]' in impulse[0] must be a finite number"));
+  EXPECT_THAT(refused([&](Scene& s) { s.addMagnet(1, nan); }),
+              HasSubstr("'on' in magnet[0] must be a finite number"));
+}
+
+TEST(PublicRefusals, AChangeOfARunHasFiniteNumbers) {
+  World world(towerOf(1));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refuses = [](auto&& work) { EXPECT_THAT(refusal(work), HasSubstr("finite")); };
+  refuses([&] { world.applyForce(1, {0.0, 0.0}, {nan, 0.0}); });
+  refuses([&] { world.applyImpulse(1, {0.0, nan}, {1.0, 0.0}); });
+  refuses([&] { world.setPose(1, {0.0, 0.0}, HUGE_VAL); });
+  refuses([&] { world.setVelocity(1, {0.0, 0.0}, nan); });
+  refuses([&] { world.setFriction(1, nan); });
+  refuses([&] { world.setGravity({0.0, nan}); });
+  refuses([&] { world.setTimeStep(nan); });
+  refuses([&] { world.set("merging.velocity", nan); });
+  auto spring = merge2d::springDef();
+  spring.body = 1;
+  spring.stiffness = nan;
+  refuses([&] { world.add(spring); });
+  auto joint = merge2d::jointDef();
+  joint.a = 1;
+  joint.at = {nan, 0.0};
+  refuses([&] { world.add(joint); });
+}
+
 TEST(PublicRefusals, ANameStandsForOneBodyOfARun) {
   World world(towerOf(2));
   const auto add = [&](const char* name) {

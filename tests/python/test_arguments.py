@@ -72,6 +72,27 @@ def test_a_wrong_value_is_told_in_words(call, error, words):
         call(scene, world)
 
 
+NOT_FINITE = {
+    "a force": (lambda s: s.add_force("ball", (0, 0), (math.nan, 0)), r"'force\[0\]' in force\[0\]"),
+    "its end": (lambda s: s.add_force("ball", (0, 0), (1, 0), until=math.nan), "'until' in force"),
+    "an impulse": (lambda s: s.add_impulse("ball", (0, math.inf), (1, 0), 0), r"'at\[1\]' in impulse"),
+    "a magnet": (lambda s: s.add_magnet("ground", start=-math.inf), "'on' in magnet"),
+    "a key frame": (lambda s: s.add_body("lift", merge2d.box(1, 1), motion="scripted", script={
+        "keyframes": [(0, 9, math.nan, 0)]}), "'keyframes' in body 'lift'"),
+    "a motor": (lambda s: s.add_joint("revolute", "ball", at=(0, 0), motor=(math.nan, 1)),
+                "'speed' in the joint"),
+}
+
+
+@pytest.mark.parametrize("call, words", NOT_FINITE.values(), ids=NOT_FINITE)
+def test_a_number_of_a_scene_is_finite(call, words):
+    scene = ball_on_ground()
+    with pytest.raises(merge2d.InputError, match=words + ".* must be a finite number") as refused:
+        call(scene)
+        merge2d.World(scene)
+    assert "\n" not in str(refused.value)
+
+
 def test_objects_that_were_not_made_refuse_calls():
     """A debugger shows them: those of a constructor that raised."""
     scene = merge2d.Scene.__new__(merge2d.Scene)
