@@ -5,6 +5,7 @@
 #include "api/settings.h"
 #include "src2d/scene/check.h"
 #include "src2d/scene/load.h"
+#include "src2d/scene/rules.h"
 
 using merge2d::given;
 using merge2d::guarded;
@@ -193,9 +194,10 @@ m2_status m2_scene_to_toml(const m2_scene* scene, char** toml) {
 
 m2_status m2_scene_warnings(const m2_scene* scene, char** text) {
   return guarded([&] {
+    const merge2d::Scene& s = given(scene, "scene").scene;
     std::string lines;
-    for (const std::string& warning : given(scene, "scene").scene.warnings)
-      lines.append(warning).append("\n");
+    for (const std::string& warning : s.warnings) lines.append(warning).append("\n");
+    if (const auto doubt = merge2d::doubtOfMixedRules(s.settings)) lines += *doubt + "\n";
     given(text, "text") = merge2d::copyOf(lines);
   });
 }

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "src2d/scene/names.h"
+#include "src2d/scene/rules.h"
 #include "src2d/world.h"
 
 namespace merge2d {
@@ -190,14 +190,7 @@ void warnOfWhatDoesNothing(Scene& scene) {
 }
 
 void warnOfMixedRules(Scene& scene) {
-  const MergingRule merging = scene.settings.merging.rule;
-  const UnmergingRule unmerging = scene.settings.unmerging.rule;
-  if ((merging == MergingRule::Paper) == (unmerging == UnmergingRule::Paper)) return;
-  scene.warnings.push_back(
-      fmt::format("merging.rule is \"{}\" and unmerging.rule is \"{}\": one cuts the welds of the "
-                  "other, so that "
-                  "pairs merge and come apart in turn; set both to \"paper\", or neither",
-                  nameOf(merging), nameOf(unmerging)));
+  if (const auto doubt = doubtOfMixedRules(scene.settings)) scene.warnings.push_back(*doubt);
 }
 
 void warnOfStrainedJoints(Scene& scene) {

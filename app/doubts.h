@@ -19,8 +19,7 @@ void warnOfHaste(Scene& scene);
 /// springs, forces and impulses of zero.
 void warnOfWhatDoesNothing(Scene& scene);
 
-/// The paper's rule for merging beside another one for unmerging, or the other way round: one cuts
-/// the welds of the other.
+/// Merging and unmerging by two rules.
 void warnOfMixedRules(Scene& scene);
 
 /// Joints that begin outside their limits, or with another length than their own: they pull at

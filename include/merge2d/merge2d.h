@@ -276,7 +276,8 @@ M2_API size_t m2_scene_body_count(const m2_scene* scene);
 M2_API m2_status m2_scene_find_body(const m2_scene* scene, const char* name, m2_body* body);
 /** The scene as a file that loads to the same scene again. */
 M2_API m2_status m2_scene_to_toml(const m2_scene* scene, char** toml);
-/** Warnings of loading, one a line; "" when there are none. */
+/** Warnings of loading, and of settings that do not go together, one a line; "" when there are
+ * none. */
 M2_API m2_status m2_scene_warnings(const m2_scene* scene, char** text);
 /** Built-in scenes, one a line: name, a tab, title. */
 M2_API m2_status m2_scene_list(char** text);

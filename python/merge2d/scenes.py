@@ -280,7 +280,7 @@ class Scene(_merge2d.Scene):
 
     @property
     def warnings(self):
-        """What loading had to say, a list of sentences."""
+        """Warnings of loading, and of settings that do not go together: a list of sentences."""
         return super().warnings().splitlines()
 
     def __len__(self):

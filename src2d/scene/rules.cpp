@@ -134,4 +134,14 @@ Verdict judgeJoint(const BodyDesc& a, const BodyDesc* b) {
                                         a.name, nameOf(a.motion), b->name, nameOf(b->motion)));
 }
 
+std::optional<std::string> doubtOfMixedRules(const Settings& settings) {
+  const std::string_view merging = nameOf(settings.merging.rule);
+  const std::string_view unmerging = nameOf(settings.unmerging.rule);
+  if (merging == unmerging) return std::nullopt;
+  return fmt::format(
+      "merging.rule is \"{}\" and unmerging.rule is \"{}\": one cuts the welds of the other, so "
+      "that pairs merge and come apart in turn; set both to one rule",
+      merging, unmerging);
+}
+
 }  // namespace merge2d

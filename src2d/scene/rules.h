@@ -42,4 +42,7 @@ Verdict judgeMoves(std::string_view what, const BodyDesc& body);
 /// At least one of both ends must move; `b` may be null, which is the world.
 Verdict judgeJoint(const BodyDesc& a, const BodyDesc* b);
 
+/// The warning of settings under which one rule merges and another unmerges.
+std::optional<std::string> doubtOfMixedRules(const Settings& settings);
+
 }  // namespace merge2d

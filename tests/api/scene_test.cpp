@@ -52,6 +52,15 @@ TEST(PublicScene, FindsABodyByItsName) {
   EXPECT_THAT(refusal([&] { scene.find("dairy"); }), HasSubstr("did you mean 'diary'"));
 }
 
+TEST(PublicScene, WarnsOfTwoRulesWhileItHasThem) {
+  Scene scene;
+  EXPECT_EQ(scene.warnings(), "");
+  scene.set("merging.rule", "paper");
+  EXPECT_THAT(scene.warnings(), HasSubstr("one cuts the welds of the other"));
+  scene.set("unmerging.rule", "paper");
+  EXPECT_EQ(scene.warnings(), "");
+}
+
 TEST(PublicScene, RefusesAValueInWordsOfALibrary) {
   Scene scene;
   EXPECT_THAT(refusal([&] { scene.set("step", 0.0); }), StartsWith("step=0: 'step'"));

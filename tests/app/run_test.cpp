@@ -309,7 +309,7 @@ TEST_F(Run, RulesThatContradictEachOtherAreWarnedOf) {
   };
   EXPECT_THAT(warnings("paper", "default"), HasSubstr("one cuts the welds of the other"));
   EXPECT_EQ(warnings("default", "default"), "");
-  EXPECT_THAT(warnings("default", "paper"), HasSubstr("set both to \"paper\", or neither"));
+  EXPECT_THAT(warnings("default", "paper"), HasSubstr("set both to one rule"));
   EXPECT_EQ(warnings("paper", "paper"), "");
 }
 
