@@ -261,7 +261,9 @@ class StateCheck {
     for (const std::uint32_t i : c.block_contact) {
       require(i < c.contacts.size() && seen[i]++ == 0, "blocks");
     }
-    require(c.push.empty() || c.push.size() == c.members.size(), "inner forces");
+    require(c.push.of.empty() || c.push.of.size() == c.members.size(), "inner forces");
+    require(std::ranges::all_of(c.push.loose, [&](auto m) { return m < c.members.size(); }),
+            "inner forces");
     const std::size_t nodes = c.members.size() + 1;  // the last is the frame
     for (const Weld& weld : c.welds) {
       const bool run =

@@ -200,6 +200,11 @@ void fields(Ar& ar, Some<HitRun> auto& run) {
   ar(blow, met, first, last);
 }
 template <class Ar>
+void fields(Ar& ar, Some<InnerPush> auto& p) {
+  auto& [of, loose, frame, tolerance, fastest] = p;
+  ar(of, loose, frame, tolerance, fastest);
+}
+template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
   auto& [id, rigid, anchor, members, contacts, blocks, block_contact, active_blocks, points, stale,
          welds, welds_of, joints, push, residual, settled, hits, certificate] = c;

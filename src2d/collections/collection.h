@@ -34,11 +34,7 @@ void layOutCollections(State& state);
 /// change once more before the next sweep.
 void layOutFloating(State& state);
 
-/// Computes the push of each member anew from the impulses inside. A layout leaves it empty,
-/// and the first reader calls this.
-void layOutPush(const State& state, Collection& collection);
-
-/// Lists the welds of each member. A layout leaves that empty too.
+/// Lists the welds of each member. A layout leaves that empty, and the first reader calls this.
 void listWeldsOfMembers(Collection& collection);
 
 /// Takes the collection apart: `part[i]` is the part of its i-th member, `anchored[p]` says whether

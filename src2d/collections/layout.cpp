@@ -10,6 +10,7 @@
 #include "src2d/collections/collection_method.h"
 #include "src2d/collections/joint_sweep.h"
 #include "src2d/collections/joint_welds.h"
+#include "src2d/collections/nodes.h"
 #include "src2d/core/memory.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/proofs/proof_transfer.h"
@@ -70,35 +71,6 @@ void fitBox(State& state, RigidId id) {
   }
   state.extents[state[id].extent].box = tightBox(points);
 }
-
-/// The place of each body among the members; that of the frame is last.
-class Nodes {
- public:
-  Nodes(const State& state, const Collection& c) : members_(c.members), node_(memory()) {
-    if (node_.size() < state.bodies.size()) node_.resize(state.bodies.size(), kFrame);
-    for (std::uint32_t i = 0; i < members_.size(); ++i) node_[index(members_[i])] = i;
-  }
-  ~Nodes() {
-    for (const BodyId b : members_) node_[index(b)] = kFrame;
-  }
-  Nodes(const Nodes&) = delete;
-  Nodes& operator=(const Nodes&) = delete;
-
-  std::uint32_t of(BodyId b) const {
-    return std::min(node_[index(b)], static_cast<std::uint32_t>(members_.size()));
-  }
-
- private:
-  static constexpr std::uint32_t kFrame = ~0u;
-  /// Per body, and kFrame of all between two layouts: small enough to stay in the cache.
-  static std::vector<std::uint32_t>& memory() {
-    thread_local std::vector<std::uint32_t> node;
-    return node;
-  }
-
-  const std::vector<BodyId>& members_;
-  std::vector<std::uint32_t>& node_;
-};
 
 /// Contacts of one pair of bodies in a row form a weld, and so do its joints.
 void layOutWelds(const State& state, Collection& c) {
@@ -228,6 +200,7 @@ void layOutBlocks(const State& state, Collection& c) {
 void putBlocksAway(Collection& c) {
   for (InternalContact& inner : c.contacts) dropBlock(c, inner);
   std::vector<ContactBlock>().swap(c.blocks);
+  c.push = {};
   c.welds_of = {};
 }
 
@@ -249,41 +222,6 @@ void listWeldsOfMembers(Collection& c) {
         if (node != frame) visit(node, w);
       }
     }
-  });
-}
-
-// The push is the start of the next sweep, so that no pass over the rows is needed for a warm
-// start.
-void layOutPush(const State& state, Collection& c) {
-  c.push.assign(c.members.size(), {});
-  struct End {
-    Twist* push = nullptr;  ///< null: no member
-    double mass = 1.0, inertia = 1.0;
-    void add(double sign, const Vec2& impulse, double moment) const {
-      if (!push) return;
-      push->vx += sign * impulse.x() / mass;
-      push->vy += sign * impulse.y() / mass;
-      push->omega += sign * moment / inertia;
-    }
-  };
-  const auto endOf = [&](std::uint32_t b) -> End {
-    if (b >= state.bodies.size() || state.bodies[b].rigid != c.rigid) return {};
-    return {&c.push[state.rigids[b].member], state.bodies[b].mass, state.bodies[b].inertia};
-  };
-  for (const ContactBlock& k : c.blocks) {
-    const End a = endOf(k.a), b = endOf(k.b);
-    const Vec2 n(k.nx, k.ny), t = perpendicular(n);
-    for (int i = 0; i < k.count; ++i) {
-      const Vec2 impulse = k.lambda_n(i) * n + k.lambda_t(i) * t;
-      a.add(-1.0, impulse, k.arm_an[i] * k.lambda_n(i) + k.arm_at[i] * k.lambda_t(i));
-      b.add(1.0, impulse, k.arm_bn[i] * k.lambda_n(i) + k.arm_bt[i] * k.lambda_t(i));
-    }
-    if (!k.rolls()) continue;
-    a.add(-1.0, Vec2::Zero(), k.lambda_r());
-    b.add(1.0, Vec2::Zero(), k.lambda_r());
-  }
-  addJointPush(c, [&](std::uint32_t b, double sign, const Vec2& impulse, double moment) {
-    endOf(b).add(sign, impulse, moment);
   });
 }
 
@@ -314,7 +252,7 @@ void layOut(State& state, Collection& c) {
   layOutWelds(state, c);
   layOutBlocks(state, c);
   proofs.finish();
-  c.push.clear();  // made for whoever sweeps it next
+  c.push.forget();  // made for whoever needs it next
   c.welds_of = {};
   c.stale = false;
   c.settled = false;

@@ -200,6 +200,23 @@ struct HitRun {
   void endRun() { met = first = last = kNever; }
 };
 
+/// The velocities that the impulses inside give the members. Who changes impulses for good has it
+/// forgotten, or renewed where few members are concerned (inner_push.h).
+struct InnerPush {
+  std::vector<Twist> of;  ///< per member, in the frame; empty: to be laid out anew
+  /// Members that are faster than `tolerance` under the push and this motion of the frame, and
+  /// perhaps some that are not; ascending.
+  std::vector<std::uint32_t> loose;
+  FrameLoad frame{};
+  double tolerance = -1.0;  ///< negative: they are not listed [m/s]
+  double fastest = 0.0;     ///< of the others [m/s]
+
+  void forget() {
+    of.clear();
+    tolerance = -1.0;
+  }
+};
+
 /// Bodies simulated as one (Section 4).
 struct Collection {
   CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
@@ -218,7 +235,7 @@ struct Collection {
   std::vector<Weld> welds;          ///< ascending by pair
   IndexRuns welds_of;               ///< per member; empty until it is opened
   std::vector<JointBlock> joints;   ///< those that act inside; λ is live here
-  std::vector<Twist> push;          ///< per member: Δu by the inner forces, in the frame
+  InnerPush push;
   float residual = 0.0F;            ///< largest of its rows, when last solved [m/s]
   bool settled = false;             ///< the forces inside are known
   HitRun hits;

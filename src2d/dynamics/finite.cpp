@@ -50,7 +50,7 @@ void checkSweep(const State& state, const Scratch& scratch, const Report& report
     if (c.id == kNoCollection || state[c.rigid].asleep) continue;
     for (const BodyId b : c.members) {
       const SolverVelocity& u = scratch.sweep_u[index(b)];
-      if (!isFinite(u)) report.velocity(b, u);
+      if (scratch.swept[index(b)] != 0 && !isFinite(u)) report.velocity(b, u);
     }
   }
 }

@@ -190,11 +190,9 @@ struct OpenRegion {
   bool whole = false;                                      ///< all members are inside
   std::vector<std::uint32_t> members;                      ///< that are inside
   std::vector<std::pair<std::uint32_t, Impulses>> before;  ///< of its blocks, where it is not whole
-  /// Per member, where some are outside: the velocity that the impulses inside leave of its load,
-  /// too slow for a hit to see.
-  std::vector<Twist> imbalance;
-  int rings = 2;        ///< of neighbours that are added next
-  bool passes = false;  ///< what hits it may be passed on to the frame (load_path.h)
+  std::vector<OuterLoad> outer;  ///< that it began with, where it is not whole
+  int rings = 2;                 ///< of neighbours that are added next
+  bool passes = false;           ///< what hits it may be passed on to the frame (load_path.h)
 };
 
 /// The change of all impulses in the last sweep, squared, beside the impulses themselves [N² s²].
@@ -275,6 +273,7 @@ struct Scratch {
   std::int64_t last_sweep = -1;         ///< step whose velocities are in sweep_u
   std::int64_t last_doubt = -1;         ///< step in which forces inside were sought last
   std::vector<SolverVelocity> sweep_u;  ///< per body
+  std::vector<std::uint8_t> swept;      ///< per body: its velocity is there
   std::vector<SweepContact> sweep_contacts;
   std::vector<JointBlock> sweep_joints;       ///< outside collections
   std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts

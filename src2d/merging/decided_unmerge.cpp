@@ -194,6 +194,7 @@ void prove(const State& state, Collection& c, Witness&& witness) {
                        state.step - proof.since >= state.settings.merging.steps;
   Witness load = goes_on ? witness : Witness();
   remember(state, c, std::move(witness));
+  carryByLatest(c);
   if (!goes_on) return;
   double way = 0.0;
   Witness next = beyond(proof, load, kDecided.overshoot, way);
@@ -257,11 +258,16 @@ bool decideOne(State& state, Scratch& scratch, const OpenRegion& region) {
     moves = true;
   }
   noted.close();
-  if (isHit(state, c)) restoreImpulses(c, region, before.load);  // a hit is no load that lasts
+  if (isHit(state, c)) {
+    restoreImpulses(c, region, before.load);  // a hit is no load that lasts
+  } else {
+    c.push.forget();
+  }
   const Parts parts = moves ? componentsOf(c) : Parts();
   const bool parting = moves && fallsApart(state, c, parts);
   if (parting) {
     c.settled = false;
+    showRest(state, scratch, c);
     splitAtCuts(state, scratch, c.rigid, parts);
   } else {
     if (moves) forgetCuts(c);

@@ -116,6 +116,7 @@ bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
   if (state.step - std::max(scratch.last_sweep, scratch.last_doubt) <= kept) return false;
   const auto release = [](auto& v) { std::remove_reference_t<decltype(v)>().swap(v); };
   release(scratch.sweep_u);
+  release(scratch.swept);
   release(scratch.open_start);
   release(scratch.regions);
   release(scratch.opened);

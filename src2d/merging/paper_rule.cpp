@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src2d/collections/collection.h"
+#include "src2d/collections/inner_push.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/ordering.h"
 #include "src2d/merging/sweep.h"
@@ -108,7 +109,9 @@ void sweepBreadthFirst(State& state, Scratch& scratch) {
     for (const SweepItem& item : items) sweepItem(item, scratch.sweep_u, settings.solver.method);
   }
   for (Collection& c : state.collections) {
-    if (isSwept(state, c)) layOutPush(state, c);
+    if (!isSwept(state, c)) continue;
+    c.push.forget();
+    layOutPush(state, c);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src2d/collections/collection.h"
+#include "src2d/collections/inner_push.h"
 #include "src2d/collections/joint_sweep.h"
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/hits.h"
@@ -17,12 +18,12 @@ bool isMember(const State& state, BodyId b) { return state.isCollection(state[b]
 
 /// The velocity of each member in its collection, with last step's push.
 void startMembers(const State& state, Collection& c, Scratch& scratch) {
-  if (c.push.empty()) layOutPush(state, c);
+  layOutPush(state, c);
   const Rigid& r = state[c.rigid];
   for (std::size_t i = 0; i < c.members.size(); ++i) {
     const Body& body = state[c.members[i]];
     const Vec2 arm = r.rotation * (body.local - r.center);
-    const Twist& push = c.push[i];
+    const Twist& push = c.push.of[i];
     const Vec2 pushed = r.rotation * Vec2(push.vx, push.vy);
     SolverVelocity& u = scratch.sweep_u[index(c.members[i])];
     u.vx = r.v.x() - r.omega * arm.y() + state.h * state.gravity.x() + pushed.x();
@@ -171,6 +172,7 @@ void warmStartSweep(State& state, Scratch& scratch) {
   scratch.last_sweep = state.step;
   scratch.sweep_u.resize(state.bodies.size() + 1);  // the world's stands last
   scratch.sweep_u.back() = {};
+  scratch.swept.assign(state.bodies.size() + 1, 1);
   startOthers(state, scratch);
   for (Collection& c : state.collections) {
     if (swept(c)) startMembers(state, c, scratch);

@@ -261,6 +261,11 @@ void remember(const State& state, Collection& c, Witness&& witness) {
   proof.weights = {};
 }
 
+void carryByLatest(Collection& c) {
+  LoadCertificate& proof = c.certificate.front();
+  proof.weights[proof.witnesses.size() - 1] = 1.0;
+}
+
 void forgetProofs(Collection& c) {
   writeImpulses(c);
   for (LoadCertificate& proof : c.certificate) {

@@ -48,6 +48,9 @@ Twist loadOnMember(const State& state, const Collection& c, const Witness& load,
 /// Keeps a witness.
 void remember(const State& state, Collection& c, Witness&& witness);
 
+/// The impulses inside are those of the latest proof: it carries loads like that one from now on.
+void carryByLatest(Collection& c);
+
 /// Drops all proofs, and has others sought for any load.
 void forgetProofs(Collection& c);
 

@@ -52,6 +52,7 @@ void readImpulses(const Collection& c, Witness& to) {
 }
 
 void swapImpulses(Collection& c, Witness& with) {
+  c.push.forget();
   std::size_t at = 0;
   for (ContactBlock& k : c.blocks) std::swap(k.lambda, with.lambda[at++]);
   for (JointBlock& k : c.joints) std::swap(k.lambda, with.lambda[at++]);
@@ -77,6 +78,7 @@ void writeImpulses(Collection& c) {
   if (c.certificate.empty() || !c.certificate.front().areRowsStale()) return;
   LoadCertificate& proof = c.certificate.front();
   proof.lambda_stale = false;
+  c.push.forget();
   std::size_t at = 0;
   if (areBlocksAway(c)) {
     for (const std::uint32_t i : c.block_contact) c.contacts[i].setImpulses(proof.impulses(at++));

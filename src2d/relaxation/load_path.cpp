@@ -32,8 +32,7 @@ bool LoadPath::find(std::span<const MemberLoad> loads, const FrameLoad& frame, d
 }
 
 bool LoadPath::find(std::span<const MemberLoad> loads, const Vec2& along) {
-  ++attempt_;
-  nodes_.resize(c_.members.size());
+  nodes_.clear();
   along_ = along;
   front_.clear();
   changes_.clear();
@@ -58,6 +57,13 @@ void LoadPath::apply(Collection& c) {
   }
 }
 
+std::vector<std::uint32_t> LoadPath::members() const {
+  std::vector<std::uint32_t> members;
+  for (const auto& [member, node] : nodes_) members.push_back(member);
+  std::ranges::sort(members);
+  return members;
+}
+
 void LoadPath::restore(Collection& c) {
   for (; !before_.empty(); before_.pop_back()) {
     c.blocks[before_.back().first].lambda = before_.back().second;
@@ -66,7 +72,7 @@ void LoadPath::restore(Collection& c) {
 
 /// To the bodies behind its contacts. False where these cannot take it.
 bool LoadPath::passOn(std::uint32_t member) {
-  const Node& node = nodes_[member];
+  const Node& node = nodes_.at(member);
   const auto isSlow = [&](const Wrench& w) {
     return node.inv_mass * std::sqrt(w.x * w.x + w.y * w.y) + node.turn * std::abs(w.spin) <=
            tolerance_;
@@ -118,8 +124,8 @@ void LoadPath::listEdges(std::uint32_t block, std::uint32_t member, std::uint32_
   const ContactBlock& k = c_.blocks[block];
   if (k.bilateral) return;
   const bool is_b = k.b == index(c_.members[member]);
-  const double size = nodes_[member].size,
-               other_size = isFrame(c_, other) ? 1.0 : nodes_[other].size;
+  const double size = nodes_.at(member).size,
+               other_size = isFrame(c_, other) ? 1.0 : nodes_.at(other).size;
   for (int i = 0; i < k.count; ++i) {
     if (k.bias[i] != 0.0) continue;
     const ConePoint point{.nx = k.nx,
@@ -136,18 +142,14 @@ void LoadPath::listEdges(std::uint32_t block, std::uint32_t member, std::uint32_
 }
 
 LoadPath::Node& LoadPath::nodeOf(std::uint32_t member) {
-  Node& node = nodes_[member];
-  if (node.seen == attempt_) return node;
+  const auto [at, is_new] = nodes_.try_emplace(member);
+  Node& node = at->second;
+  if (!is_new) return node;
   const Body& body = state_[c_.members[member]];
-  if (node.seen == 0) {
-    node.size = state_.extent(rigidOf(c_.members[member])).box.half.norm();
-    node.inv_mass = 1.0 / body.mass;
-    node.turn = node.size * node.size / body.inertia;
-  }
-  node.seen = attempt_;
   node.depth = along_.dot(body.local);
-  node.load = {};
-  node.waits = false;
+  node.size = state_.extent(rigidOf(c_.members[member])).box.half.norm();
+  node.inv_mass = 1.0 / body.mass;
+  node.turn = node.size * node.size / body.inertia;
   return node;
 }
 

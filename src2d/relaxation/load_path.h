@@ -5,19 +5,15 @@
 /// convex cone, and those of the load are added to those that there are.
 
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "src2d/dynamics/state.h"
 #include "src2d/relaxation/cone_impulses.h"
+#include "src2d/relaxation/imbalance.h"
 
 namespace merge2d {
-
-/// A velocity that something gives to a member.
-struct MemberLoad {
-  std::uint32_t member = 0;
-  Twist gain;
-};
 
 /// Passes loads on members from body to body, each farther along a direction than the one before.
 class LoadPath {
@@ -36,6 +32,9 @@ class LoadPath {
   /// Adds the impulses of the way that was found to the blocks, for the next load to meet.
   void apply(Collection& c);
 
+  /// The members on that way and beside it, ascending.
+  std::vector<std::uint32_t> members() const;
+
   /// Puts the impulses back that the blocks had before all ways were added.
   void restore(Collection& c);
 
@@ -46,7 +45,6 @@ class LoadPath {
     double depth = 0.0;                 ///< of its centre along the way [m]
     double size = 1.0;                  ///< by which moments are divided [m]
     double inv_mass = 0.0, turn = 0.0;  ///< speed at its corners that a wrench gives [1/kg]
-    std::uint32_t seen = 0;             ///< the attempt in which the above holds
     bool waits = false;                 ///< has a load that it has not passed on
   };
   struct Change {
@@ -66,7 +64,8 @@ class LoadPath {
     return !scratch_.open.empty() && scratch_.open[index(c_.members[member])] != 0;
   }
   bool isBefore(std::uint32_t a, std::uint32_t b) const {
-    return nodes_[a].depth < nodes_[b].depth || (nodes_[a].depth == nodes_[b].depth && a < b);
+    const double depth_a = nodes_.at(a).depth, depth_b = nodes_.at(b).depth;
+    return depth_a < depth_b || (depth_a == depth_b && a < b);
   }
 
   const State& state_;
@@ -74,8 +73,7 @@ class LoadPath {
   const Collection& c_;
   double tolerance_ = 0.0;
   Vec2 along_ = Vec2::UnitX();
-  std::uint32_t attempt_ = 0;
-  std::vector<Node> nodes_;           ///< per member
+  std::unordered_map<std::uint32_t, Node> nodes_;  ///< of the members that were looked at
   std::vector<std::uint32_t> front_;  ///< a heap: members that have not passed their load on
   std::vector<ConeEdge> edges_;       ///< of the body in question
   std::vector<Change> changes_;       ///< of the way that was found

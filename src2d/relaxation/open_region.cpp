@@ -68,16 +68,29 @@ void forEachHeld(const Scratch& scratch, const Collection& c, const OpenRegion& 
   }
 }
 
-/// The velocity with which a member goes into the full solve.
-void startMember(State& state, const Scratch& scratch, const Collection& c,
-                 const OpenRegion& region, std::uint32_t member) {
+/// The velocity with which a member goes into the full solve, but for a slow one that the impulses
+/// inside leave it.
+void startMember(State& state, const Scratch& scratch, const Collection& c, std::uint32_t member,
+                 const Twist& left) {
   const BodyId b = c.members[member];
   const Twist& start = scratch.open_start[index(b)];
-  const Twist left = region.whole ? Twist{} : region.imbalance[member];
   const Vec2 v = state[c.rigid].rotation * Vec2(left.vx, left.vy);
   Rigid& r = state[rigidOf(b)];
   r.v = Vec2(start.vx, start.vy) - v;
   r.omega = start.omega - left.omega;
+}
+
+void startMembers(State& state, const Scratch& scratch, Collection& c, const OpenRegion& region) {
+  if (region.whole) {
+    for (const std::uint32_t m : region.members) startMember(state, scratch, c, m, {});
+    return;
+  }
+  CollectionLoad load = loadOn(state, scratch, c);
+  load.outer = region.outer;
+  const Imbalance imbalance(state, c, load);
+  for (const std::uint32_t m : region.members) {
+    startMember(state, scratch, c, m, slowPartOf(state, c, imbalance, m));
+  }
 }
 
 /// The impulses that contacts at the border hold.
@@ -119,12 +132,10 @@ void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& regi
 }
 
 void listRegion(State& state, Scratch& scratch, OpenRegion& region) {
-  const Collection& c = state.collections[region.slot];
+  Collection& c = state.collections[region.slot];
   std::ranges::sort(region.members);
-  for (const std::uint32_t m : region.members) {
-    startMember(state, scratch, c, region, m);
-    scratch.open_members.push_back(c.members[m]);
-  }
+  for (const std::uint32_t m : region.members) scratch.open_members.push_back(c.members[m]);
+  startMembers(state, scratch, c, region);
   pushFromOutside(state, scratch, c, region);
   for (const std::uint32_t block : blocksAt(c, region.members)) {
     const Weld& weld = c.welds[c.contacts[c.block_contact[block]].weld];

@@ -1,27 +1,18 @@
 #include "src2d/relaxation/open_solve.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "src2d/collections/collection.h"
 #include "src2d/collections/momentum.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/proofs/collection_load.h"
 #include "src2d/relaxation/open_region.h"
+#include "src2d/relaxation/region_members.h"
 #include "src2d/relaxation/relaxation.h"
 
 namespace merge2d {
 namespace {
-
-/// A member begins with the velocity that it had before its collection turned in the last step: to
-/// turn it takes forces.
-void noteStart(const State& state, Scratch& scratch, const Collection& c) {
-  const Rigid& whole = state[c.rigid];
-  for (const BodyId b : c.members) {
-    const Vec2 arm = whole.previous_rotation * (state[b].local - whole.center);
-    const Vec2 v = whole.v + cross(whole.omega, arm);
-    scratch.open_start[index(b)] = {v.x(), v.y(), whole.omega};
-  }
-}
 
 /// The regions that the solve begins with.
 void open(State& state, Scratch& scratch) {
@@ -32,7 +23,6 @@ void open(State& state, Scratch& scratch) {
   for (Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) != Doubt::Open) continue;
     listWeldsOfMembers(c);
-    noteStart(state, scratch, c);
     beginRegion(state, scratch, c, scratch.regions.emplace_back());
     scratch.opened.push_back(c.rigid);
   }
@@ -45,12 +35,32 @@ void listRegions(State& state, Scratch& scratch) {
   std::ranges::sort(scratch.open_members);
 }
 
-/// Each body's own velocity after the solve; the world's stands last.
+void showVelocity(const State& state, Scratch& scratch, BodyId b) {
+  if (std::exchange(scratch.swept[index(b)], 1) != 0) return;
+  scratch.sweep_u[index(b)] = solvedVelocity(state, scratch, b);
+}
+
+/// The own velocities of members that are open, and of their neighbours, after the solve; the
+/// world's stands last. An observer sees those of all bodies.
 void showVelocities(const State& state, Scratch& scratch) {
   scratch.sweep_u.resize(state.bodies.size() + 1);
   scratch.sweep_u.back() = {};
+  scratch.swept.assign(state.bodies.size() + 1, 0);
+  scratch.swept.back() = 1;
+  for (const OpenRegion& region : scratch.regions) {
+    const Collection& c = state.collections[region.slot];
+    for (const std::uint32_t m : region.members) {
+      showVelocity(state, scratch, c.members[m]);
+      for (const std::uint32_t w : c.welds_of[m]) {
+        showVelocity(state, scratch, c.welds[w].a);
+        showVelocity(state, scratch, c.welds[w].b);
+      }
+    }
+  }
+  if (!scratch.notes) return;
   for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
-    if (state.bodies[i].alive) scratch.sweep_u[i] = solvedVelocity(state, scratch, BodyId{i});
+    const bool hidden = state.bodies[i].alive && scratch.swept[i] == 0;
+    if (hidden) scratch.sweep_u[i] = solvedVelocity(state, scratch, BodyId{i});
   }
 }
 
@@ -111,6 +121,14 @@ void closeCollection(const State& state, Scratch& scratch, const Collection& c) 
 }
 
 }  // namespace
+
+void showRest(const State& state, Scratch& scratch, const Collection& c) {
+  for (const BodyId b : c.members) {
+    if (scratch.open[index(b)] != 0) continue;
+    showVelocity(state, scratch, b);
+    scratch.open_start[index(b)] = startOf(state, c, b);
+  }
+}
 
 void closeOpened(State& state, Scratch& scratch) {
   if (scratch.opened.empty()) return;

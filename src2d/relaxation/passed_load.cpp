@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src2d/collections/collection.h"
+#include "src2d/collections/inner_push.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/load_certificate.h"
 #include "src2d/proofs/proof_impulses.h"
@@ -22,15 +23,12 @@ struct Remainder {
 
 Remainder remainderOf(const State& state, Collection& c, const CollectionLoad& load,
                       double tolerance) {
-  std::vector<Twist> gains;
-  loadMembers(state, c, load, gains);
-  layOutPush(state, c);
-  Remainder rest;
-  for (std::uint32_t m = 0; m < gains.size(); ++m) {
-    const Twist left = leftOver(c, m, gains[m]);
-    const double speed = cornerSpeed(state, c, m, left);
+  const Imbalance imbalance(state, c, load);
+  Remainder rest{{}, imbalance.fastestOfOthers()};
+  for (const MemberLoad& one : imbalance.loose()) {
+    const double speed = cornerSpeed(state, c, one.member, one.gain);
     if (speed > tolerance) {
-      rest.loads.push_back({m, left});
+      rest.loads.push_back(one);
     } else {
       rest.speed = std::max(rest.speed, speed);
     }
@@ -49,6 +47,7 @@ bool passesOn(const State& state, const Scratch& scratch, Collection& c,
   LoadPath path(state, scratch, c);
   if (!path.find(rest.loads, load.frame, kDecided.tolerance * tolerance)) return false;
   path.apply(c);
+  renewPush(state, c, path.members());
   c.residual = static_cast<float>(rest.speed);
   LoadCertificate& proof = c.certificate.front();
   proof.search = {};  // one ahead: its load lacks the columns of this one
@@ -56,6 +55,7 @@ bool passesOn(const State& state, const Scratch& scratch, Collection& c,
   readImpulses(c, witness);
   witness.motion = 2.0 * rest.speed;  // of two members against each other
   remember(state, c, std::move(witness));
+  carryByLatest(c);
   proof.in_doubt = false;
   return true;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src2d/collections/collection.h"
+#include "src2d/collections/inner_push.h"
 #include "src2d/dynamics/newton.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/relaxation/relaxation.h"
@@ -52,7 +53,7 @@ void startMembers(const State& state, Scratch& scratch, Collection& c, bool push
   for (std::uint32_t m = 0; m < c.members.size(); ++m) {
     if (proof.search.ahead && c.members[m] == proof.heaviest) continue;
     const Twist& d = proof.search.start[m];
-    const Twist push = pushed ? c.push[m] : Twist{};
+    const Twist push = pushed ? c.push.of[m] : Twist{};
     scratch.trial_u[index(c.members[m])] =
         memberAt(state, c.members[m], {d.vx + push.vx, d.vy + push.vy, d.omega + push.omega});
   }
@@ -60,6 +61,7 @@ void startMembers(const State& state, Scratch& scratch, Collection& c, bool push
 
 /// False where the solve goes on in the next step: it may spend as many rows as sweeps may.
 bool solveDirectly(const State& state, Scratch& scratch, Collection& c) {
+  c.push.forget();
   startMembers(state, scratch, c, false);
   std::vector<std::uint32_t> bodies;
   bodies.reserve(c.members.size());

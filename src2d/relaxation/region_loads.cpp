@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "src2d/collections/collection.h"
+#include "src2d/collections/inner_push.h"
 #include "src2d/proofs/collection_load.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/relaxation/load_path.h"
@@ -25,17 +25,11 @@ bool findPath(const State& state, const Collection& c, const MemberLoad& one, Lo
   return path.find(one, kDecided.tolerance * slowestCut(state, c, one.member));
 }
 
-/// Leaves the others in `region.imbalance`.
-std::vector<MemberLoad> findUnbalanced(State& state, const CollectionLoad& load, Collection& c,
-                                       OpenRegion& region) {
-  loadMembers(state, c, load, region.imbalance);
-  layOutPush(state, c);
-  std::vector<MemberLoad> found;
-  for (std::uint32_t m = 0; m < region.imbalance.size(); ++m) {
-    Twist& left = region.imbalance[m];
-    left = leftOver(c, m, left);
-    if (isFast(state, c, m, left)) found.push_back({m, std::exchange(left, {})});
-  }
+std::vector<MemberLoad> findUnbalanced(const State& state, Collection& c,
+                                       const CollectionLoad& load) {
+  std::vector<MemberLoad> found = Imbalance(state, c, load).loose();
+  std::erase_if(found,
+                [&](const MemberLoad& one) { return !isFast(state, c, one.member, one.gain); });
   return found;
 }
 
@@ -50,7 +44,7 @@ bool passOn(const State& state, const Scratch& scratch, Collection& c, const Col
   LoadPath path(state, scratch, c);
   if (!path.find(unbalanced, load.frame, toleratedResidual(state))) return false;
   path.apply(c);
-  layOutPush(state, c);
+  renewPush(state, c, path.members());
   return true;
 }
 
@@ -65,9 +59,16 @@ void addMet(State& state, Scratch& scratch, const Collection& c, OpenRegion& reg
 
 }  // namespace
 
+Twist slowPartOf(const State& state, const Collection& c, const Imbalance& imbalance,
+                 std::uint32_t member) {
+  const Twist left = imbalance.of(member);
+  return isFast(state, c, member, left) ? Twist() : left;
+}
+
 void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
   const CollectionLoad load = loadOn(state, scratch, c);
-  const std::vector<MemberLoad> unbalanced = findUnbalanced(state, load, c, region);
+  region.outer.assign(load.outer.begin(), load.outer.end());
+  const std::vector<MemberLoad> unbalanced = findUnbalanced(state, c, load);
   region.passes = isHit(state, c) && passOn(state, scratch, c, load, unbalanced);
   if (region.passes) return;
   addMet(state, scratch, c, region);

@@ -3,8 +3,13 @@
 /// region.
 
 #include "src2d/dynamics/state.h"
+#include "src2d/relaxation/imbalance.h"
 
 namespace merge2d {
+
+/// The part of what the impulses inside leave of a member's load that is too slow for a hit to see.
+Twist slowPartOf(const State& state, const Collection& c, const Imbalance& imbalance,
+                 std::uint32_t member);
 
 /// Before the solve: the members that the impulses inside do not keep at rest. In a hit those of
 /// which contacts can pass the rest of the load on to the frame (load_path.h) stay, and those on

@@ -33,11 +33,19 @@ void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t
     }
   }
   scratch.open[index(b)] = 1;
+  scratch.open_start[index(b)] = startOf(state, c, b);
   region.members.push_back(member);
 }
 
+Twist startOf(const State& state, const Collection& c, BodyId member) {
+  const Rigid& whole = state[c.rigid];
+  const Vec2 arm = whole.previous_rotation * (state[member].local - whole.center);
+  const Vec2 v = whole.v + cross(whole.omega, arm);
+  return {v.x(), v.y(), whole.omega};
+}
+
 Twist leftOver(const Collection& c, std::uint32_t member, const Twist& load) {
-  const Twist& push = c.push[member];
+  const Twist& push = c.push.of[member];
   return {load.vx + push.vx, load.vy + push.vy, load.omega + push.omega};
 }
 

@@ -24,6 +24,10 @@ Twist leftOver(const Collection& c, std::uint32_t member, const Twist& load);
 /// How fast a corner of a member's box may move [m/s].
 double cornerSpeed(const State& state, const Collection& c, std::uint32_t member, const Twist& u);
 
+/// The velocity of a member before the step: before its collection turned in the last one, as to
+/// turn it takes forces.
+Twist startOf(const State& state, const Collection& c, BodyId member);
+
 /// Slower than this no weld of a member parts [m/s].
 double slowestCut(const State& state, const Collection& c, std::uint32_t member);
 

@@ -122,7 +122,6 @@ void relaxOpen(State& state, Scratch& scratch, OpenRegion& region) {
   const Rotation turn = state[c.rigid].rotation, back = turn.inverse();
   scratch.trial_u.resize(state.bodies.size() + 1);
   scratch.trial_u.back() = {};
-  for (const BodyId b : c.members) scratch.trial_u[index(b)] = {};
   if (!local) addAll(state, scratch, region);
   for (const std::uint32_t m : region.members) {
     const SolverVelocity& u = scratch.sweep_u[index(c.members[m])];
@@ -139,6 +138,7 @@ void relaxOpen(State& state, Scratch& scratch, OpenRegion& region) {
     of.vx = v.x();
     of.vy = v.y();
     of.omega = one.omega + u.omega;
+    scratch.swept[index(b)] = 1;
   }
 }
 

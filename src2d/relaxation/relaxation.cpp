@@ -80,6 +80,7 @@ class Relaxation {
 
 double relax(const State& state, Scratch& scratch, Collection& c, double tolerance,
              SweepBudget budget, ProofSearch* search) {
+  c.push.forget();
   return Relaxation(scratch, c, tolerance, isLarge(state, c), budget, search).run();
 }
 

@@ -63,11 +63,12 @@ ContactView view(const State& state, const Contact& contact, const ContactPoint&
 void showInternalVelocity(const State& state, const Scratch& scratch, const Collection& c,
                           std::size_t block, int i, ContactPoint& p) {
   const Rigid& r = state[c.rigid];
+  const ContactBlock& k = c.blocks[block];
   const bool swept = scratch.last_sweep >= 0 && state.step - scratch.last_sweep <= 1;
-  if (r.asleep) {
+  const bool was_inside = c.contacts[c.block_contact[block]].since < scratch.last_sweep;
+  if (r.asleep || (swept && was_inside && !(scratch.swept[k.a] && scratch.swept[k.b]))) {
     p.w_n = p.w_t = 0.0F;
-  } else if (swept && c.contacts[c.block_contact[block]].since < scratch.last_sweep) {
-    const ContactBlock& k = c.blocks[block];
+  } else if (swept && was_inside) {
     const bool step_is_over = state.step > scratch.last_sweep;
     const Rotation turn = step_is_over ? r.previous_rotation : r.rotation;
     const Vec2 n = turn * Vec2(k.nx, k.ny);

@@ -40,7 +40,7 @@ std::size_t bytesOfState(const State& s) {
       bytesOfBroadphase(s.broadphase);
   for (const Collection& c : s.collections.all()) {
     total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.welds, c.welds_of.numbers,
-                     c.joints, c.push) +
+                     c.joints, c.push.of, c.push.loose) +
              bytesOfProofs(c);
   }
   return total;
@@ -65,7 +65,7 @@ std::size_t bytesOfScratch(const Scratch& s) {
                  s.seeds, s.stirred, s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.outer_loads,
                  s.load_place, s.doubts, s.trial_u, s.regions, s.open_members, s.open_rows,
-                 s.open_start, s.open, s.opened, s.overloaded_joints, s.ready) +
+                 s.open_start, s.open, s.swept, s.opened, s.overloaded_joints, s.ready) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order, s.hit_ways) +
          bytesOfSweeps(s) + s.sets.memoryBytes() +

@@ -56,17 +56,17 @@ TEST(LoadPath, ABodyOnItsOwnTakesNothing) {
 TEST(LoadPath, TheImpulsesOfAWayMoveTheLoadedBodyAlone) {
   Merged merged(wall(8, 6));
   Collection& c = merged.collection();
-  const std::vector<Twist> before = c.push;
+  const std::vector<Twist> before = c.push.of;
   const std::uint32_t top = merged.last() - 2;
   LoadPath path = merged.path();
   ASSERT_TRUE(path.find({top, {0.1, -2.0, 0.3}}, kTolerance));
   path.apply(c);
-  layOutPush(merged.state(), c);
+  renewPush(merged.state(), c, path.members());
   for (std::uint32_t m = 0; m < c.members.size(); ++m) {
     const double x = m == top ? -0.1 : 0.0, y = m == top ? 2.0 : 0.0, spin = m == top ? -0.3 : 0.0;
-    EXPECT_NEAR(c.push[m].vx - before[m].vx, x, 1e-5);
-    EXPECT_NEAR(c.push[m].vy - before[m].vy, y, 1e-5);
-    EXPECT_NEAR(c.push[m].omega - before[m].omega, spin, 1e-5);
+    EXPECT_NEAR(c.push.of[m].vx - before[m].vx, x, 1e-5);
+    EXPECT_NEAR(c.push.of[m].vy - before[m].vy, y, 1e-5);
+    EXPECT_NEAR(c.push.of[m].omega - before[m].omega, spin, 1e-5);
   }
   merged.expectAdmissible();
 }
@@ -75,17 +75,17 @@ TEST(LoadPath, TheImpulsesOfAWayMoveTheLoadedBodyAlone) {
 TEST(LoadPath, LoadsArePassedOnAtOnce) {
   Merged merged(wall(8, 6));
   Collection& c = merged.collection();
-  const std::vector<Twist> before = c.push;
+  const std::vector<Twist> before = c.push.of;
   const std::vector<MemberLoad> loads{{merged.last() - 1, {0.0, -0.1, 0.0}},
                                       {merged.last() - 2, {0.0, -0.2, 0.0}}};
   LoadPath path = merged.path();
   ASSERT_TRUE(path.find(loads, {0.0, -0.1, 0.0, 0.0, 0.0}, kTolerance));
   path.apply(c);
-  layOutPush(merged.state(), c);
+  renewPush(merged.state(), c, path.members());
   for (const MemberLoad& load : loads) {
-    EXPECT_NEAR(c.push[load.member].vy - before[load.member].vy, -load.gain.vy, 1e-5);
+    EXPECT_NEAR(c.push.of[load.member].vy - before[load.member].vy, -load.gain.vy, 1e-5);
   }
-  EXPECT_NEAR(c.push[0].vy - before[0].vy, 0.0, 1e-5);
+  EXPECT_NEAR(c.push.of[0].vy - before[0].vy, 0.0, 1e-5);
   merged.expectAdmissible();
 }
 

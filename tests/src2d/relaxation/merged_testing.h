@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "src2d/collections/collection.h"
+#include "src2d/collections/inner_push.h"
 #include "src2d/proofs/collection_load.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/relaxation/load_path.h"

@@ -22,6 +22,7 @@ double fastestUnder(Merged& merged, const CollectionLoad& load) {
   Collection& c = merged.collection();
   std::vector<Twist> gains;
   loadMembers(merged.state(), c, load, gains);
+  c.push.forget();
   layOutPush(merged.state(), c);
   double most = 0.0;
   for (std::uint32_t m = 0; m < gains.size(); ++m) {

@@ -1,0 +1,56 @@
+#include "src2d/relaxation/imbalance.h"
+
+#include <algorithm>
+
+#include "src2d/collections/inner_push.h"
+#include "src2d/proofs/decided_settings.h"
+#include "src2d/relaxation/region_members.h"
+
+namespace merge2d {
+
+Imbalance::Imbalance(const State& state, Collection& c, const CollectionLoad& load)
+    : state_(state), c_(c), load_(load) {
+  layOutPush(state, c);
+  if (c.push.frame != load.frame || c.push.tolerance != toleratedResidual(state)) look();
+}
+
+void Imbalance::look() {
+  InnerPush& push = c_.push;
+  push.frame = load_.frame;
+  push.tolerance = toleratedResidual(state_);
+  push.loose.clear();
+  push.fastest = 0.0;
+  for (std::uint32_t m = 0; m < c_.members.size(); ++m) {
+    const double speed = cornerSpeed(state_, c_, m, leftOver(c_, m, ofFrame(m)));
+    if (speed > push.tolerance) {
+      push.loose.push_back(m);
+    } else {
+      push.fastest = std::max(push.fastest, speed);
+    }
+  }
+}
+
+Twist Imbalance::ofFrame(std::uint32_t member) const {
+  return velocityAt(state_, c_, load_.frame, state_[c_.members[member]].local);
+}
+
+Twist Imbalance::of(std::uint32_t member) const {
+  Twist u = ofFrame(member);
+  const auto outer = std::ranges::lower_bound(load_.outer, member, {}, &OuterLoad::member);
+  if (outer != load_.outer.end() && outer->member == member) {
+    const Twist gain = gainOf(state_, c_, load_, *outer);
+    u = {u.vx + gain.vx, u.vy + gain.vy, u.omega + gain.omega / load_.size};
+  }
+  return leftOver(c_, member, u);
+}
+
+std::vector<MemberLoad> Imbalance::loose() const {
+  std::vector<std::uint32_t> acted_on, members;
+  for (const OuterLoad& outer : load_.outer) acted_on.push_back(outer.member);
+  std::ranges::set_union(c_.push.loose, acted_on, std::back_inserter(members));
+  std::vector<MemberLoad> loads;
+  for (const std::uint32_t m : members) loads.push_back({m, of(m)});
+  return loads;
+}
+
+}  // namespace merge2d
