@@ -12,6 +12,7 @@
 #include "src2d/collections/joint_welds.h"
 #include "src2d/collections/nodes.h"
 #include "src2d/core/memory.h"
+#include "src2d/core/regrouping.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/proofs/proof_transfer.h"
 
@@ -146,8 +147,8 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
 }
 
 /// The order of an undisturbed sweep: active contacts first, by colour, so that blocks in a row
-/// share no body and need not wait for each other.
-void orderBlocks(Collection& c) {
+/// share no body and need not wait for each other. Returns per block its place before.
+Regrouping orderBlocks(Collection& c) {
   constexpr std::uint32_t kColours = 64;
   std::vector<std::uint32_t> colour_of;  // dormant contacts follow after all others
   colour_of.reserve(c.contacts.size());
@@ -172,25 +173,29 @@ void orderBlocks(Collection& c) {
   std::partial_sum(first.begin(), first.end(), first.begin());
   reserveTightly(c.block_contact, colour_of.size());
   c.block_contact.resize(colour_of.size());
-  for (std::uint32_t i = 0; i < colour_of.size(); ++i) c.block_contact[first[colour_of[i]]++] = i;
+  std::vector<std::uint32_t> from(colour_of.size());
+  for (std::uint32_t i = 0; i < colour_of.size(); ++i) {
+    const std::uint32_t place = first[colour_of[i]]++;
+    c.block_contact[place] = i;
+    from[place] = std::exchange(c.contacts[i].block, place);
+  }
+  return Regrouping(std::move(from));
 }
 
 /// Blocks that still fit move to their new places; the others are made.
 void layOutBlocks(const State& state, Collection& c) {
-  orderBlocks(c);
-  const auto old_blocks = std::exchange(c.blocks, {});
-  c.blocks.reserve(c.contacts.size());
+  static_assert(InternalContact::kNoBlock == Regrouping::kNew);
+  const Regrouping regrouping = orderBlocks(c);
+  reserveTightly(c.blocks, c.block_contact.size());
+  regrouping.apply(c.blocks);
+  tighten(c.blocks);
   c.points = 0;
-  for (const std::uint32_t contact : c.block_contact) {
-    InternalContact& inner = c.contacts[contact];
-    if (inner.block != InternalContact::kNoBlock) {
-      c.blocks.push_back(old_blocks[inner.block]);
-    } else {
-      c.blocks.push_back(makeBlock(state, c, inner));
-      inner.count = static_cast<std::int16_t>(
-          c.blocks.back().count);  // points too close to each other count as one
+  for (InternalContact& inner : c.contacts) {
+    if (regrouping.from()[inner.block] == Regrouping::kNew) {
+      ContactBlock& k = c.blocks[inner.block];
+      k = makeBlock(state, c, inner);
+      inner.count = static_cast<std::int16_t>(k.count);  // points too close to each other are one
     }
-    inner.block = static_cast<std::uint32_t>(c.blocks.size() - 1);
     c.points += inner.count;
   }
 }
@@ -206,7 +211,7 @@ void putBlocksAway(Collection& c) {
 
 void bringBlocksBack(const State& state, Collection& c) {
   if (!areBlocksAway(c)) return;
-  c.blocks.reserve(c.block_contact.size());
+  reserveTightly(c.blocks, c.block_contact.size());
   for (const std::uint32_t contact : c.block_contact) {
     c.contacts[contact].block = static_cast<std::uint32_t>(c.blocks.size());
     c.blocks.push_back(makeBlock(state, c, c.contacts[contact]));

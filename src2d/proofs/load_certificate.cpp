@@ -7,6 +7,7 @@
 #include "src2d/core/nonnegative_fit.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/load_product.h"
+#include "src2d/proofs/proof_gram.h"
 #include "src2d/proofs/proof_impulses.h"
 
 namespace merge2d {
@@ -168,17 +169,6 @@ bool leadsTo(const State& state, const Collection& c, const CollectionLoad& load
 
 namespace {
 
-void fillGram(LoadCertificate& proof) {
-  const std::size_t n = proof.witnesses.size();
-  proof.gram.resize(n * n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      proof.gram[i * n + j] = proof.gram[j * n + i] =
-          product(proof.witnesses[i], proof.witnesses[j]);
-    }
-  }
-}
-
 /// How far a witness is from the cone of the others, squared.
 double worthOf(const LoadCertificate& proof, std::size_t which, double rounding) {
   Gram gram{};
@@ -197,8 +187,7 @@ double worthOf(const LoadCertificate& proof, std::size_t which, double rounding)
   return project(gram, b, n, xx, rounding).left / xx;
 }
 
-/// Drops the witness without which the others lose least; inherited ones first. The products must
-/// be filled in again.
+/// Drops the witness without which the others lose least; inherited ones first.
 void makePlace(LoadCertificate& proof, double rounding) {
   if (proof.witnesses.size() < kWitnesses) return;
   std::size_t least = 0;
@@ -211,6 +200,7 @@ void makePlace(LoadCertificate& proof, double rounding) {
       least = i;
     }
   }
+  dropFromGram(proof, least);
   proof.witnesses.erase(proof.witnesses.begin() + static_cast<std::ptrdiff_t>(least));
   if (proof.inherited > 0) --proof.inherited;
 }
@@ -257,7 +247,7 @@ void remember(const State& state, Collection& c, Witness&& witness) {
   LoadCertificate& proof = c.certificate.front();
   makePlace(proof, leftOfRest(state));
   proof.witnesses.push_back(std::move(witness));
-  fillGram(proof);
+  addToGram(proof);
   proof.weights = {};
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "src2d/core/memory.h"
 #include "src2d/core/small_cholesky.h"
 #include "src2d/proofs/load_product.h"
 
@@ -46,7 +47,7 @@ void limitImpulses(const Collection& c, Witness& load) {
 
 void readImpulses(const Collection& c, Witness& to) {
   to.lambda.clear();
-  to.lambda.reserve(c.blocks.size() + c.joints.size());
+  reserveTightly(to.lambda, c.blocks.size() + c.joints.size());
   for (const ContactBlock& k : c.blocks) to.lambda.push_back(k.lambda);
   for (const JointBlock& k : c.joints) to.lambda.push_back(k.lambda);
 }

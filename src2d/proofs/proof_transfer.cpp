@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "src2d/core/memory.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/new_contacts.h"
 #include "src2d/proofs/proof_columns.h"
@@ -99,7 +100,7 @@ void ProofTransfer::dropColumns() {
 }
 
 /// The load of a witness seen from the new box, and its impulses in the new order.
-void ProofTransfer::express(Witness& witness) const {
+void ProofTransfer::express(Witness& witness, const Regrouping& blocks) const {
   const double size = sizeOf(state_, c_), scale = size / size_;
   const Vec2 way = state_.extent(c_.rigid).box.frame.position - middle_;
   FrameLoad& load = witness.frame;
@@ -108,13 +109,9 @@ void ProofTransfer::express(Witness& witness) const {
   load[1] += along * way.y() + across * way.x();
   for (std::size_t i = 2; i < load.size(); ++i) load[i] *= scale;
   for (Twist& outer : witness.outer) outer.omega *= scale;
-  std::vector<Impulses> lambda;
-  lambda.reserve(c_.blocks.size());
-  for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) {
-    const std::uint32_t block = before_[c_.block_contact[i]];
-    lambda.push_back(block == kNew ? c_.blocks[i].lambda : witness.lambda[block]);
-  }
-  witness.lambda = std::move(lambda);
+  reserveTightly(witness.lambda, c_.blocks.size());
+  blocks.apply(witness.lambda);
+  for (const std::uint32_t i : fresh_) witness.lambda[i] = c_.blocks[i].lambda;
 }
 
 /// New contacts take over forces from outside: few of them as large a part as they can, in each
@@ -138,21 +135,21 @@ void ProofTransfer::holdNewContacts() {
 
 /// The blocks at members that have a new contact.
 std::vector<std::uint32_t> ProofTransfer::blocksNearBy() const {
-  std::vector<std::uint8_t> near(c_.members.size(), 0);
-  const auto isMember = [&](std::uint32_t body) {
-    return body < state_.bodies.size() && state_[BodyId{body}].rigid == c_.rigid;
-  };
-  const auto memberOf = [&](std::uint32_t body) { return state_[rigidOf(BodyId{body})].member; };
+  std::vector<std::uint32_t> near;
   for (const std::uint32_t i : fresh_) {
     for (const std::uint32_t body : {c_.blocks[i].a, c_.blocks[i].b}) {
-      if (isMember(body)) near[memberOf(body)] = 1;
+      const bool member = body < state_.bodies.size() && state_[BodyId{body}].rigid == c_.rigid;
+      if (member) near.push_back(body);
     }
   }
+  std::ranges::sort(near);
+  near.erase(std::unique(near.begin(), near.end()), near.end());
   std::vector<std::uint32_t> blocks;
   for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) {
     const ContactBlock& k = c_.blocks[i];
-    const auto isNear = [&](std::uint32_t body) { return isMember(body) && near[memberOf(body)]; };
-    if (isNear(k.a) || isNear(k.b)) blocks.push_back(i);
+    if (std::ranges::binary_search(near, k.a) || std::ranges::binary_search(near, k.b)) {
+      blocks.push_back(i);
+    }
   }
   return blocks;
 }
@@ -198,11 +195,15 @@ void ProofTransfer::finish() {
     return;
   }
   LoadCertificate& proof = c_.certificate.front();
+  std::vector<std::uint32_t> from;
+  from.reserve(c_.blocks.size());
   for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) {
-    if (before_[c_.block_contact[i]] == kNew) fresh_.push_back(i);
+    from.push_back(before_[c_.block_contact[i]]);
+    if (from.back() == kNew) fresh_.push_back(i);
   }
   dropColumns();
-  for (Witness& witness : proof.witnesses) express(witness);
+  const Regrouping blocks(std::move(from));
+  for (Witness& witness : proof.witnesses) express(witness, blocks);
   holdNewContacts();
   const std::vector<std::uint32_t> near_by = blocksNearBy();
   for (Witness& witness : proof.witnesses) witness.motion = motionOf(witness, near_by);

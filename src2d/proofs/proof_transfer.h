@@ -3,6 +3,7 @@
 /// collection or leaves it. Those between the body and the others become loads from
 /// outside, or no longer are.
 
+#include "src2d/core/regrouping.h"
 #include "src2d/proofs/load_certificate.h"
 
 namespace merge2d {
@@ -24,12 +25,12 @@ class ProofTransfer {
   void finish();
 
  private:
-  static constexpr std::uint32_t kNew = InternalContact::kNoBlock;
+  static constexpr std::uint32_t kNew = Regrouping::kNew;
 
   bool survives() const;
   bool changedMuch() const;
   void dropColumns();
-  void express(Witness& witness) const;
+  void express(Witness& witness, const Regrouping& blocks) const;
   void holdNewContacts();
   std::vector<std::uint32_t> blocksNearBy() const;
   double motionOf(const Witness& witness, const std::vector<std::uint32_t>& blocks) const;
