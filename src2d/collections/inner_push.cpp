@@ -1,6 +1,8 @@
 #include "src2d/collections/inner_push.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "src2d/collections/joint_sweep.h"
 #include "src2d/collections/nodes.h"
@@ -78,7 +80,8 @@ void renewPush(const State& state, Collection& c, std::span<const std::uint32_t>
     }
   }
   std::vector<std::uint32_t> loose;
-  std::ranges::set_union(c.push.loose, members, std::back_inserter(loose));
+  std::set_union(c.push.loose.begin(), c.push.loose.end(), members.begin(), members.end(),
+                 std::back_inserter(loose));
   c.push.loose = std::move(loose);
 }
 

@@ -1,6 +1,7 @@
 #include "src2d/relaxation/imbalance.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "src2d/collections/inner_push.h"
 #include "src2d/proofs/decided_settings.h"
@@ -47,7 +48,8 @@ Twist Imbalance::of(std::uint32_t member) const {
 std::vector<MemberLoad> Imbalance::loose() const {
   std::vector<std::uint32_t> acted_on, members;
   for (const OuterLoad& outer : load_.outer) acted_on.push_back(outer.member);
-  std::ranges::set_union(c_.push.loose, acted_on, std::back_inserter(members));
+  std::set_union(c_.push.loose.begin(), c_.push.loose.end(), acted_on.begin(), acted_on.end(),
+                 std::back_inserter(members));
   std::vector<MemberLoad> loads;
   for (const std::uint32_t m : members) loads.push_back({m, of(m)});
   return loads;
