@@ -239,7 +239,7 @@ void keepTogether(const State& state, Scratch& scratch, Collection& c, const Ope
   }
   proof.in_doubt |= !hit || proof.witnesses.empty();
   if (hit || !search.isUnderWay() || converged) return;
-  restoreImpulses(c, region, search.load);
+  restoreImpulses(state, c, region, search.load);
   proof.search = std::move(search);
 }
 
@@ -259,7 +259,7 @@ bool decideOne(State& state, Scratch& scratch, const OpenRegion& region) {
   }
   noted.close();
   if (isHit(state, c)) {
-    restoreImpulses(c, region, before.load);  // a hit is no load that lasts
+    restoreImpulses(state, c, region, before.load);  // a hit is no load that lasts
   } else {
     c.push.forget();
   }

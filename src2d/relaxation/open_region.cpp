@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "src2d/collections/collection.h"
+#include "src2d/collections/inner_push.h"
 #include "src2d/core/index_set.h"
 #include "src2d/proofs/collection_load.h"
 #include "src2d/proofs/decided_settings.h"
@@ -178,9 +179,17 @@ std::vector<std::uint32_t> blocksAt(const Collection& c, std::span<const std::ui
   return blocks.ascending();
 }
 
-void restoreImpulses(Collection& c, const OpenRegion& region, Witness& sought) {
+void restoreImpulses(const State& state, Collection& c, const OpenRegion& region, Witness& sought) {
   if (region.whole) return swapImpulses(c, sought);
-  for (const auto& [block, impulses] : region.before) c.blocks[block].lambda = impulses;
+  IndexSet ends(c.members.size());
+  for (const auto& [block, impulses] : region.before) {
+    c.blocks[block].lambda = impulses;
+    const Weld& weld = c.welds[c.contacts[c.block_contact[block]].weld];
+    for (const std::uint32_t node : {weld.node_a, weld.node_b}) {
+      if (!isFrame(c, node)) ends.add(node);
+    }
+  }
+  if (!c.push.of.empty()) renewPush(state, c, ends.ascending());
 }
 
 }  // namespace merge2d

@@ -33,6 +33,6 @@ std::vector<std::uint32_t> blocksAt(const Collection& c, std::span<const std::ui
 
 /// Puts the impulses back that the blocks had before the solve: those of a whole region stand in
 /// the load that was sought.
-void restoreImpulses(Collection& c, const OpenRegion& region, Witness& sought);
+void restoreImpulses(const State& state, Collection& c, const OpenRegion& region, Witness& sought);
 
 }  // namespace merge2d

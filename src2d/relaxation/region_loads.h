@@ -7,7 +7,7 @@
 
 namespace merge2d {
 
-/// The part of what the impulses inside leave of a member's load that is too slow for a hit to see.
+/// The imbalance of a member where it is too slow for a hit to see, or else none.
 Twist slowPartOf(const State& state, const Collection& c, const Imbalance& imbalance,
                  std::uint32_t member);
 
