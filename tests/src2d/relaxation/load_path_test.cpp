@@ -1,5 +1,6 @@
 #include "src2d/relaxation/load_path.h"
 
+#include "src2d/relaxation/open_region.h"
 #include "tests/src2d/relaxation/merged_testing.h"
 
 namespace merge2d {
@@ -87,6 +88,28 @@ TEST(LoadPath, LoadsArePassedOnAtOnce) {
   }
   EXPECT_NEAR(c.push.of[0].vy - before[0].vy, 0.0, 1e-5);
   merged.expectAdmissible();
+}
+
+/// A region that began before the way was found puts its impulses back.
+TEST(LoadPath, ThePushIsRenewedWhereARegionTakesImpulsesBack) {
+  Merged merged(wall(8, 6));
+  Collection& c = merged.collection();
+  LoadPath path = merged.path();
+  ASSERT_TRUE(path.find({merged.last() - 2, {0.1, -2.0, 0.3}}, kTolerance));
+  OpenRegion region;
+  for (std::uint32_t i = 0; i < c.blocks.size(); ++i)
+    region.before.emplace_back(i, c.blocks[i].lambda);
+  const std::vector<Twist> before = c.push.of;
+  path.apply(c);
+  renewPush(merged.state(), c, path.members());
+  EXPECT_NE(c.push.of[merged.last() - 2].vy, before[merged.last() - 2].vy);
+  Witness none;
+  restoreImpulses(merged.state(), c, region, none);
+  for (std::uint32_t m = 0; m < c.members.size(); ++m) {
+    EXPECT_EQ(c.push.of[m].vx, before[m].vx);
+    EXPECT_EQ(c.push.of[m].vy, before[m].vy);
+    EXPECT_EQ(c.push.of[m].omega, before[m].omega);
+  }
 }
 
 }  // namespace
