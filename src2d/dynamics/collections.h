@@ -236,8 +236,8 @@ struct Collection {
   IndexRuns welds_of;               ///< per member; empty until it is opened
   std::vector<JointBlock> joints;   ///< those that act inside; λ is live here
   InnerPush push;
-  float residual = 0.0F;            ///< largest of its rows, when last solved [m/s]
-  bool settled = false;             ///< the forces inside are known
+  float residual = 0.0F;  ///< largest of its rows, when last solved [m/s]
+  bool settled = false;   ///< the forces inside are known
   HitRun hits;
   std::vector<LoadCertificate> certificate;  ///< one, or none where no rule asks for proofs
 
