@@ -85,7 +85,7 @@ struct Table {
 /// Everything that is written down while a run goes on.
 class Record {
  public:
-  Record(const RunOptions& options, const World& world) {
+  Record(const RunOptions& options, const World& world) : summary_(world) {
     if (!options.trace.empty()) trace_.emplace(options, world);
     if (!options.csv.empty()) table_.emplace(options, world.scene());
     if (options.snapshot.empty()) return;
@@ -93,10 +93,13 @@ class Record {
     state_->check();
   }
 
-  void add(const Snapshot& snapshot) {
-    summary_.add(snapshot);
-    if (trace_) trace_->writer.add(snapshot), trace_->file.check();
-    if (table_) table_->writer.add(snapshot), table_->file.check();
+  /// Takes note of the step that just ended.
+  void add(const World& world) {
+    summary_.add(world);
+    if (!trace_ && !table_) return;
+    world.capture(snapshot_);
+    if (trace_) trace_->writer.add(snapshot_), trace_->file.check();
+    if (table_) table_->writer.add(snapshot_), table_->file.check();
   }
 
   /// The files appear.
@@ -117,6 +120,7 @@ class Record {
 
  private:
   Summary summary_;
+  Snapshot snapshot_;  ///< its memory is kept
   std::optional<Trace> trace_;
   std::optional<Table> table_;
   std::optional<OutputFile> state_;
@@ -138,11 +142,9 @@ void resume(const RunOptions& options, Simulation& simulation) {
 
 void simulate(Simulation& simulation, Record& record, const Console& console) {
   Progress progress(console, "step", simulation.steps());
-  Snapshot snapshot;
   while (!simulation.done()) {
     simulation.step();
-    simulation.world().capture(snapshot);
-    record.add(snapshot);
+    record.add(simulation.world());
     progress.update(simulation.world().steps());
   }
   console.detail(fmt::format("{:.3g} MB of memory for the simulation",

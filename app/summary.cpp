@@ -18,16 +18,16 @@ double realTimeFactor(const Simulation& simulation) {
 
 }  // namespace
 
-void Summary::add(const Snapshot& snapshot) {
-  for (const Event& event : snapshot.events) {
+Summary::Summary(const World& world) : max_penetration_(world.capture().stats.max_penetration) {}
+
+void Summary::add(const World& world) {
+  for (const Event& event : world.events()) {
     merges_ += event.type == EventType::Merge ? 1 : 0;
     unmerges_ += event.type == EventType::Unmerge ? 1 : 0;
     if (event.type == EventType::Unmerge) ++reasons_[static_cast<std::size_t>(event.reason)];
     broken_joints_ += event.type == EventType::Break ? 1 : 0;
   }
-  max_penetration_ = std::max(max_penetration_, snapshot.stats.max_penetration);
-  kinetic_energy_ = snapshot.stats.kinetic_energy;
-  potential_energy_ = snapshot.stats.potential_energy;
+  max_penetration_ = std::max(max_penetration_, world.deepestOverlap());
 }
 
 std::string Summary::table(const Simulation& simulation, bool timings) const {
@@ -91,8 +91,10 @@ std::string Summary::json(const Simulation& simulation, bool timings) const {
     const auto reason = static_cast<EventReason>(i);
     if (reason != EventReason::None) out["unmerges_by_reason"][name(reason)] = reasons_[i];
   }
-  out["kinetic_energy"] = kinetic_energy_;
-  out["potential_energy"] = potential_energy_;
+  Snapshot end;
+  world.captureMotion(end);
+  out["kinetic_energy"] = end.stats.kinetic_energy;  // null when it is not finite
+  out["potential_energy"] = end.stats.potential_energy;
   if (error_) out["reference_error"] = {{"mean", error_->mean}, {"max", error_->max}};
   out["provenance"] = provenanceJson(world.scene());
   out["provenance"]["cpu_seconds"] = nullptr;

@@ -13,8 +13,11 @@ namespace merge2d {
 /// Counts what happens while a run goes on.
 class Summary {
  public:
+  /// Begins with what there is before the first step.
+  explicit Summary(const World& world);
+
   /// Takes note of the step that just ended.
-  void add(const Snapshot& snapshot);
+  void add(const World& world);
 
   /// Takes note of how far the run ended from the reference.
   void setError(const ReferenceError& error) { error_ = error; }
@@ -30,8 +33,7 @@ class Summary {
 
   std::int64_t merges_ = 0, unmerges_ = 0, broken_joints_ = 0;
   Reasons reasons_{};
-  double max_penetration_ = 0.0;                          ///< of all steps [m]
-  double kinetic_energy_ = 0.0, potential_energy_ = 0.0;  ///< after the last step [J]
+  double max_penetration_ = 0.0;  ///< of all steps [m]
   std::optional<ReferenceError> error_;
 };
 

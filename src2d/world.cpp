@@ -194,6 +194,9 @@ Mode World::mode() const { return impl_->setup.state.mode; }
 const std::vector<BodyInfo>& World::bodies() const { return impl_->describedBodies(); }
 const Stats& World::stats() const { return impl_->scratch.stats; }
 const std::vector<Event>& World::events() const { return impl_->scratch.events; }
+double World::deepestOverlap() const {
+  return merge2d::deepestOverlap(impl_->setup.state, impl_->scratch.events);
+}
 void World::takeNotes(bool on) { impl_->options.decisions = on; }
 const Notes& World::notes() const { return impl_->notes; }
 void World::observe(Observer* observer) { impl_->observer = observer; }
@@ -221,7 +224,7 @@ std::size_t World::memoryBytes() const {
 }
 
 void World::capture(Snapshot& out) const {
-  captureState(impl_->wholeState(), impl_->setup.actions, impl_->scratch, out);
+  captureState(impl_->setup.state, impl_->setup.actions, impl_->scratch, out);
   out.decisions = impl_->notes.decisions;
   out.groups = impl_->notes.groups;
 }

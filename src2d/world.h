@@ -79,6 +79,9 @@ class World {
   /// Statistics and events of the last step alone: cheap.
   const Stats& stats() const;
   const std::vector<Event>& events() const;
+  /// How deep bodies overlap where the last step has changed it [m]: the largest over all steps is
+  /// that of all contacts. It costs what moves.
+  double deepestOverlap() const;
 
   /// Whether the following steps note their decisions.
   void takeNotes(bool on);

@@ -57,12 +57,11 @@ class ParkedPairs {
   /// Calls `visit(pair)` for all of them.
   template <class Visit>
   void forEach(Visit&& visit) {
-    for (std::uint32_t i = 0; i < heads_.size(); ++i) {
-      for (std::uint32_t half = heads_[i]; half != kNone; half = nextOf(half)) {
-        const RigidId other = endOf(half ^ 1);
-        if (other == kNobody || RigidId{i} < other) visit(nodes_[half / 2].pair);
-      }
-    }
+    visitAll(*this, visit);
+  }
+  template <class Visit>
+  void forEach(Visit&& visit) const {
+    visitAll(*this, visit);
   }
 
  private:
@@ -73,7 +72,18 @@ class ParkedPairs {
     std::array<std::uint32_t, 2> next{}, previous{};
   };
 
+  template <class Self, class Visit>
+  static void visitAll(Self& self, Visit& visit) {
+    for (std::uint32_t i = 0; i < self.heads_.size(); ++i) {
+      for (std::uint32_t half = self.heads_[i]; half != kNone; half = self.nextOf(half)) {
+        const RigidId other = self.endOf(half ^ 1);
+        if (other == kNobody || RigidId{i} < other) visit(self.nodes_[half / 2].pair);
+      }
+    }
+  }
+
   RigidId endOf(std::uint32_t half) const { return nodes_[half / 2].ends[half % 2]; }
+  std::uint32_t nextOf(std::uint32_t half) const { return nodes_[half / 2].next[half % 2]; }
   std::uint32_t& nextOf(std::uint32_t half) { return nodes_[half / 2].next[half % 2]; }
   std::uint32_t& previousOf(std::uint32_t half) { return nodes_[half / 2].previous[half % 2]; }
 

@@ -81,14 +81,16 @@ void showInternalVelocity(const State& state, const Scratch& scratch, const Coll
 
 void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) {
   out.contacts.clear();
-  for (const ContactTable::Slot slot : state.contacts.order) {
+  const auto show = [&](ContactTable::Slot slot) {
     const Contact& contact = state.contacts[slot];
     for (int i = 0; i < contact.count; ++i) {
       out.contacts.push_back(view(state, contact, contact.points[static_cast<std::size_t>(i)],
                                   state.pose(contact.key.a)));
     }
-  }
-  for (const Collection& c : state.collections) {
+  };
+  for (const ContactTable::Slot slot : state.contacts.order) show(slot);
+  state.contacts.parked.forEach(show);
+  for (const Collection& c : state.collections.all()) {
     if (c.id == kNoCollection) continue;
     const Pose frame = state[c.rigid].frame();
     const bool has_blocks = !c.blocks.empty();  // else nothing moves inside
@@ -142,7 +144,6 @@ CollectionView view(const State& state, const Collection& c) {
   return seen;
 }
 
-/// Parked ones too.
 void captureCollections(const State& state, Snapshot& out) {
   out.collections.clear();
   for (const Collection& c : state.collections.all()) {
@@ -154,7 +155,7 @@ void captureCollections(const State& state, Snapshot& out) {
 
 void captureWelds(const State& state, Snapshot& out) {
   out.welds.clear();
-  for (const Collection& c : state.collections) {
+  for (const Collection& c : state.collections.all()) {
     if (c.id == kNoCollection) continue;
     for (const Weld& weld : c.welds) {
       if (weld.expected) continue;
@@ -242,6 +243,33 @@ void captureMotion(const State& state, const Actions& actions, const Scratch& sc
   out.events = scratch.events;
   out.stats = scratch.stats;
   measure(state, actions, out, out.stats);
+}
+
+double deepestOverlap(const State& state, const std::vector<Event>& events) {
+  double deepest = 0.0;
+  for (const ContactTable::Slot slot : state.contacts.order) {
+    const Contact& contact = state.contacts[slot];
+    for (int i = 0; i < contact.count; ++i) {
+      deepest = std::max<double>(deepest, -contact.points[static_cast<std::size_t>(i)].gap);
+    }
+  }
+  std::vector<RigidId> grown;  // none in most steps
+  for (const Event& event : events) {
+    if (event.type != EventType::Merge) continue;
+    for (const BodyId b : {event.a, event.b}) {
+      if (state.isCollection(state[b].rigid)) grown.push_back(state[b].rigid);
+    }
+  }
+  std::ranges::sort(grown);
+  grown.erase(std::unique(grown.begin(), grown.end()), grown.end());
+  for (const RigidId id : grown) {
+    for (const InternalContact& inner : state.collection(id).contacts) {
+      for (int i = 0; i < inner.count; ++i) {
+        deepest = std::max<double>(deepest, -inner.gap[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+  return deepest;
 }
 
 void countBodies(const State& state, Scratch& scratch) {

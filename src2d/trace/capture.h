@@ -16,6 +16,11 @@ void captureState(const State& state, const Actions& actions, const Scratch& scr
 void captureMotion(const State& state, const Actions& actions, const Scratch& scratch,
                    Snapshot& out);
 
+/// How deep bodies overlap [m] in contacts of the step that just ended, and inside the collections
+/// that merged in it: over all steps the largest is that of all contacts, since nothing changes
+/// inside collections or where all sleep.
+double deepestOverlap(const State& state, const std::vector<Event>& events);
+
 /// The cheap part of the statistics: counts of the step that just ended.
 void countBodies(const State& state, Scratch& scratch);
 

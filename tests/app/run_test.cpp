@@ -48,6 +48,25 @@ TEST_F(Run, GivesTheKeysOfTheContractAsJson) {
   EXPECT_GT(summary["real_time_factor"], 0.0);
 }
 
+TEST_F(Run, TheDeepestOverlapIsThatOfAllStepsAndContacts) {
+  for (const char* mode : {"reference", "merge", "merge+sleep"}) {
+    for (const char* scene : {"wagon", "conveyor"}) {
+      SCOPED_TRACE(std::string(scene) + " in mode " + mode);
+      const Words arguments = {"run", scene, "--mode", mode, "--steps", "200"};
+      Words as_json = arguments, as_trace = arguments;
+      as_json.emplace_back("--json");
+      as_trace.insert(as_trace.end(), {"--trace", "-", "--quiet"});
+      double deepest = 0.0;
+      for (const Json& line : parsed(run(as_trace).out)) {
+        if (line["type"] != "step") continue;
+        deepest = std::max(deepest, line["stats"]["max_penetration"].get<double>());
+      }
+      EXPECT_GT(deepest, 0.0);
+      EXPECT_DOUBLE_EQ(run(as_json).json()["max_penetration"], deepest);
+    }
+  }
+}
+
 TEST_F(Run, SaysWhereItsNumbersComeFrom) {
   const Words arguments = {"run",    "stack.toml", "--steps", "5",
                            "--mode", "merge",      "--set",   "merging.velocity=0.02",

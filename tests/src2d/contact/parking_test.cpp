@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "src2d/trace/trace_writer.h"
 #include "src2d/world.h"
 #include "tests/src2d/world_edit_testing.h"
 
@@ -124,6 +126,26 @@ TEST(Parking, BoxesThatFallBesideSleepersMergeWithThemByWayOfTheFloor) {
   const Snapshot end = pair.one.capture();
   EXPECT_LT(end.collections.size(), 6u) << "as many as there are without the floor";
   EXPECT_EQ(end.stats.asleep, 12);
+}
+
+/// A line of a trace.
+std::string traced(const World& world) {
+  std::ostringstream out;
+  TraceWriter writer(out, world.scene(), world.mode(), world.bodies(), {.timings = false});
+  writer.add(world.capture());
+  return out.str();
+}
+
+TEST(Parking, ALookAtASleeperShowsAllOfItAndChangesNothing) {
+  for (const Mode mode : kSleeping) {
+    Pair pair(manyAsleep(), mode);
+    for (int i = 0; i < 400; ++i) {
+      pair.step();
+      ASSERT_EQ(traced(pair.one), traced(pair.watched)) << "step " << i;
+    }
+    ASSERT_GT(pair.one.stats().asleep, 20);
+    EXPECT_TRUE(pair.one.save() == pair.watched.save());
+  }
 }
 
 TEST(Parking, AFrameThatMovesAgainTakesWhatStandsOnIt) {
