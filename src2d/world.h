@@ -80,7 +80,7 @@ class World {
   const Stats& stats() const;
   const std::vector<Event>& events() const;
   /// How deep bodies overlap where the last step has changed it [m]: the largest over all steps is
-  /// that of all contacts. It costs what moves.
+  /// that of all contacts. Bodies that rest cost nothing.
   double deepestOverlap() const;
 
   /// Whether the following steps note their decisions.

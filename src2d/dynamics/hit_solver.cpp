@@ -111,7 +111,7 @@ void HitSolver::solveRows(std::span<const HitPoint> points) {
         for (JointBlock& k : joints_) solveJoint(k, {}, island_.u(k.a), island_.u(k.b));
         for (ContactBlock& k : rows_) solveBlock(k, k.nx, k.ny, island_.u(k.a), island_.u(k.b));
       },
-      island_.scratch().nncg);
+      island_.scratch().sweeps.front().nncg);
   constexpr std::size_t kFewRows = 8;
   constexpr double kExact = 1e-13, kClose = 1e-7;
   const bool bounces = std::ranges::any_of(

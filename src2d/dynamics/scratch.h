@@ -208,10 +208,19 @@ struct FoundByTask {
   std::vector<std::pair<std::uint32_t, Contact>> touching;  ///< with the index of the idle pair
 };
 
-/// Memory of the thread that solves an island, kept from one to the next.
+/// Memory of a thread that solves islands, or the rows inside collections, one after the other.
 struct SweepMemory {
   NncgBuffers nncg;
   WideBlocks wide;
+  /// Per body, and the world's: velocities in the collection that is solved, seen from there.
+  std::vector<SolverVelocity> trial_u;
+};
+
+/// With what rows are swept; the results depend on none of it.
+struct SweepTools {
+  SweepMemory& memory;
+  SweepPath path = kFastestPath;
+  TaskPool* tasks = nullptr;  ///< null: the thread of the memory alone
 };
 
 /// Lives for one step; its memory is kept.
@@ -279,7 +288,6 @@ struct Scratch {
   std::vector<std::uint8_t> near_collection;  ///< per body: has a row in sweep_contacts
 
   // Unmerge
-  std::vector<SolverVelocity> trial_u;             ///< per body
   std::map<CollectionId, NewtonWorkspace> newton;  ///< of direct solves that are under way
   bool split = false;                              ///< some collection was taken apart
   std::vector<std::uint32_t> overloaded_joints;    ///< break after the full solve
@@ -302,10 +310,9 @@ struct Scratch {
   std::vector<BlockOrder> block_order;
   std::vector<std::uint32_t> island_roots;  ///< ascending
   std::vector<HitWay> hit_ways;
-  NncgBuffers nncg;
-  WideBlocks wide;
-  std::vector<SweepMemory> sweeps_of_threads;  ///< of those beside the caller's
-  std::vector<SweepChange> island_changes;     ///< per island
+  /// Per thread, the caller's first (thread_memory.h).
+  std::vector<SweepMemory> sweeps = std::vector<SweepMemory>(1);
+  std::vector<SweepChange> island_changes;  ///< per island
 };
 
 }  // namespace merge2d

@@ -7,7 +7,7 @@
 #include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/newton.h"
 #include "src2d/dynamics/nncg.h"
-#include "src2d/dynamics/task_pool.h"
+#include "src2d/dynamics/thread_memory.h"
 #include "src2d/dynamics/wide_blocks.h"
 
 namespace merge2d {
@@ -123,7 +123,8 @@ bool isWide(const Island& island) {
 
 /// The sweeps of an island without joints, four blocks at a time.
 SweepChange solveWide(Scratch& scratch, const Island& island, const SolverSettings& settings,
-                      NncgBuffers& buffers, WideBlocks& wide) {
+                      const SweepTools& tools) {
+  WideBlocks& wide = tools.memory.wide;
   const std::size_t size = island.last - island.first;
   const std::span blocks(scratch.blocks.data() + island.first, size);
   auto& u = scratch.u;
@@ -135,7 +136,7 @@ SweepChange solveWide(Scratch& scratch, const Island& island, const SolverSettin
       [&](std::size_t i) -> SolverVelocity& {
         return u[scratch.island_bodies[island.first_body + i]];
       },
-      [&] { wide.sweep(blocks, u, scratch.sweep_path); }, buffers);
+      [&] { wide.sweep(blocks, u, tools.path, tools.tasks); }, tools.memory.nncg);
   const SweepChange change = iteration.run(settings.iterations, isAccelerated(settings.method));
   wide.storeImpulses(blocks);
   return change;
@@ -143,7 +144,8 @@ SweepChange solveWide(Scratch& scratch, const Island& island, const SolverSettin
 
 /// Far-away bodies do not matter: each island has its own ρ.
 SweepChange solveIsland(const State& state, Scratch& scratch, const Island& island,
-                        NncgBuffers& buffers, WideBlocks& wide) {
+                        const SweepTools& tools) {
+  NncgBuffers& buffers = tools.memory.nncg;
   const SolverSettings& settings = state.settings.solver;
   const std::span blocks(scratch.blocks.data() + island.first, island.last - island.first);
   const std::span bodies(scratch.island_bodies.data() + island.first_body,
@@ -159,9 +161,8 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   }
   const auto body = [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; };
   const bool accelerate = isAccelerated(settings.method);
-  if (isWide(island) && scratch.sweep_path != SweepPath::OneByOne &&
-      settings.method != SolverMethod::Pgs) {
-    return solveWide(scratch, island, settings, buffers, wide);
+  if (isWide(island) && tools.path != SweepPath::OneByOne && settings.method != SolverMethod::Pgs) {
+    return solveWide(scratch, island, settings, tools);
   }
   if (joints.empty()) {
     Nncg iteration(
@@ -189,28 +190,29 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   return change;
 }
 
+/// The colours of an island of so many blocks are shared by all threads; others are solved side by
+/// side.
+constexpr std::size_t kLeastShared = 1000;
+
 /// Islands share fixed bodies alone. Joints are solved with a memory of their own, in order.
 void solveIslands(const State& state, Scratch& scratch) {
-  constexpr std::size_t kGrain = 4;  // islands
   const auto& islands = scratch.islands;
-  auto& others = scratch.sweeps_of_threads;
-  if (scratch.tasks) others.resize(static_cast<std::size_t>(scratch.tasks->threads() - 1));
+  provideMemory(scratch);
   scratch.island_changes.assign(islands.size(), {});
-  const auto hasJoints = [](const Island& i) { return i.first_joint != i.last_joint; };
-  const auto solve = [&](std::size_t i, NncgBuffers& buffers, WideBlocks& wide) {
-    scratch.island_changes[i] = solveIsland(state, scratch, islands[i], buffers, wide);
+  const auto isForAll = [](const Island& i) {
+    return i.first_joint != i.last_joint || i.last - i.first >= kLeastShared;
   };
-  forEachIndex(scratch.tasks, islands.size(), kGrain, [&](std::size_t i, int thread) {
-    if (hasJoints(islands[i])) return;
-    if (thread == 0) return solve(i, scratch.nncg, scratch.wide);
-    SweepMemory& other = others[static_cast<std::size_t>(thread - 1)];
-    solve(i, other.nncg, other.wide);
+  const auto solve = [&](std::size_t i, const SweepTools& tools) {
+    scratch.island_changes[i] = solveIsland(state, scratch, islands[i], tools);
+  };
+  forEachIndex(scratch.tasks, islands.size(), 1, [&](std::size_t i, int thread) {
+    if (!isForAll(islands[i])) solve(i, toolsOf(scratch, thread));
   });
-  if (std::ranges::none_of(islands, isWide)) scratch.wide.release();
   scratch.joint_memory.next = 0;
   for (std::size_t i = 0; i < islands.size(); ++i) {
-    if (hasJoints(islands[i])) solve(i, scratch.nncg, scratch.wide);
+    if (isForAll(islands[i])) solve(i, ownTools(scratch));
   }
+  if (std::ranges::none_of(islands, isWide)) scratch.sweeps.front().wide.release();
 }
 
 /// Hands the impulses back to the contacts, with the velocities that they leave.

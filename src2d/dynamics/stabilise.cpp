@@ -65,7 +65,7 @@ void solve(const State& state, Scratch& scratch, const Island& island) {
         together.sweep();
         for (ContactBlock& k : blocks) solveBlock(k, k.nx, k.ny, u[k.a], u[k.b]);
       },
-      scratch.nncg);
+      scratch.sweeps.front().nncg);
   iteration.run(state.settings.solver.iterations, isAccelerated(state.settings.solver.method));
 }
 

@@ -64,17 +64,22 @@ class TaskPool {
   std::vector<std::thread> workers_;
 };
 
-/// Calls `work(i, thread)` for each i below `n`, in runs of `grain`; without a pool one after the
-/// other.
+/// Calls `work(first, count, thread)` for runs of at most `grain` of the numbers below `n`; without
+/// a pool once for all of them.
+template <class Work>
+void forEachRun(TaskPool* pool, std::size_t n, std::size_t grain, Work&& work) {
+  if (pool == nullptr || n <= grain) return work(0, n, 0);
+  pool->run((n + grain - 1) / grain, [&](std::size_t task, int thread) {
+    const std::size_t first = task * grain;
+    work(first, n - first < grain ? n - first : grain, thread);
+  });
+}
+
+/// Calls `work(i, thread)` for each i below `n`, in such runs.
 template <class Work>
 void forEachIndex(TaskPool* pool, std::size_t n, std::size_t grain, Work&& work) {
-  if (pool == nullptr || n <= grain) {
-    for (std::size_t i = 0; i < n; ++i) work(i, 0);
-    return;
-  }
-  pool->run((n + grain - 1) / grain, [&](std::size_t task, int thread) {
-    const std::size_t last = task * grain + grain < n ? task * grain + grain : n;
-    for (std::size_t i = task * grain; i < last; ++i) work(i, thread);
+  forEachRun(pool, n, grain, [&](std::size_t first, std::size_t count, int thread) {
+    for (std::size_t i = first; i < first + count; ++i) work(i, thread);
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/scratch.h"
+#include "src2d/dynamics/task_pool.h"
 
 namespace merge2d {
 
@@ -54,6 +55,8 @@ constexpr std::uint32_t kLeastLanes = 2;
 /// Blocks that the kernel knows: no magnets, no rolling discs.
 bool isPlain(const ContactBlock& k) { return !k.bilateral && !k.rolls(); }
 
+constexpr std::size_t kGrain = 16;  ///< groups that a thread solves in a row
+
 /// The last colour holds what found no other; its blocks may share bodies.
 constexpr std::uint32_t kMixedColour = 63;
 
@@ -90,8 +93,8 @@ void WideBlocks::begin(std::size_t blocks, std::size_t chosen) {
   alone_.clear();
   colours_.clear();
   reserveTightly(wide_, chosen / 4 + 1);
-  resizeTightly(impulses_, blocks + 1);
-  impulses_[blocks] = {};
+  resizeTightly(impulses_, blocks + 2);
+  impulses_[blocks] = impulses_[blocks + 1] = {};
 }
 
 void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const BlockOrder> order,
@@ -149,9 +152,9 @@ void WideBlocks::packColour(std::span<const ContactBlock> blocks,
     list.push_back(i);
   }
   Colour colour;
-  packGroups(blocks, u, pairs_, idle);
+  packGroups(blocks, u, pairs_, idle, blocks.size());
   colour.last_pair = static_cast<std::uint32_t>(wide_.size());
-  packGroups(blocks, u, singles_, idle);
+  packGroups(blocks, u, singles_, idle, blocks.size() + 1);
   colour.last_single = static_cast<std::uint32_t>(wide_.size());
   colour.last_alone = static_cast<std::uint32_t>(alone_.size());
   colours_.push_back(colour);
@@ -159,7 +162,8 @@ void WideBlocks::packColour(std::span<const ContactBlock> blocks,
 
 void WideBlocks::packGroups(std::span<const ContactBlock> blocks,
                             const std::vector<SolverVelocity>& u,
-                            const std::vector<std::uint32_t>& chosen, std::uint32_t idle) {
+                            const std::vector<std::uint32_t>& chosen, std::uint32_t idle,
+                            std::size_t idle_impulses) {
   const ContactBlock none{.a = idle, .b = idle};
   for (std::size_t first = 0; first < chosen.size(); first += 4) {
     const std::size_t last = std::min(first + 4, chosen.size());
@@ -174,19 +178,22 @@ void WideBlocks::packGroups(std::span<const ContactBlock> blocks,
       const bool used = first + lane < last;
       const ContactBlock& k = used ? blocks[chosen[first + lane]] : none;
       setLane(w, lane, k, u[k.a], u[k.b]);
-      w.block[lane] = used ? chosen[first + lane] : static_cast<std::uint32_t>(blocks.size());
+      w.block[lane] = used ? chosen[first + lane] : static_cast<std::uint32_t>(idle_impulses);
     }
   }
 }
 
 void WideBlocks::sweep(std::span<ContactBlock> blocks, std::vector<SolverVelocity>& u,
-                       SweepPath path) {
+                       SweepPath path, TaskPool* tasks) {
   const SweepWide sweep_wide = sweepBy(path);
   const WideBlock* const all = wide_.data();
   std::uint32_t wide = 0, alone = 0;
   for (const Colour& colour : colours_) {
-    sweep_wide(all + wide, all + colour.last_pair, all + colour.last_single, impulses_.data(),
-               u.data());
+    forEachRun(tasks, colour.last_single - wide, kGrain, [&](std::size_t i, std::size_t n, int) {
+      const std::size_t first = wide + i, last = first + n;
+      const std::size_t pairs = std::clamp<std::size_t>(colour.last_pair, first, last);
+      sweep_wide(all + first, all + pairs, all + last, impulses_.data(), u.data());
+    });
     wide = colour.last_single;
     for (; alone < colour.last_alone; ++alone) {
       ContactBlock& k = blocks[alone_[alone]];

@@ -35,6 +35,7 @@ struct alignas(32) WideBlock {
 };
 
 struct BlockOrder;
+class TaskPool;
 
 class WideBlocks {
  public:
@@ -48,11 +49,12 @@ class WideBlocks {
   void packChosen(std::span<const ContactBlock> blocks, std::span<const std::uint32_t> chosen,
                   const std::vector<SolverVelocity>& u, std::uint32_t idle);
 
-  /// Per block; one more for lanes without a block.
+  /// Per block; two more for lanes without a block.
   std::vector<Impulses>& impulses() { return impulses_; }
 
-  /// Solves every block once.
-  void sweep(std::span<ContactBlock> blocks, std::vector<SolverVelocity>& u, SweepPath path);
+  /// Solves every block once. The threads of `tasks`, where there are some, share large colours.
+  void sweep(std::span<ContactBlock> blocks, std::vector<SolverVelocity>& u, SweepPath path,
+             TaskPool* tasks = nullptr);
 
   void storeImpulses(std::span<ContactBlock> blocks) const;
   void storeImpulses(std::span<ContactBlock> blocks, std::span<const std::uint32_t> chosen) const;
@@ -72,7 +74,8 @@ class WideBlocks {
   void packColour(std::span<const ContactBlock> blocks, const std::vector<SolverVelocity>& u,
                   std::uint32_t idle);
   void packGroups(std::span<const ContactBlock> blocks, const std::vector<SolverVelocity>& u,
-                  const std::vector<std::uint32_t>& chosen, std::uint32_t idle);
+                  const std::vector<std::uint32_t>& chosen, std::uint32_t idle,
+                  std::size_t idle_impulses);
 
   std::vector<WideBlock> wide_;
   std::vector<std::uint32_t> alone_;  ///< blocks that are solved one by one

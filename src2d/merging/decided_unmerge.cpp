@@ -126,7 +126,7 @@ bool turns(const Collection& c, const WeldMotions& motions, double noise) {
 /// goes on, some weld must move by more than a few residuals. True where some are cut.
 bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRegion& region,
                const ProofSearch& search) {
-  const WeldMotions motions(state, c, scratch.trial_u);
+  const WeldMotions motions(state, c, scratch.sweeps.front().trial_u);
   const double residual = c.hits.blow == state.step ? 0.0 : c.residual;
   const bool moves = !search.isUnderWay() || turns(c, motions, residual / kDecided.tolerance);
   bool any = false;
@@ -203,9 +203,9 @@ void prove(const State& state, Collection& c, Witness&& witness) {
 
 /// How fast the members of the trial move, at contacts and at the corners of welds; turning about a
 /// contact of a body beside which the other hardly moves is left to the residual [m/s].
-double fastestOf(const State& state, const Scratch& scratch, const Collection& c) {
-  const WeldMotions motions(state, c, scratch.trial_u);
-  double most = fastestContact(scratch, c);
+double fastestOf(const State& state, const SweepMemory& memory, const Collection& c) {
+  const WeldMotions motions(state, c, memory.trial_u);
+  double most = fastestContact(memory, c);
   for (const Weld& weld : c.welds) {
     if (weld.expected) continue;
     const WeldMotion motion = motions.of(weld, 0.0);
@@ -229,7 +229,7 @@ void keepTogether(const State& state, Scratch& scratch, Collection& c, const Ope
   LoadCertificate& proof = c.certificate.front();
   const bool converged = hasConverged(state, c).holds;
   const bool hit = isHit(state, c);
-  const double motion = converged && !hit ? fastestOf(state, scratch, c) : 0.0;
+  const double motion = converged && !hit ? fastestOf(state, scratch.sweeps.front(), c) : 0.0;
   c.settled = !hit && converged && motion <= cutSpeed(state);
   if (c.settled) {
     Witness witness = asWitness(state, c, loadOn(state, scratch, c));
@@ -286,20 +286,21 @@ bool hasJointsOutside(const State& state, const Collection& c) {
 }
 
 /// Whether nothing moves in a search. What may turn is looked at more closely, for one step more.
-bool restsIn(const State& state, Scratch& scratch, Collection& c) {
+bool restsIn(const State& state, Scratch& scratch, const SweepTools& tools, Collection& c) {
+  const SweepMemory& memory = tools.memory;
   const double tolerance = toleratedResidual(state);
   const auto sure = [&] { return c.residual / kDecided.tolerance; };
-  if (fastestContact(scratch, c) > std::max(cutSpeed(state), sure())) return false;
-  const WeldMotions motions(state, c, scratch.trial_u);
+  if (fastestContact(memory, c) > std::max(cutSpeed(state), sure())) return false;
+  const WeldMotions motions(state, c, memory.trial_u);
   const auto turnsBy = [&](double noise) { return turns(c, motions, noise); };
   if (c.residual > tolerance || !turnsBy(c.residual)) return true;
-  continueSearch(state, scratch, c, kDecided.tolerance * tolerance);
+  continueSearch(state, scratch, tools, c, kDecided.tolerance * tolerance);
   return !turnsBy(sure());
 }
 
 /// The fastest motion that a search has found, of one that was told to have found some (restsIn).
-Criterion movesNowhere(const State& state, const Scratch& scratch, const Collection& c) {
-  return {"search-motion", kOwnDecided, fastestOf(state, scratch, c), cutSpeed(state), false};
+Criterion movesNowhere(const State& state, const SweepMemory& memory, const Collection& c) {
+  return {"search-motion", kOwnDecided, fastestOf(state, memory, c), cutSpeed(state), false};
 }
 
 /// The record of a search for the load of a step, with its step; none of one that looks ahead.
@@ -312,9 +313,9 @@ void recordSearch(const State& state, const Scratch& scratch, const Collection& 
 }
 
 /// Per weld: whether its bodies move in a search.
-std::vector<std::uint8_t> moversOf(const State& state, const Scratch& scratch,
+std::vector<std::uint8_t> moversOf(const State& state, const SweepMemory& memory,
                                    const Collection& c) {
-  const WeldMotions motions(state, c, scratch.trial_u);
+  const WeldMotions motions(state, c, memory.trial_u);
   std::vector<std::uint8_t> movers;
   movers.reserve(c.welds.size());
   for (const Weld& weld : c.welds) {
@@ -331,10 +332,11 @@ bool overloadsJoints(State& state, const Collection& c) {
   return anyJointBreaks(state, c);
 }
 
-bool endSearch(State& state, Scratch& scratch, Collection& c) {
+bool endSearch(State& state, Scratch& scratch, const SweepTools& tools, Collection& c) {
+  const SweepMemory& memory = tools.memory;
   LoadCertificate& proof = c.certificate.front();
   if (proof.search.isSuspended()) return true;
-  const bool rests = restsIn(state, scratch, c);
+  const bool rests = restsIn(state, scratch, tools, c);
   const Criterion converged = hasConverged(state, c);
   if (rests && !converged.holds) {
     recordSearch(state, scratch, c, proof.search, converged, "search");
@@ -342,19 +344,19 @@ bool endSearch(State& state, Scratch& scratch, Collection& c) {
     return true;  // it goes on
   }
   ProofSearch search = std::exchange(proof.search, {});
-  if (rests) search.load.motion = fastestOf(state, scratch, c);
+  if (rests) search.load.motion = fastestOf(state, memory, c);
   if (search.ahead) {
     c.settled = true;
     if (rests) remember(state, c, std::move(search.load));
     return true;
   }
-  if (!rests) proof.search.movers = moversOf(state, scratch, c);
+  if (!rests) proof.search.movers = moversOf(state, memory, c);
   readImpulses(c, search.load);
   c.settled = rests && !overloadsJoints(state, c);
   if (c.settled) {
     recordSearch(state, scratch, c, search, converged, "carried");
   } else if (scratch.notes) {
-    const Criterion why = rests ? kOverloaded : movesNowhere(state, scratch, c);
+    const Criterion why = rests ? kOverloaded : movesNowhere(state, memory, c);
     recordSearch(state, scratch, c, search, why, "open");
   }
   if (rests) prove(state, c, std::move(search.load));

@@ -9,9 +9,9 @@
 
 namespace merge2d {
 
-/// After a step of a search: where it has converged, keeps its proof. False where it has found
-/// motion, or a joint that bears too much.
-bool endSearch(State& state, Scratch& scratch, Collection& collection);
+/// After a step of a search, with the velocities that it left in `tools.memory`: where it has
+/// converged, keeps its proof. False where it has found motion, or a joint that bears too much.
+bool endSearch(State& state, Scratch& scratch, const SweepTools& tools, Collection& collection);
 
 /// Some joint inside bears too much with the impulses of the collection's blocks, which it takes
 /// over.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src2d/dynamics/solver.h"
+#include "src2d/dynamics/thread_memory.h"
 #include "src2d/merging/decided_unmerge.h"
 #include "src2d/merging/doubt.h"
 #include "src2d/merging/merge.h"
@@ -28,14 +29,36 @@ void countStep(ProofSearch& search) {
   if (search.steps < kMost) ++search.steps;
 }
 
+/// Goes on with the search inside a collection.
+void goOnWithSearch(State& state, Scratch& scratch, const SweepTools& tools, Collection& c) {
+  continueSearch(state, scratch, tools, c, toleratedResidual(state));
+  countStep(c.certificate.front().search);
+  if (endSearch(state, scratch, tools, c)) return;
+  scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
+}
+
+/// The searches know nothing of each other: those in small collections are done side by side, and
+/// the sweeps of a large one are shared by all threads. Records have an order.
+void goOnWithSearches(State& state, Scratch& scratch) {
+  std::vector<std::uint32_t> small, others;
+  for (const Collection& c : state.collections) {
+    if (doubtAbout(state, scratch, c) != Doubt::Search) continue;
+    const bool alone = scratch.notes || isLarge(state, c);
+    (alone ? others : small).push_back(static_cast<std::uint32_t>(state.collections.slotOf(c)));
+    makeRoom(state, scratch, c);
+  }
+  provideMemory(scratch);
+  forEachIndex(scratch.tasks, small.size(), 1, [&](std::size_t i, int thread) {
+    goOnWithSearch(state, scratch, toolsOf(scratch, thread), state.collections[small[i]]);
+  });
+  for (const std::uint32_t slot : others) {
+    goOnWithSearch(state, scratch, ownTools(scratch), state.collections[slot]);
+  }
+}
+
 /// Where a search has found motion, the full solve of the same step finds the moving welds.
 void solveDoubted(State& state, Scratch& scratch) {
-  for (Collection& c : state.collections) {
-    if (doubtAbout(state, scratch, c) != Doubt::Search) continue;
-    continueSearch(state, scratch, c, toleratedResidual(state));
-    countStep(c.certificate.front().search);
-    if (!endSearch(state, scratch, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
-  }
+  goOnWithSearches(state, scratch);
   if (std::ranges::find(scratch.doubts, Doubt::Open) != scratch.doubts.end()) {
     solveOpened(state, scratch);
   }

@@ -99,20 +99,22 @@ void releaseRows(State& state, Scratch& scratch) {
   scratch.sweep_contacts.clear();
   scratch.candidates.clear();
   scratch.near_candidates.clear();
-  scratch.nncg.before.clear();
-  scratch.nncg.direction.clear();
-  scratch.nncg.u_before.clear();
-  scratch.nncg.u_direction.clear();
-  scratch.wide.release();
+  SweepMemory& sweeps = scratch.sweeps.front();
+  NncgBuffers& nncg = sweeps.nncg;
+  nncg.before.clear();
+  nncg.direction.clear();
+  nncg.u_before.clear();
+  nncg.u_direction.clear();
+  sweeps.wide.release();
   scratch.open_start.clear();
   trim(scratch.blocks, scratch.row_sources, scratch.block_order, scratch.sweep_contacts,
-       scratch.candidates, scratch.near_candidates, scratch.nncg.before, scratch.nncg.direction,
-       scratch.nncg.u_before, scratch.nncg.u_direction, scratch.pairs, scratch.ready, scratch.u,
-       scratch.island_bodies, scratch.moved, scratch.open_start, state.broadphase.near);
+       scratch.candidates, scratch.near_candidates, nncg.before, nncg.direction, nncg.u_before,
+       nncg.u_direction, scratch.pairs, scratch.ready, scratch.u, scratch.island_bodies,
+       scratch.moved, scratch.open_start, state.broadphase.near);
 }
 
 bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
-  if (scratch.sweep_u.empty() && scratch.trial_u.empty()) return false;
+  if (scratch.sweep_u.empty() && scratch.sweeps.front().trial_u.empty()) return false;
   if (state.step - std::max(scratch.last_sweep, scratch.last_doubt) <= kept) return false;
   const auto release = [](auto& v) { std::remove_reference_t<decltype(v)>().swap(v); };
   release(scratch.sweep_u);
@@ -124,7 +126,7 @@ bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
   release(scratch.open_rows);
   release(scratch.open);
   release(scratch.outer_loads);
-  release(scratch.trial_u);
+  for (SweepMemory& memory : scratch.sweeps) release(memory.trial_u);
   scratch.newton.clear();
   return true;
 }

@@ -46,14 +46,14 @@ int BlockSweeps::runOneByOne(int most, std::span<const std::uint32_t> blocks,
 
 int BlockSweeps::runWide(int most, std::span<const std::uint32_t> blocks,
                          std::span<const BodyId> bodies, NncgBuffers& buffers, bool resumes) {
-  WideBlocks& wide = scratch_.wide;
+  WideBlocks& wide = tools_.memory.wide;
   u_.back() = {};
   wide.packChosen(c_.blocks, blocks, u_, static_cast<std::uint32_t>(u_.size() - 1));
   const auto store = [&] { wide.storeImpulses(c_.blocks, blocks); };
   const int done = iterate(
       most, blocks, bodies, buffers, resumes,
       [&](std::size_t i) -> Impulses& { return wide.impulses()[blocks[i]]; },
-      [&] { wide.sweep(c_.blocks, u_, scratch_.sweep_path); }, store);
+      [&] { wide.sweep(c_.blocks, u_, tools_.path, tools_.tasks); }, store);
   store();
   return done;
 }
@@ -61,8 +61,8 @@ int BlockSweeps::runWide(int most, std::span<const std::uint32_t> blocks,
 int BlockSweeps::run(int most, std::span<const std::uint32_t> blocks,
                      std::span<const BodyId> bodies, NncgBuffers& buffers, bool resumes) {
   constexpr std::size_t kLeastWide = 8;  // blocks
-  const bool wide = c_.joints.empty() && blocks.size() >= kLeastWide &&
-                    scratch_.sweep_path != SweepPath::OneByOne;
+  const bool wide =
+      c_.joints.empty() && blocks.size() >= kLeastWide && tools_.path != SweepPath::OneByOne;
   const int done = wide ? runWide(most, blocks, bodies, buffers, resumes)
                         : runOneByOne(most, blocks, bodies, buffers, resumes);
   settleJoints(c_, {}, u_, tolerance);

@@ -1,6 +1,6 @@
 #pragma once
 /// The engine's own block sweeps inside the conjugate gradient (dynamics/nncg.h), over chosen rows
-/// inside one collection, with the velocities in `scratch.trial_u`.
+/// inside one collection, with the velocities in SweepMemory::trial_u.
 
 #include <algorithm>
 #include <span>
@@ -13,8 +13,8 @@ class BlockSweeps {
  public:
   static constexpr int kLookEvery = 5;  ///< sweeps after which the residual is looked at
 
-  BlockSweeps(Scratch& scratch, Collection& c, double tolerance_of_rows)
-      : tolerance(tolerance_of_rows), scratch_(scratch), c_(c), u_(scratch.trial_u) {}
+  BlockSweeps(const SweepTools& tools, Collection& c, double tolerance_of_rows)
+      : tolerance(tolerance_of_rows), tools_(tools), c_(c), u_(tools.memory.trial_u) {}
 
   /// The largest change that one more solve of a block would make [m/s].
   double residual(std::uint32_t block) const {
@@ -46,7 +46,7 @@ class BlockSweeps {
   int iterate(int most, std::span<const std::uint32_t> blocks, std::span<const BodyId> bodies,
               NncgBuffers& buffers, bool resumes, ImpulsesAt impulses, Sweep sweep, Store store);
 
-  Scratch& scratch_;
+  SweepTools tools_;
   Collection& c_;
   std::vector<SolverVelocity>& u_;
 };

@@ -22,8 +22,7 @@ bool isLookedAt(const State& state, const Collection& c) {
 namespace {
 
 /// Nothing of the frame moves.
-void startFrame(const State& state, Scratch& scratch, const Collection& c) {
-  auto& u = scratch.trial_u;
+void startFrame(const State& state, std::vector<SolverVelocity>& u, const Collection& c) {
   u.resize(state.bodies.size() + 1);
   for (const Weld& weld : c.welds) u[index(weld.a)] = u[index(weld.b)] = {};
   for (const JointBlock& k : c.joints) u[k.a] = u[k.b] = {};
@@ -46,31 +45,32 @@ ProofSearch& newSearch(Collection& c, Witness&& load) {
 }
 
 /// The members' velocities under the load that is sought, and under the impulses found so far.
-void startMembers(const State& state, Scratch& scratch, Collection& c, bool pushed) {
+void startMembers(const State& state, std::vector<SolverVelocity>& u, Collection& c, bool pushed) {
   const LoadCertificate& proof = c.certificate.front();
   if (pushed) layOutPush(state, c);
-  startFrame(state, scratch, c);
+  startFrame(state, u, c);
   for (std::uint32_t m = 0; m < c.members.size(); ++m) {
     if (proof.search.ahead && c.members[m] == proof.heaviest) continue;
     const Twist& d = proof.search.start[m];
     const Twist push = pushed ? c.push.of[m] : Twist{};
-    scratch.trial_u[index(c.members[m])] =
+    u[index(c.members[m])] =
         memberAt(state, c.members[m], {d.vx + push.vx, d.vy + push.vy, d.omega + push.omega});
   }
 }
 
 /// False where the solve goes on in the next step: it may spend as many rows as sweeps may.
-bool solveDirectly(const State& state, Scratch& scratch, Collection& c) {
+bool solveDirectly(const State& state, Scratch& scratch, std::vector<SolverVelocity>& u,
+                   Collection& c) {
   c.push.forget();
-  startMembers(state, scratch, c, false);
+  startMembers(state, u, c, false);
   std::vector<std::uint32_t> bodies;
   bodies.reserve(c.members.size());
   for (const BodyId b : c.members) bodies.push_back(static_cast<std::uint32_t>(index(b)));
   ProofSearch& search = c.certificate.front().search;
   search.nncg.previous = 0.0;
   const double most = kDecided.row_sweeps / static_cast<double>(c.blocks.size() + c.joints.size());
-  return continueByNewton(c.blocks, c.joints, bodies, scratch.trial_u, toleratedResidual(state),
-                          search.newton, std::max(1, static_cast<int>(most)), scratch.newton[c.id]);
+  return continueByNewton(c.blocks, c.joints, bodies, u, toleratedResidual(state), search.newton,
+                          std::max(1, static_cast<int>(most)), scratch.newton.at(c.id));
 }
 
 }  // namespace
@@ -105,19 +105,26 @@ void beginSearchAhead(const State& state, Collection& c, Witness&& load, double 
   }
 }
 
-void continueSearch(const State& state, Scratch& scratch, Collection& c, double tolerance) {
+void makeRoom(const State& state, Scratch& scratch, const Collection& c) {
+  const ProofSearch& search = c.certificate.front().search;
+  if (isDirect(state, search) || search.isSuspended()) scratch.newton.try_emplace(c.id);
+}
+
+void continueSearch(const State& state, Scratch& scratch, const SweepTools& tools, Collection& c,
+                    double tolerance) {
   ProofSearch& search = c.certificate.front().search;
   if (search.ahead) swapImpulses(c, search.load);
   const bool begins = isDirect(state, search) && c.residual > toleratedResidual(state);
-  if ((begins || search.isSuspended()) && !solveDirectly(state, scratch, c)) return;
-  startMembers(state, scratch, c, true);
+  if ((begins || search.isSuspended()) && !solveDirectly(state, scratch, tools.memory.trial_u, c))
+    return;
+  startMembers(state, tools.memory.trial_u, c, true);
   const auto budget = SweepBudget::ofSearch(state, c.blocks.size(), search.steps);
-  c.residual = static_cast<float>(relax(state, scratch, c, tolerance, budget, &search));
+  c.residual = static_cast<float>(relax(state, tools, c, tolerance, budget, &search));
   if (search.ahead) swapImpulses(c, search.load);
 }
 
-double fastestContact(const Scratch& scratch, const Collection& c) {
-  const auto& u = scratch.trial_u;
+double fastestContact(const SweepMemory& memory, const Collection& c) {
+  const auto& u = memory.trial_u;
   double most = 0.0;
   for (const ContactBlock& k : c.blocks) {
     for (int p = 0; p < k.count; ++p) {

@@ -26,13 +26,17 @@ void renewLoad(const State& state, Collection& collection, const CollectionLoad&
 /// is fixed, as its rows follow from those of the others.
 void beginSearchAhead(const State& state, Collection& collection, Witness&& load, double way);
 
-/// Goes on with a search, for one step at most or until its residual is below `tolerance` [m/s];
-/// leaves the members' velocities in `scratch.trial_u` and the largest residual of a row in
-/// Collection::residual.
-void continueSearch(const State& state, Scratch& scratch, Collection& collection, double tolerance);
+/// Where a direct solve keeps its matrix, if the search is to go on with one.
+void makeRoom(const State& state, Scratch& scratch, const Collection& collection);
 
-/// How fast the members move at the contacts with the velocities in `scratch.trial_u` [m/s];
+/// Goes on with a search, for one step at most or until its residual is below `tolerance` [m/s];
+/// leaves the members' velocities in `tools.memory.trial_u` and the largest residual of a row in
+/// Collection::residual. Several threads may go on with searches in different collections.
+void continueSearch(const State& state, Scratch& scratch, const SweepTools& tools,
+                    Collection& collection, double tolerance);
+
+/// How fast the members move at the contacts with the velocities in `memory.trial_u` [m/s];
 /// infinite where one is no number.
-double fastestContact(const Scratch& scratch, const Collection& collection);
+double fastestContact(const SweepMemory& memory, const Collection& collection);
 
 }  // namespace merge2d

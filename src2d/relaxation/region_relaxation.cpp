@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src2d/collections/momentum.h"
+#include "src2d/dynamics/thread_memory.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/relaxation/block_sweeps.h"
 #include "src2d/relaxation/open_region.h"
@@ -45,12 +46,13 @@ Vec2 armOf(const State& state, const Collection& c, BodyId b) {
 void startRelaxed(const State& state, Scratch& scratch, const Collection& c, std::uint32_t member,
                   const Twist& u) {
   const BodyId b = c.members[member];
+  auto& trial_u = scratch.sweeps.front().trial_u;
   for (const std::uint32_t w : c.welds_of[member]) {
     for (const BodyId end : {c.welds[w].a, c.welds[w].b}) {
-      if (scratch.open[index(end)] == 0) scratch.trial_u[index(end)] = {};
+      if (scratch.open[index(end)] == 0) trial_u[index(end)] = {};
     }
   }
-  scratch.trial_u[index(b)] = {u.vx, u.vy, u.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia};
+  trial_u[index(b)] = {u.vx, u.vy, u.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia};
 }
 
 /// A tenth of the slowest motion that parts a weld of some members [m/s]: in a hit more than under
@@ -65,7 +67,7 @@ double toleranceFor(const State& state, const Collection& c,
 /// A hit is followed as far as it moves anything.
 double relaxRegion(State& state, Scratch& scratch, OpenRegion& region) {
   Collection& c = state.collections[region.slot];
-  BlockSweeps sweeps_of(scratch, c, toleranceFor(state, c, region.members));
+  BlockSweeps sweeps_of(ownTools(scratch), c, toleranceFor(state, c, region.members));
   ReachedRows reached(sweeps_of, c, [&](std::uint32_t member) {
     if (scratch.open[index(c.members[member])] != 0) return;
     const double own = kDecided.tolerance * slowestCut(state, c, member);
@@ -76,8 +78,8 @@ double relaxRegion(State& state, Scratch& scratch, OpenRegion& region) {
   double residual = reached.look(blocksAt(c, region.members));
   auto budget = SweepBudget::ofStep(state, reached.blocks().size());
   while (residual > sweeps_of.tolerance && !budget.isSpent()) {
-    const int done =
-        sweeps_of.run(ReachedRows::kRound, reached.blocks(), reached.bodies(), scratch.nncg, false);
+    const int done = sweeps_of.run(ReachedRows::kRound, reached.blocks(), reached.bodies(),
+                                   scratch.sweeps.front().nncg, false);
     budget.spend(done, reached.blocks().size());
     residual = reached.lookAgain();
   }
@@ -95,18 +97,19 @@ void addAll(State& state, Scratch& scratch, OpenRegion& region) {
 /// In a small collection a search that is under way goes on, with its gradient and its budget.
 double relaxWhole(State& state, Scratch& scratch, OpenRegion& region) {
   Collection& c = state.collections[region.slot];
+  const SweepTools tools = ownTools(scratch);
   const double tolerance = toleranceFor(state, c, region.members);
-  const double residual = BlockSweeps(scratch, c, tolerance).largestResidual();
+  const double residual = BlockSweeps(tools, c, tolerance).largestResidual();
   if (residual <= tolerance) return residual;
   ProofSearch& search = c.certificate.front().search;
   const std::size_t rows = c.blocks.size();
   if (search.isUnderWay() && !isLarge(state, c)) {
     const auto budget = SweepBudget::ofSearch(state, rows, search.steps);
-    return relax(state, scratch, c, tolerance, budget, &search);
+    return relax(state, tools, c, tolerance, budget, &search);
   }
   const auto budget =
       isHit(state, c) ? SweepBudget::ofStep(state, rows) : SweepBudget::ofOpened(state, rows);
-  return relax(state, scratch, c, tolerance, budget, nullptr);
+  return relax(state, tools, c, tolerance, budget, nullptr);
 }
 
 }  // namespace
@@ -120,8 +123,9 @@ void relaxOpen(State& state, Scratch& scratch, OpenRegion& region) {
   }
   const OneBody one = motionOf(state, scratch, c);
   const Rotation turn = state[c.rigid].rotation, back = turn.inverse();
-  scratch.trial_u.resize(state.bodies.size() + 1);
-  scratch.trial_u.back() = {};
+  auto& trial_u = scratch.sweeps.front().trial_u;
+  trial_u.resize(state.bodies.size() + 1);
+  trial_u.back() = {};
   if (!local) addAll(state, scratch, region);
   for (const std::uint32_t m : region.members) {
     const SolverVelocity& u = scratch.sweep_u[index(c.members[m])];
@@ -132,7 +136,7 @@ void relaxOpen(State& state, Scratch& scratch, OpenRegion& region) {
                                         : relaxWhole(state, scratch, region));
   for (const std::uint32_t m : region.members) {
     const BodyId b = c.members[m];
-    const SolverVelocity& u = scratch.trial_u[index(b)];
+    const SolverVelocity& u = trial_u[index(b)];
     const Vec2 v = one.at(armOf(state, c, b)) + turn * Vec2(u.vx, u.vy);
     SolverVelocity& of = scratch.sweep_u[index(b)];
     of.vx = v.x();

@@ -14,11 +14,11 @@ namespace {
 /// has one, or they are half of all, over all rows.
 class Relaxation {
  public:
-  Relaxation(Scratch& scratch, Collection& c, double tolerance, bool large, SweepBudget budget,
-             ProofSearch* search)
-      : scratch_(scratch),
+  Relaxation(const SweepTools& tools, Collection& c, double tolerance, bool large,
+             SweepBudget budget, ProofSearch* search)
+      : memory_(tools.memory),
         c_(c),
-        sweeps_of_(scratch, c, tolerance),
+        sweeps_of_(tools, c, tolerance),
         reached_(sweeps_of_, c, [](std::uint32_t) {}),
         large_(large),
         budget_(budget),
@@ -57,7 +57,7 @@ class Relaxation {
 
   void sweep(int most, std::span<const std::uint32_t> blocks, std::span<const BodyId> bodies) {
     // Those over all rows of a search are continued in the next step.
-    NncgBuffers& buffers = search_ && whole_ ? search_->nncg : scratch_.nncg;
+    NncgBuffers& buffers = search_ && whole_ ? search_->nncg : memory_.nncg;
     const int done = sweeps_of_.run(most, blocks, bodies, buffers, goesOn());
     budget_.spend(done, blocks.size());
   }
@@ -65,7 +65,7 @@ class Relaxation {
   /// Sweeps over all rows are under way.
   bool goesOn() const { return search_ && search_->isInAllRows(); }
 
-  Scratch& scratch_;
+  SweepMemory& memory_;
   Collection& c_;
   BlockSweeps sweeps_of_;
   ReachedRows reached_;
@@ -78,10 +78,10 @@ class Relaxation {
 
 }  // namespace
 
-double relax(const State& state, Scratch& scratch, Collection& c, double tolerance,
+double relax(const State& state, const SweepTools& tools, Collection& c, double tolerance,
              SweepBudget budget, ProofSearch* search) {
   c.push.forget();
-  return Relaxation(scratch, c, tolerance, isLarge(state, c), budget, search).run();
+  return Relaxation(tools, c, tolerance, isLarge(state, c), budget, search).run();
 }
 
 }  // namespace merge2d

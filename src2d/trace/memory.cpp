@@ -51,9 +51,9 @@ std::size_t bytesOfBuffers(const NncgBuffers& m) {
 }
 
 std::size_t bytesOfSweeps(const Scratch& s) {
-  std::size_t total = bytesOfBuffers(s.nncg) + s.wide.memoryBytes() + bytesOf(s.sweeps_of_threads);
-  for (const SweepMemory& of_thread : s.sweeps_of_threads) {
-    total += bytesOfBuffers(of_thread.nncg) + of_thread.wide.memoryBytes();
+  std::size_t total = bytesOf(s.sweeps);
+  for (const SweepMemory& memory : s.sweeps) {
+    total += bytesOfBuffers(memory.nncg) + memory.wide.memoryBytes() + bytesOf(memory.trial_u);
   }
   return total;
 }
@@ -64,8 +64,8 @@ std::size_t bytesOfScratch(const Scratch& s) {
                  s.load_order, s.near_candidates, s.near_refined, s.paired_with, s.meetings,
                  s.seeds, s.stirred, s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.outer_loads,
-                 s.load_place, s.doubts, s.trial_u, s.regions, s.open_members, s.open_rows,
-                 s.open_start, s.open, s.swept, s.opened, s.overloaded_joints, s.ready) +
+                 s.load_place, s.doubts, s.regions, s.open_members, s.open_rows, s.open_start,
+                 s.open, s.swept, s.opened, s.overloaded_joints, s.ready) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
                  s.joint_order, s.joint_blocks, s.block_order, s.hit_ways) +
          bytesOfSweeps(s) + s.sets.memoryBytes() +

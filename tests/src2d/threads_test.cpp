@@ -69,6 +69,38 @@ TEST(Threads, EverySolverGivesTheSame) {
   EXPECT_TRUE(endOf(scene, Mode::Merge, 3) == endOf(scene, Mode::Merge, 1));
 }
 
+/// More than a thousand contacts hang together: their sweeps are shared, and so are those inside
+/// the collection that they become.
+TEST(Threads, ALargeHeapIsSolvedTheSame) {
+  const auto end = [](Mode mode, int threads) {
+    World world(wall(30, 25), {.mode = mode, .timings = false, .threads = threads});
+    runSteps(world, 20);
+    world.applyImpulse(BodyId{400}, {0, 10}, {5, 2});
+    runSteps(world, 20);
+    return world.save();
+  };
+  for (const Mode mode : {Mode::Reference, Mode::Merge}) {
+    const std::string alone = end(mode, 1);
+    for (const int threads : {2, 3}) EXPECT_TRUE(end(mode, threads) == alone) << name(mode);
+  }
+}
+
+/// Stacks side by side on one moving floor, each a collection whose load is new in each step.
+TEST(Threads, ManySearchesAtOnceFindTheSame) {
+  const auto end = [](int threads) {
+    const Sinusoid swing{.axis = Vec2::UnitX(), .amplitude = 0.05, .period = 2.0};
+    Scene scene;
+    add(scene, named("floor", scripted(box(50, 1, {0, -0.5}), swing)));
+    for (int i = 0; i < 30; ++i) addColumn(scene, 3 + i % 3, {1.3 * i - 19, 0});
+    World world(scene, {.mode = Mode::Merge, .timings = false, .threads = threads});
+    runSteps(world, 200);
+    EXPECT_GT(world.stats().collections, 20);
+    return world.save();
+  };
+  const std::string alone = end(1);
+  for (const int threads : {2, 8}) EXPECT_TRUE(end(threads) == alone);
+}
+
 TEST(Threads, WhoeverAsksGetsTheSameDecisions) {
   const auto decisions = [](int threads) {
     World world(crowd(), {.decisions = true, .threads = threads});
