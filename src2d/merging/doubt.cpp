@@ -7,6 +7,7 @@
 #include "src2d/merging/decided_unmerge.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/merging/doubt_spread.h"
+#include "src2d/proofs/coverage.h"
 #include "src2d/proofs/load_certificate.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/relaxation/open_solve.h"

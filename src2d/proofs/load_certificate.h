@@ -16,23 +16,8 @@ BodyId heaviestOf(const State& state, const Collection& c);
 /// Has the proofs speak for a new layout, from this step on.
 void restart(const State& state, LoadCertificate& proof);
 
-/// The combination of the loads that were carried which is nearest to a load.
-struct Coverage {
-  /// "proof": how much of the load it leaves over; where that is little, but members move faster
-  /// under its impulses than welds are cut, "proof-motion" [m/s].
-  Criterion carried;
-  LoadCertificate::Weights weights{};
-};
-Coverage coverageOf(const State& state, const Collection& c, const CollectionLoad& load);
-
 /// The impulses inside are from now on those of this combination of the proofs.
 void carryBy(Collection& c, const LoadCertificate::Weights& weights);
-
-/// True when the latest proof carries this load but for the forces from outside.
-bool isNewOutsideAlone(const State& state, const Collection& c, const CollectionLoad& load);
-
-/// True while a load is nearer to the one that is sought ahead than where that search began.
-bool leadsTo(const State& state, const Collection& c, const CollectionLoad& load);
 
 /// The load as a witness that has no impulses yet.
 Witness asWitness(const State& state, Collection& c, const CollectionLoad& load);

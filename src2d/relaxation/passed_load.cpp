@@ -6,6 +6,7 @@
 
 #include "src2d/collections/collection.h"
 #include "src2d/collections/inner_push.h"
+#include "src2d/proofs/coverage.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/load_certificate.h"
 #include "src2d/proofs/proof_impulses.h"

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "src2d/collections/collection.h"
+#include "src2d/proofs/coverage.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/state_file.h"

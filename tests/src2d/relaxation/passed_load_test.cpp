@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "src2d/proofs/coverage.h"
 #include "src2d/proofs/decided_settings.h"
-#include "src2d/proofs/load_certificate.h"
 #include "src2d/relaxation/proof_search.h"
 #include "src2d/relaxation/region_members.h"
 #include "tests/src2d/relaxation/merged_testing.h"
