@@ -200,8 +200,8 @@ struct HitRun {
   void endRun() { met = first = last = kNever; }
 };
 
-/// The velocities that the impulses inside give the members. Who changes impulses for good has it
-/// forgotten, or renewed where few members are concerned (inner_push.h).
+/// The velocities that the impulses inside give the members. A writer of impulses that last calls
+/// `forget`, or `renewPush` for a few members (inner_push.h).
 struct InnerPush {
   std::vector<Twist> of;  ///< per member, in the frame; empty: to be laid out anew
   /// Members that are faster than `tolerance` under the push and this motion of the frame, and
@@ -213,6 +213,7 @@ struct InnerPush {
 
   void forget() {
     of.clear();
+    loose.clear();  // there may be fewer members from now on
     tolerance = -1.0;
   }
 };

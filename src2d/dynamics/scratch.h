@@ -192,7 +192,7 @@ struct OpenRegion {
   std::vector<std::pair<std::uint32_t, Impulses>> before;  ///< of its blocks, where it is not whole
   std::vector<OuterLoad> outer;  ///< that it began with, where it is not whole
   int rings = 2;                 ///< of neighbours that are added next
-  bool passes = false;           ///< what hits it may be passed on to the frame (load_path.h)
+  bool passes = false;           ///< its hits may be passed on to the frame (load_path.h)
 };
 
 /// The change of all impulses in the last sweep, squared, beside the impulses themselves [N² s²].
@@ -216,7 +216,7 @@ struct SweepMemory {
   std::vector<SolverVelocity> trial_u;
 };
 
-/// With what rows are swept; the results depend on none of it.
+/// Memory, instructions and threads of sweeps; the results depend on none of them.
 struct SweepTools {
   SweepMemory& memory;
   SweepPath path = kFastestPath;

@@ -190,27 +190,37 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   return change;
 }
 
-/// The colours of an island of so many blocks are shared by all threads; others are solved side by
-/// side.
-constexpr std::size_t kLeastShared = 1000;
+bool isLargeIsland(const Island& island) {
+  constexpr std::size_t kLeastLarge = 1000;  // blocks
+  return island.last - island.first >= kLeastLarge;
+}
 
-/// Islands share fixed bodies alone. Joints are solved with a memory of their own, in order.
+/// Whether the threads share the colours of large islands: where each cannot have one of its own.
+bool sharesColours(const State& state, const Scratch& scratch) {
+  const bool wide = scratch.sweep_path != SweepPath::OneByOne &&
+                    state.settings.solver.method != SolverMethod::Pgs;
+  return wide && std::ranges::count_if(scratch.islands, isLargeIsland) < threadsOf(scratch);
+}
+
+/// Islands share fixed bodies alone, and are solved side by side. Joints are solved with a memory
+/// of their own, in order.
 void solveIslands(const State& state, Scratch& scratch) {
   const auto& islands = scratch.islands;
   provideMemory(scratch);
   scratch.island_changes.assign(islands.size(), {});
-  const auto isForAll = [](const Island& i) {
-    return i.first_joint != i.last_joint || i.last - i.first >= kLeastShared;
+  const bool shares = sharesColours(state, scratch);
+  const auto isInTurn = [&](const Island& i) {
+    return i.first_joint != i.last_joint || (shares && isLargeIsland(i));
   };
   const auto solve = [&](std::size_t i, const SweepTools& tools) {
     scratch.island_changes[i] = solveIsland(state, scratch, islands[i], tools);
   };
   forEachIndex(scratch.tasks, islands.size(), 1, [&](std::size_t i, int thread) {
-    if (!isForAll(islands[i])) solve(i, toolsOf(scratch, thread));
+    if (!isInTurn(islands[i])) solve(i, toolsOf(scratch, thread));
   });
   scratch.joint_memory.next = 0;
   for (std::size_t i = 0; i < islands.size(); ++i) {
-    if (isForAll(islands[i])) solve(i, ownTools(scratch));
+    if (isInTurn(islands[i])) solve(i, ownTools(scratch));
   }
   if (std::ranges::none_of(islands, isWide)) scratch.sweeps.front().wide.release();
 }

@@ -8,9 +8,14 @@
 
 namespace merge2d {
 
+/// How many of them there are.
+inline int threadsOf(const Scratch& scratch) {
+  return scratch.tasks ? scratch.tasks->threads() : 1;
+}
+
 /// Makes one for each thread that may take a task.
 inline void provideMemory(Scratch& scratch) {
-  if (scratch.tasks) scratch.sweeps.resize(static_cast<std::size_t>(scratch.tasks->threads()));
+  if (scratch.tasks) scratch.sweeps.resize(static_cast<std::size_t>(threadsOf(scratch)));
 }
 
 /// Of the caller, whom the other threads help.

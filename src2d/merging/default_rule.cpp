@@ -37,22 +37,33 @@ void goOnWithSearch(State& state, Scratch& scratch, const SweepTools& tools, Col
   scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
 }
 
-/// The searches know nothing of each other: those in small collections are done side by side, and
-/// the sweeps of a large one are shared by all threads. Records have an order.
-void goOnWithSearches(State& state, Scratch& scratch) {
-  std::vector<std::uint32_t> small, others;
+/// The slots of the collections in which something is sought.
+std::vector<std::uint32_t> searchedSlots(const State& state, const Scratch& scratch) {
+  std::vector<std::uint32_t> slots;
   for (const Collection& c : state.collections) {
     if (doubtAbout(state, scratch, c) != Doubt::Search) continue;
-    const bool alone = scratch.notes || isLarge(state, c);
-    (alone ? others : small).push_back(static_cast<std::uint32_t>(state.collections.slotOf(c)));
-    makeRoom(state, scratch, c);
+    slots.push_back(static_cast<std::uint32_t>(state.collections.slotOf(c)));
   }
+  return slots;
+}
+
+/// The searches know nothing of each other, and go on side by side. Where the large collections are
+/// fewer than the threads, all share the sweeps of each of them instead. Records have an order.
+void goOnWithSearches(State& state, Scratch& scratch) {
+  std::vector<std::uint32_t> slots = searchedSlots(state, scratch);
+  for (const std::uint32_t slot : slots) makeRoom(state, scratch, state.collections[slot]);
   provideMemory(scratch);
-  forEachIndex(scratch.tasks, small.size(), 1, [&](std::size_t i, int thread) {
-    goOnWithSearch(state, scratch, toolsOf(scratch, thread), state.collections[small[i]]);
+  const auto isBig = [&](std::uint32_t slot) { return isLarge(state, state.collections[slot]); };
+  const bool shares = std::ranges::count_if(slots, isBig) < threadsOf(scratch);
+  const auto in_turn = std::stable_partition(slots.begin(), slots.end(), [&](std::uint32_t slot) {
+    return !scratch.notes && !(shares && isBig(slot));
   });
-  for (const std::uint32_t slot : others) {
-    goOnWithSearch(state, scratch, ownTools(scratch), state.collections[slot]);
+  const auto beside = static_cast<std::size_t>(in_turn - slots.begin());
+  forEachIndex(scratch.tasks, beside, 1, [&](std::size_t i, int thread) {
+    goOnWithSearch(state, scratch, toolsOf(scratch, thread), state.collections[slots[i]]);
+  });
+  for (std::size_t i = beside; i < slots.size(); ++i) {
+    goOnWithSearch(state, scratch, ownTools(scratch), state.collections[slots[i]]);
   }
 }
 

@@ -114,7 +114,8 @@ void releaseRows(State& state, Scratch& scratch) {
 }
 
 bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
-  if (scratch.sweep_u.empty() && scratch.sweeps.front().trial_u.empty()) return false;
+  const auto isFree = [](const SweepMemory& memory) { return memory.trial_u.empty(); };
+  if (scratch.sweep_u.empty() && std::ranges::all_of(scratch.sweeps, isFree)) return false;
   if (state.step - std::max(scratch.last_sweep, scratch.last_doubt) <= kept) return false;
   const auto release = [](auto& v) { std::remove_reference_t<decltype(v)>().swap(v); };
   release(scratch.sweep_u);

@@ -41,7 +41,7 @@ void showVelocity(const State& state, Scratch& scratch, BodyId b) {
 }
 
 /// The own velocities of members that are open, and of their neighbours, after the solve; the
-/// world's stands last. An observer sees those of all bodies.
+/// world's stands last. Where decisions are noted, those of all bodies.
 void showVelocities(const State& state, Scratch& scratch) {
   scratch.sweep_u.resize(state.bodies.size() + 1);
   scratch.sweep_u.back() = {};

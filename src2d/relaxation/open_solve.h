@@ -12,8 +12,9 @@ namespace merge2d {
 Doubt doubtAbout(const State& state, const Scratch& scratch, const Collection& collection);
 
 /// The full solve of this step, with the collections open about which there is a doubt. The
-/// velocities of open members are then in `scratch.sweep_u`, and Collection::residual is the
-/// largest change that one more solve of a row inside would make [m/s].
+/// velocities of open members and of their neighbours, those marked in `scratch.swept`, are then in
+/// `scratch.sweep_u`, and Collection::residual is the largest change that one more solve of a row
+/// inside would make [m/s].
 void solveOpened(State& state, Scratch& scratch);
 
 /// Before a collection is taken apart: the velocities of its members that were not open, too.

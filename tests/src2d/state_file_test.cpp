@@ -135,6 +135,27 @@ TEST(StateFile, SoItIsWithTheBuiltinScenes) {
   }
 }
 
+/// A wall that counts as large, hit below its top: bricks leave it, and some come back.
+TEST(StateFile, AWallThatLosesBricksIsTakenOverInAnyStep) {
+  Scene scene = wall(12, 12);
+  scene.settings.solver.iterations = 30;
+  BodyDesc shot = box(1, 1, {-30.6, 10.5 + 0.5 * kGravity * 4});
+  shot.velocity = {12, 0};
+  add(scene, shot);
+  World world = start(scene, Mode::Merge);
+  int left = 0;
+  for (int step = 1; step <= 260; ++step) {
+    world.step();
+    for (const Event& event : world.events()) left += event.type == EventType::Unmerge ? 1 : 0;
+    if (step < 190) continue;
+    const std::string bytes = world.save();
+    World resumed = start(scene, Mode::Merge);
+    ASSERT_NO_THROW(resumed.restore(bytes, "test")) << step;
+    ASSERT_TRUE(resumed.save() == bytes) << step;
+  }
+  EXPECT_GT(left, 20);
+}
+
 TEST(StateFile, GoingBackLeavesNothingOfTheStepsAfter) {
   const Scene scene = parseScene(kMixed, "mixed.toml");
   World world = start(scene, Mode::MergeSleep);

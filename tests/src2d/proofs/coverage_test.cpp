@@ -54,7 +54,7 @@ TEST(Coverage, ALoadBetweenTwoThatWereCarriedHasTheirCombination) {
   EXPECT_NEAR(heavier.weights[1], 0.6, 2e-3);
 }
 
-/// The distance of a load from the cone is what the criterion compares.
+/// The criterion compares the distance of a load from the cone.
 TEST(Coverage, ALoadBesideTheConeIsNotCovered) {
   TwoLoads loads;
   for (const double x : {-0.02, -0.005, 0.03, 0.1}) {
