@@ -1,6 +1,7 @@
 #include "src2d/dynamics/task_pool.h"
 
 #include <chrono>
+#include <utility>
 
 namespace merge2d {
 namespace {
@@ -55,11 +56,22 @@ void TaskPool::runOnAll(std::size_t tasks, Job job) {
   takeTasks(0);
   open_ = false;
   while (!spinUntil([&] { return busy_ == 0; })) std::this_thread::yield();
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+}
+
+void TaskPool::keepError() {
+  const std::scoped_lock lock(mutex_);
+  if (!error_) error_ = std::current_exception();
+  next_ = tasks_;
 }
 
 void TaskPool::takeTasks(int thread) {
   for (std::size_t task = next_++; task < tasks_; task = next_++) {
-    job_.call(job_.work, task, thread);
+    try {
+      job_.call(job_.work, task, thread);
+    } catch (...) {
+      keepError();
+    }
   }
 }
 

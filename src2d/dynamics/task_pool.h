@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <type_traits>
@@ -26,7 +27,8 @@ class TaskPool {
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
   /// Calls `work(task, thread)` for each task below `tasks`, once, in any order; `thread` is below
-  /// threads(). Returns when all of them are done. `work` must not throw.
+  /// threads(). Returns when all of them are done. Where `work` throws, tasks that have not begun
+  /// are left out, and one of the exceptions is thrown here once no thread has a task any more.
   template <class Work>
   void run(std::size_t tasks, Work&& work) {
     if (workers_.empty() || tasks <= 1) {
@@ -47,6 +49,7 @@ class TaskPool {
 
   void runOnAll(std::size_t tasks, Job job);
   void takeTasks(int thread);
+  void keepError();
   void serve(int thread);
   /// Waits until the job after `seen` is there; returns its number, or 0 at the end.
   std::uint64_t awaitJob(std::uint64_t seen);
@@ -60,6 +63,7 @@ class TaskPool {
   std::atomic<bool> ends_{false};
   std::atomic<int> sleepers_{0};
   std::mutex mutex_;
+  std::exception_ptr error_;  ///< of a task
   std::condition_variable wakes_;
   std::vector<std::thread> workers_;
 };

@@ -1,5 +1,10 @@
 /// Memory: a command that needs more than the limit ends with a sentence.
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
 #include "tests/faults/fault_testing.h"
 
 namespace merge2d {
@@ -46,6 +51,33 @@ TEST_F(Memory, EveryCommandThatSimulatesKeepsToTheLimit) {
     fs::remove_all(folder() / "frames");  // a rendering may go on from its frames
     EXPECT_THAT(leftOver({"dense.toml", "stack.toml"}), IsEmpty()) << arguments[0];
   }
+}
+
+/// A limit that any of several threads meets, wherever in a step.
+TEST_F(Memory, ThreadsThatMeetTheLimitEndWithTheSentence) {
+  std::string walls =
+      "[[body]]\nname = \"ground\"\nmotion = \"pinned\"\nbox = [400, 1]\nat = [0, -0.5]\n";
+  for (int wall = 0; wall < 8; ++wall) {
+    walls += fmt::format(
+        "[[body]]\nname = \"wall{}\"\nbox = [1, 0.5]\nat = [{}, 0.25]\n"
+        "repeat = {{ count = [20, 20], spacing = [1, 0.5] }}\n",
+        wall, 24 * wall - 96);
+  }
+  write("walls.toml", walls);
+  int refused = 0;
+  for (double megabytes = 8; megabytes <= 16; megabytes += 0.5) {
+    const std::string limit = fmt::format("{}MB", megabytes);
+    const Outcome outcome =
+        run({"run", "walls.toml", "--steps", "20", "--threads", "3", "--memory-limit", limit});
+    EXPECT_EQ(outcome.signal, 0) << limit;
+    if (outcome.code == kFine) continue;
+    EXPECT_EQ(outcome.code, kFailed) << limit;
+    EXPECT_THAT(outcome.err, StartsWith("error: this needs more memory than the limit of"))
+        << limit;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << limit;
+    ++refused;
+  }
+  EXPECT_GT(refused, 0) << "none of the limits was low enough to tell";
 }
 
 TEST_F(Memory, ALimitIsASizeOrAPartOfTheMachine) {

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
+#include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace merge2d {
@@ -31,6 +34,26 @@ TEST(TaskPool, NoTwoThreadsHaveOneNumber) {
     sums[static_cast<std::size_t>(thread)] += task;
   });
   EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), std::uint64_t{0}), 10'000u * 9'999u / 2u);
+}
+
+TEST(TaskPool, AnExceptionReachesTheCallerOnceNoThreadHasATask) {
+  for (const int threads : {1, 2, 5}) {
+    TaskPool pool(threads);
+    for (int job = 0; job < 50; ++job) {
+      std::atomic<int> under_way{0};
+      auto fail = [&](std::size_t task, int) {
+        ++under_way;
+        std::this_thread::yield();
+        --under_way;
+        if (task % 10 == 7) throw std::runtime_error("no memory");
+      };
+      EXPECT_THROW(pool.run(100, fail), std::runtime_error);
+      EXPECT_EQ(under_way, 0);
+      std::atomic<int> done{0};
+      pool.run(100, [&](std::size_t, int) { ++done; });
+      EXPECT_EQ(done, 100) << "the pool goes on";
+    }
+  }
 }
 
 TEST(TaskPool, AnIndexBelongsToOneRun) {
