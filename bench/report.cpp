@@ -57,7 +57,8 @@ std::string memoryCell(const Comparison& c, const Measurement& m) {
 std::string markdown(const std::vector<Comparison>& comparisons) {
   if (comparisons.empty()) return "";
   std::string text =
-      "## Time\nMilliseconds per step (median), and how many times as long as the first.\n\n";
+      "## Time\nMilliseconds per step (median), and how many times as long as the first "
+      "(median of the ratios of rounds in turns).\n\n";
   text += table(comparisons, always, timeCell);
   text += "\nThe mean, the 99th percentile and the slowest step, in milliseconds.\n\n";
   text += table(comparisons, always, rareCell);

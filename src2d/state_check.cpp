@@ -151,6 +151,8 @@ class StateCheck {
       checkFrame(c);
       checkInner(c);
       checkWelds(c);
+      const bool goes_on = !c.certificate.empty() && !c.block_contact.empty();
+      if (!c.stale || goes_on) checkPlaces(c);
       if (!c.stale) checkLayout(c), checkProofs(c);  // else both are made anew
     }
     for (std::size_t i = 0; i < n_; ++i) {
@@ -218,6 +220,10 @@ class StateCheck {
     require(!r.floating() || (r.inv_mass > 0.0 && r.inv_inertia > 0.0), "masses");
   }
 
+  bool isMember(const Collection& c, BodyId body) const {
+    return isBody(body) && state_[body].rigid == c.rigid;
+  }
+
   /// Whether a body is a member, or belongs to the frame that the collection is fixed to.
   bool belongs(const Collection& c, BodyId body) const {
     if (!isBody(body)) return false;
@@ -237,39 +243,48 @@ class StateCheck {
     for (const ContactBlock& block : c.blocks) {
       require(block.a < n_ && block.b < n_ && block.count >= 0 && block.count <= 2, "blocks");
     }
-    require(c.active_blocks <= c.contacts.size(), "blocks");
+    require(c.laid_out.active_blocks <= c.contacts.size(), "blocks");
     for (const JointBlock& joint : c.joints) {
       require(joint.a <= n_ && joint.b <= n_ && joint.joint < state_.joints.size(), "inner joints");
       require(joint.coupled >= 0 && joint.coupled <= 3, "inner joints");
     }
   }
 
-  /// Lists that a layout has put in order.
-  void checkLayout(const Collection& c) const {
-    const bool isAway = areBlocksAway(c);
-    require(std::is_sorted(c.members.begin(), c.members.end()), "members");
-    for (std::size_t i = 0; i < c.contacts.size(); ++i) {
-      require(i == 0 || c.contacts[i - 1].key < c.contacts[i].key, "inner contacts");
-      require(c.contacts[i].weld < c.welds.size(), "inner contacts");
-      require(isAway || c.contacts[i].block < c.blocks.size(), "inner contacts");
+  /// Members and contacts that have their places: all, unless some came in since the layout.
+  void checkPlaces(const Collection& c) const {
+    const std::size_t members = c.laid_out.members;
+    const std::size_t contacts = c.stale ? c.block_contact.size() : c.contacts.size();
+    require(members <= c.members.size() && contacts <= c.contacts.size(), "collections");
+    require(c.stale || members == c.members.size(), "members");
+    for (std::size_t i = 0; i < members; ++i) {
+      require(state_[rigidOf(c.members[i])].member == i, "members");
     }
-    require(c.points >= 0 && static_cast<std::size_t>(c.points) <= 2 * c.contacts.size(), "blocks");
+    const bool isAway = areBlocksAway(c);
+    for (std::size_t i = 0; i < contacts; ++i) {
+      const InternalContact& contact = c.contacts[i];
+      require(contact.weld < c.welds.size(), "inner contacts");
+      require(isAway || contact.block < c.blocks.size(), "inner contacts");
+    }
     require(isAway || c.block_contact.empty() || c.block_contact.size() == c.blocks.size(),
             "blocks");
-    require(!isAway || c.block_contact.size() == c.contacts.size(), "blocks");
-    std::vector<std::uint8_t> seen(c.contacts.size(), 0);
+    require(!isAway || c.block_contact.size() == contacts, "blocks");
+    std::vector<std::uint8_t> seen(contacts, 0);
     for (const std::uint32_t i : c.block_contact) {
-      require(i < c.contacts.size() && seen[i]++ == 0, "blocks");
+      require(i < contacts && seen[i]++ == 0, "blocks");
     }
+    for (const Weld& weld : c.welds) {  // the frame's node is the last
+      const bool run = weld.first <= contacts && weld.count <= contacts - weld.first;
+      require(run && weld.node_a <= members && weld.node_b <= members, "welds");
+    }
+  }
+
+  /// Lists that a layout has put in order.
+  void checkLayout(const Collection& c) const {
+    const int points = c.laid_out.points;
+    require(points >= 0 && static_cast<std::size_t>(points) <= 2 * c.contacts.size(), "blocks");
     require(c.push.of.empty() || c.push.of.size() == c.members.size(), "inner forces");
     require(std::ranges::all_of(c.push.loose, [&](auto m) { return m < c.members.size(); }),
             "inner forces");
-    const std::size_t nodes = c.members.size() + 1;  // the last is the frame
-    for (const Weld& weld : c.welds) {
-      const bool run =
-          weld.first <= c.contacts.size() && weld.count <= c.contacts.size() - weld.first;
-      require(run && weld.node_a < nodes && weld.node_b < nodes, "welds");
-    }
     checkWeldsOfMembers(c);
   }
 
@@ -286,10 +301,13 @@ class StateCheck {
   }
 
   void checkWelds(const Collection& c) const {
+    const std::size_t sorted = c.laid_out.sorted_welds;
+    require(sorted <= c.welds.size(), "welds");
     for (std::size_t i = 0; i < c.welds.size(); ++i) {
       const Weld& weld = c.welds[i];
       require(isBody(weld.a) && isBody(weld.b) && weld.a < weld.b, "welds");
-      require(i == 0 || std::pair(c.welds[i - 1].a, c.welds[i - 1].b) < std::pair(weld.a, weld.b),
+      const bool first = i == 0 || i >= sorted;
+      require(first || std::pair(c.welds[i - 1].a, c.welds[i - 1].b) < std::pair(weld.a, weld.b),
               "welds");
     }
   }
@@ -298,15 +316,14 @@ class StateCheck {
     require(c.certificate.size() <= 1, "proofs");
     for (const LoadCertificate& proof : c.certificate) {
       for (std::size_t i = 0; i < proof.columns.size(); ++i) {
-        require(std::ranges::binary_search(c.members, proof.columns[i]), "proofs");
+        require(isMember(c, proof.columns[i]), "proofs");
         require(i == 0 || proof.columns[i - 1] < proof.columns[i], "proofs");
       }
       const std::size_t witnesses = proof.witnesses.size();
       require(witnesses <= LoadCertificate::kMost && proof.inherited <= witnesses, "proofs");
       const NewtonIterate& newton = proof.search.newton;
       require(newton.u.size() == (newton.unknowns.empty() ? 0 : c.members.size()), "proofs");
-      require(proof.heaviest == LoadCertificate{}.heaviest ||
-                  std::ranges::binary_search(c.members, proof.heaviest),
+      require(proof.heaviest == LoadCertificate{}.heaviest || isMember(c, proof.heaviest),
               "proofs");
       const std::size_t movers = proof.search.movers.size();
       require(movers == 0 || movers == c.welds.size(), "proofs");

@@ -205,11 +205,17 @@ void fields(Ar& ar, Some<InnerPush> auto& p) {
   ar(of, loose, frame, tolerance, fastest);
 }
 template <class Ar>
+void fields(Ar& ar, Some<LaidOut> auto& l) {
+  auto& [members, sorted_welds, active_blocks, points] = l;
+  ar(members, sorted_welds, active_blocks, points);
+}
+
+template <class Ar>
 void fields(Ar& ar, Some<Collection> auto& c) {
-  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, active_blocks, points, stale,
-         welds, welds_of, joints, push, residual, settled, hits, certificate] = c;
-  ar(id, rigid, anchor, members, contacts, blocks, block_contact, active_blocks, points, stale,
-     welds, welds_of, joints, push, residual, settled, hits, certificate);
+  auto& [id, rigid, anchor, members, contacts, blocks, block_contact, laid_out, stale, welds,
+         welds_of, joints, push, residual, settled, hits, certificate] = c;
+  ar(id, rigid, anchor, members, contacts, blocks, block_contact, laid_out, stale, welds, welds_of,
+     joints, push, residual, settled, hits, certificate);
 }
 
 template <class Ar>

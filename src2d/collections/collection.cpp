@@ -7,6 +7,7 @@
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
+#include "src2d/core/sorted_tail.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/proofs/proof_transfer.h"
 
@@ -68,10 +69,15 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   }
   admitToProofs(state, target, source.members);
   addShapes(state, to, source.members);
-  const auto middle = static_cast<std::ptrdiff_t>(target.members.size());
+  reserveTightly(target.members, target.members.size() + source.members.size());
   target.members.insert(target.members.end(), source.members.begin(), source.members.end());
-  std::inplace_merge(target.members.begin(), target.members.begin() + middle, target.members.end());
-  state.extents[state[to].extent].bounds.include(placed(relative, state.extent(from).bounds));
+  if (source.members.front() < target.members.front()) {  // its name, and all places change
+    sortTail(target.members);
+    target.block_contact.clear();
+  }
+  if (state[to].floating()) {  // else a layout does
+    state.extents[state[to].extent].bounds.include(placed(relative, state.extent(from).bounds));
+  }
   state[to].resized = true;
   target.hits = united(target.hits, source.hits);
   target.stale = true;

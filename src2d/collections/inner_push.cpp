@@ -6,6 +6,7 @@
 
 #include "src2d/collections/joint_sweep.h"
 #include "src2d/collections/nodes.h"
+#include "src2d/core/memory.h"
 
 namespace merge2d {
 namespace {
@@ -83,6 +84,20 @@ void renewPush(const State& state, Collection& c, std::span<const std::uint32_t>
   std::set_union(c.push.loose.begin(), c.push.loose.end(), members.begin(), members.end(),
                  std::back_inserter(loose));
   c.push.loose = std::move(loose);
+}
+
+void extendPush(const State& state, Collection& c, std::uint32_t first) {
+  if (c.push.of.empty()) return;
+  const auto members = static_cast<std::uint32_t>(c.members.size());
+  resizeTightly(c.push.of, members);
+  const auto end = [&](std::uint32_t node) {
+    return node < members ? endOf(state, c, node) : End();
+  };
+  for (std::uint32_t i = first; i < c.blocks.size(); ++i) {
+    const Weld& weld = c.welds[c.contacts[c.block_contact[i]].weld];
+    addPush(c.blocks[i], end(weld.node_a), end(weld.node_b));
+  }
+  c.push.forgetLoose();
 }
 
 }  // namespace merge2d

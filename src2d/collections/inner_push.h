@@ -15,4 +15,8 @@ void layOutPush(const State& state, Collection& collection);
 /// then on. The welds must be listed by member; joints inside there are none.
 void renewPush(const State& state, Collection& collection, std::span<const std::uint32_t> members);
 
+/// The collection has grown by blocks from this one on, and by members: adds their push. Which
+/// members are loose is not known afterwards.
+void extendPush(const State& state, Collection& collection, std::uint32_t first);
+
 }  // namespace merge2d

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "src2d/collections/weld_list.h"
+
 namespace merge2d {
 namespace {
 
 using Pair = std::pair<BodyId, BodyId>;
-
-Pair pairOf(const Weld& weld) { return {weld.a, weld.b}; }
 
 /// Inside a collection motor and limit hold until they have yielded.
 int freedomsInside(const State& state, const JointBlock& k) {

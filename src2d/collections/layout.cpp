@@ -1,4 +1,4 @@
-/// The derived data of a collection: mass, boxes, welds and the blocks of its sweep.
+#include "src2d/collections/layout.h"
 
 #include <algorithm>
 #include <array>
@@ -11,20 +11,18 @@
 #include "src2d/collections/joint_sweep.h"
 #include "src2d/collections/joint_welds.h"
 #include "src2d/collections/nodes.h"
+#include "src2d/collections/weld_list.h"
 #include "src2d/core/memory.h"
 #include "src2d/core/regrouping.h"
+#include "src2d/core/sorted_tail.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/proofs/proof_transfer.h"
 
 namespace merge2d {
-namespace {
 
-/// A member's own box, seen in its collection's frame.
 Aabb memberBounds(const State& state, BodyId b) {
   return placed({state[b].local, state[b].local_rotation}, state.extent(rigidOf(b)).bounds);
 }
-
-}  // namespace
 
 void gatherMass(State& state, RigidId id) {
   Rigid& r = state[id];
@@ -40,7 +38,7 @@ void gatherMass(State& state, RigidId id) {
     bounds.include(memberBounds(state, b));
   }
   state.extents[r.extent].bounds = bounds;
-  const Vec2 center = origin + first / r.mass;
+  const Vec2 center = r.floating() ? Vec2(origin + first / r.mass) : Vec2(Vec2::Zero());
   r.inertia = 0.0;
   for (const BodyId b : c.members) {
     r.inertia += state[b].inertia + state[b].mass * (state[b].local - center).squaredNorm();
@@ -53,10 +51,6 @@ void gatherMass(State& state, RigidId id) {
   }
 }
 
-namespace {
-
-/// The oriented box of all members (Section 5.2). The motion of an anchored collection is never
-/// asked for, so any box will do there.
 void fitBox(State& state, RigidId id) {
   if (!state[id].floating()) {
     Extent& extent = state.extents[state[id].extent];
@@ -73,8 +67,11 @@ void fitBox(State& state, RigidId id) {
   state.extents[state[id].extent].box = tightBox(points);
 }
 
+namespace {
+
 /// Contacts of one pair of bodies in a row form a weld, and so do its joints.
 void layOutWelds(const State& state, Collection& c) {
+  sortWelds(c);
   const std::vector<Weld> old = std::exchange(c.welds, {});
   c.welds.reserve(old.size());
   for (std::uint32_t i = 0; i < c.contacts.size(); ++i) {
@@ -95,6 +92,7 @@ void layOutWelds(const State& state, Collection& c) {
     weld.node_b = nodes.of(weld.b);
   }
   tighten(c.welds);
+  c.laid_out.sorted_welds = static_cast<std::uint32_t>(c.welds.size());
   std::size_t o = 0;
   for (Weld& weld : c.welds) {
     while (o < old.size() && std::pair(old[o].a, old[o].b) < std::pair(weld.a, weld.b)) ++o;
@@ -113,6 +111,8 @@ SolverVelocity memberMasses(const State& state, const Collection& c, BodyId b) {
   }
   return u;
 }
+
+}  // namespace
 
 ContactBlock makeBlock(const State& state, const Collection& c, const InternalContact& contact) {
   const auto origin = [&](BodyId b) {
@@ -146,6 +146,8 @@ ContactBlock makeBlock(const State& state, const Collection& c, const InternalCo
   return k;
 }
 
+namespace {
+
 /// The order of an undisturbed sweep: active contacts first, by colour, so that blocks in a row
 /// share no body and need not wait for each other. Returns per block its place before.
 Regrouping orderBlocks(Collection& c) {
@@ -169,7 +171,7 @@ Regrouping orderBlocks(Collection& c) {
     colour_of.push_back(colour + (dormant ? kColours : 0));
     ++first[colour_of.back() + 1];
   }
-  c.active_blocks = std::accumulate(first.begin(), first.begin() + kColours + 1, 0u);
+  c.laid_out.active_blocks = std::accumulate(first.begin(), first.begin() + kColours + 1, 0u);
   std::partial_sum(first.begin(), first.end(), first.begin());
   reserveTightly(c.block_contact, colour_of.size());
   c.block_contact.resize(colour_of.size());
@@ -189,14 +191,14 @@ void layOutBlocks(const State& state, Collection& c) {
   reserveTightly(c.blocks, c.block_contact.size());
   regrouping.apply(c.blocks);
   tighten(c.blocks);
-  c.points = 0;
+  c.laid_out.points = 0;
   for (InternalContact& inner : c.contacts) {
     if (regrouping.from()[inner.block] == Regrouping::kNew) {
       ContactBlock& k = c.blocks[inner.block];
       k = makeBlock(state, c, inner);
       inner.count = static_cast<std::int16_t>(k.count);  // points too close to each other are one
     }
-    c.points += inner.count;
+    c.laid_out.points += inner.count;
   }
 }
 
@@ -232,33 +234,28 @@ void listWeldsOfMembers(Collection& c) {
 
 namespace {
 
-/// Those that have a block are in order since the last layout; others came in after them.
-void sortContacts(std::vector<InternalContact>& contacts) {
-  const auto byKey = [](const InternalContact& x, const InternalContact& y) {
-    return x.key < y.key;
-  };
-  auto late = contacts.end();
-  while (late != contacts.begin() && (late - 1)->block == InternalContact::kNoBlock) --late;
-  if (late == contacts.begin()) late = std::is_sorted_until(late, contacts.end(), byKey);
-  std::sort(late, contacts.end(), byKey);
-  std::inplace_merge(contacts.begin(), late, contacts.end(), byKey);
-}
-
-void layOut(State& state, Collection& c) {
-  if (!c.certificate.empty()) bringBlocksBack(state, c), writeImpulses(c);
-  sortContacts(c.contacts);
+void layOutAnew(State& state, Collection& c) {
+  sortTail(c.members);
+  sortTail(c.contacts, [](const auto& x, const auto& y) { return x.key < y.key; });
   ProofTransfer proofs(state, c);
+  proofs.noteBlocks();
   tighten(c.contacts);
   tighten(c.members);
   for (std::uint32_t i = 0; i < c.members.size(); ++i) state[rigidOf(c.members[i])].member = i;
+  c.laid_out.members = static_cast<std::uint32_t>(c.members.size());
   if (!state[c.rigid].floating()) gatherMass(state, c.rigid);
   fitBox(state, c.rigid);
-  layOutJoints(state, c);
   layOutWelds(state, c);
   layOutBlocks(state, c);
   proofs.finish();
   c.push.forget();  // made for whoever needs it next
   c.welds_of = {};
+}
+
+void layOut(State& state, Collection& c) {
+  if (!c.certificate.empty()) bringBlocksBack(state, c), writeImpulses(c);
+  layOutJoints(state, c);
+  if (!layOutGrowth(state, c)) layOutAnew(state, c);
   c.stale = false;
   c.settled = false;
 }

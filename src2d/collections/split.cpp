@@ -4,9 +4,11 @@
 
 #include "src2d/collections/collection.h"
 #include "src2d/collections/collection_method.h"
+#include "src2d/collections/weld_list.h"
 #include "src2d/contact/broadphase.h"
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
+#include "src2d/core/sorted_tail.h"
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/proofs/proof_transfer.h"
@@ -20,6 +22,7 @@ std::vector<std::vector<BodyId>> membersOfParts(const Collection& c,
                                                 std::size_t parts) {
   std::vector<std::vector<BodyId>> members(parts);
   for (std::size_t i = 0; i < c.members.size(); ++i) members[part[i]].push_back(c.members[i]);
+  for (std::vector<BodyId>& of : members) sortTail(of);
   return members;
 }
 
@@ -96,10 +99,8 @@ struct Released {
 
 /// The weld that a contact belongs to, when a test of this step found it broken, sliding or moving.
 const Weld* cutByTest(const Collection& c, const InternalContact& inner) {
-  const auto pair = [](const auto& x) { return std::pair(x.a, x.b); };
-  const auto weld = std::ranges::lower_bound(c.welds, pair(inner.key), {}, pair);
-  if (weld == c.welds.end() || pair(*weld) != pair(inner.key)) return nullptr;
-  return weld->cut && weld->reason != EventReason::User ? &*weld : nullptr;
+  const Weld* weld = findWeld(c, inner.key.a, inner.key.b);
+  return weld && weld->cut && weld->reason != EventReason::User ? weld : nullptr;
 }
 
 /// How far ahead to look for its points again: contacts of a struck body may still be open [m].
@@ -132,6 +133,7 @@ void forgetPartedWelds(const State& state, Collection& c, FrameId frame) {
         a_in != b_in && frame != kFloating && frameOf(state, a_in ? weld.b : weld.a) == frame;
     return !(a_in && b_in) && !on_frame;
   });
+  c.laid_out.sorted_welds = static_cast<std::uint32_t>(c.welds.size());
 }
 
 /// One collection that comes apart. `part` gives each member's part, `anchored` which parts stay
@@ -191,6 +193,7 @@ class Split {
   void sortContacts() {
     Collection& c = state_.collection(id_);
     if (!c.certificate.empty()) bringBlocksBack(state_, c), writeImpulses(c);
+    sortWelds(c);
     std::size_t staying = 0;
     for (InternalContact& inner : c.contacts) {
       const std::size_t p = partOf(inner.key);

@@ -213,29 +213,43 @@ struct InnerPush {
 
   void forget() {
     of.clear();
-    loose.clear();  // there may be fewer members from now on
+    forgetLoose();  // there may be fewer members from now on
+  }
+  void forgetLoose() {
+    loose.clear();
     tolerance = -1.0;
   }
+};
+
+/// Numbers of the last layout. A collection that has grown by little goes on in the layout that it
+/// had: later members, contacts, welds and blocks stand behind the others, in the order in which
+/// they joined (collections/layout.h).
+struct LaidOut {
+  std::uint32_t members = 0;        ///< all that had come in until then
+  std::uint32_t sorted_welds = 0;   ///< the first ones: ascending by pair
+  std::uint32_t active_blocks = 0;  ///< the first ones; the others carried nothing at the merge.
+                                    ///< Of the paper's rule, whose collections are always sorted
+  int points = 0;                   ///< contact points of all blocks
 };
 
 /// Bodies simulated as one (Section 4).
 struct Collection {
   CollectionId id = kNoCollection;  ///< kNoCollection: the slot is free
   RigidId rigid{};
-  BodyId anchor{};              ///< when its rigid is not floating: a body of that frame
-  std::vector<BodyId> members;  ///< ascending; pinned and scripted bodies are never members
-  std::vector<InternalContact> contacts;  ///< ascending by key
+  BodyId anchor{};  ///< when its rigid is not floating: a body of that frame
+  /// The lowest first; pinned and scripted bodies are never members.
+  std::vector<BodyId> members;
+  std::vector<InternalContact> contacts;  ///< those of a weld in a row, ascending by key
   /// One per contact, in the order of a sweep; none while nothing is sought inside
   /// (collection.h).
   std::vector<ContactBlock> blocks;
   /// Which contact a block is; empty when contacts have left since.
   std::vector<std::uint32_t> block_contact;
-  std::uint32_t active_blocks = 0;  ///< the first ones; the others carried nothing at the merge
-  int points = 0;                   ///< contact points of all blocks
-  bool stale = false;               ///< contacts changed: welds and blocks must be laid out anew
-  std::vector<Weld> welds;          ///< ascending by pair
-  IndexRuns welds_of;               ///< per member; empty until it is opened
-  std::vector<JointBlock> joints;   ///< those that act inside; λ is live here
+  LaidOut laid_out;
+  bool stale = false;              ///< contacts changed: welds and blocks must be laid out anew
+  std::vector<Weld> welds;         ///< of one pair each
+  IndexRuns welds_of;              ///< per member; empty until it is opened
+  std::vector<JointBlock> joints;  ///< those that act inside; λ is live here
   InnerPush push;
   float residual = 0.0F;  ///< largest of its rows, when last solved [m/s]
   bool settled = false;   ///< the forces inside are known

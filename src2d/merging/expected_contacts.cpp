@@ -1,8 +1,10 @@
 #include "src2d/merging/expected_contacts.h"
 
 #include <algorithm>
+#include <span>
 
 #include "src2d/collections/collection.h"
+#include "src2d/collections/weld_list.h"
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
 #include "src2d/proofs/proof_transfer.h"
@@ -36,12 +38,16 @@ bool leftOut(const State& state, BodyId a, BodyId b) {
 void addKeys(const State& state, BodyId a, BodyId b, double way, std::vector<ContactKey>& keys) {
   const Body &first = state[std::min(a, b)], &second = state[std::max(a, b)];
   const Pose seen = state.pose(std::min(a, b)).toLocal(state.pose(std::max(a, b)));
-  const auto& known = state.collection(state[a].rigid).contacts;
+  const Collection& c = state.collection(state[a].rigid);
+  const Weld* weld = findWeld(c, std::min(a, b), std::max(a, b));
+  const auto run = weld ? std::span(c.contacts).subspan(weld->first, weld->count)
+                        : std::span<const InternalContact>();
   for (std::uint32_t s = first.first_shape; s < first.first_shape + first.shape_count; ++s) {
     for (std::uint32_t t = second.first_shape; t < second.first_shape + second.shape_count; ++t) {
       const ContactKey key{std::min(a, b), std::max(a, b), s, t};
       if (!placed(seen, state.bounds(t)).grown(way).overlaps(state.bounds(s))) continue;
-      if (!std::ranges::binary_search(known, key, {}, &InternalContact::key)) keys.push_back(key);
+      const bool known = std::ranges::binary_search(run, key, {}, &InternalContact::key);
+      if (!known) keys.push_back(key);
     }
   }
 }

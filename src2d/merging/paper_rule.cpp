@@ -71,7 +71,7 @@ std::vector<SweepItem> sweepItems(State& state, Scratch& scratch) {
   inside([&](Collection& c, const Rotation& turn) {
     for (std::uint32_t i = 0; i < c.blocks.size(); ++i) {
       const bool expected = c.contacts[c.block_contact[i]].since == kExpected;
-      if (i < c.active_blocks || expected) items.emplace_back(c.blocks[i], turn);
+      if (i < c.laid_out.active_blocks || expected) items.emplace_back(c.blocks[i], turn);
     }
   });
   return items;

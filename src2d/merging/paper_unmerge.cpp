@@ -38,7 +38,7 @@ class WeldCutter {
   /// Returns whether some weld is cut.
   bool cutAll() {
     for (Weld& weld : c_.welds) weld.cut = false;
-    for (std::uint32_t b = 0; b < c_.active_blocks; ++b) askContacts(b);
+    for (std::uint32_t b = 0; b < c_.laid_out.active_blocks; ++b) askContacts(b);
     for (Weld& weld : c_.welds) {
       if (isWatched(weld)) askMotion(weld);
     }

@@ -58,6 +58,9 @@ struct DecidedSettings {
   /// would still seem at rest, at most so many steps, unless it is found to gain less by then. And
   /// a search: the memory of its rows is given back, though not at once, as loads come again.
   int past_steps = 200;
+  /// Less than one in so many is little of a collection. It keeps its layout while no more has come
+  /// in, and its proofs while no more of its members are loaded from outside.
+  std::size_t little = 8;
 };
 inline constexpr DecidedSettings kDecided;
 

@@ -13,9 +13,6 @@
 namespace merge2d {
 namespace {
 
-/// Where more than one member in so many is loaded from outside, proofs are dropped.
-constexpr std::size_t kFewest = 8;
-
 constexpr std::uint32_t kLeft = ~0u;  ///< no contact refers to the block any more
 
 }  // namespace
@@ -50,7 +47,8 @@ void releaseFromProofs(const State& state, Collection& c) {
 void admitToProofs(const State& state, Collection& c, std::span<const BodyId> bodies) {
   if (!hasProofs(c)) return;
   LoadCertificate& proof = c.certificate.front();
-  if (kFewest * (proof.columns.size() + bodies.size()) > c.members.size()) return forgetProofs(c);
+  if (kDecided.little * (proof.columns.size() + bodies.size()) > c.members.size())
+    return forgetProofs(c);
   for (const BodyId b : bodies) {
     const std::size_t column = columnOf(proof, b);
     for (Witness& witness : proof.witnesses) {
@@ -64,21 +62,22 @@ ProofTransfer::ProofTransfer(const State& state, Collection& c)
     : state_(state),
       c_(c),
       middle_(state.extent(c.rigid).box.frame.position),
-      size_(sizeOf(state, c)) {
-  if (!hasProofs(c)) return;
-  for (const InternalContact& inner : c.contacts) before_.push_back(inner.block);
+      size_(sizeOf(state, c)) {}
+
+void ProofTransfer::noteBlocks() {
+  if (!hasProofs(c_)) return;
+  before_.reserve(c_.contacts.size());
+  for (const InternalContact& inner : c_.contacts) before_.push_back(inner.block);
 }
 
 bool ProofTransfer::changedMuch() const {
-  return kFewest * c_.certificate.front().columns.size() > c_.members.size();
+  return kDecided.little * c_.certificate.front().columns.size() > c_.members.size();
 }
 
-bool ProofTransfer::survives() const {
+bool ProofTransfer::survive(std::size_t kept) const {
   if (!hasProofs(c_) || !c_.joints.empty()) return false;
   const LoadCertificate& proof = c_.certificate.front();
-  const auto kept = std::ranges::count_if(before_, [](auto block) { return block != kNew; });
-  if (proof.witnesses.front().lambda.size() != static_cast<std::size_t>(kept)) return false;
-  return proof.heaviest == heaviestOf(state_, c_);
+  return proof.witnesses.front().lambda.size() == kept && proof.heaviest == heaviestOf(state_, c_);
 }
 
 /// Those of bodies that have left, and those that are zero in all proofs.
@@ -99,8 +98,8 @@ void ProofTransfer::dropColumns() {
   for (Witness& witness : proof.witnesses) witness.outer.resize(kept);
 }
 
-/// The load of a witness seen from the new box, and its impulses in the new order.
-void ProofTransfer::express(Witness& witness, const Regrouping& blocks) const {
+/// The load of a witness seen from the new box, and the impulses of new contacts.
+void ProofTransfer::express(Witness& witness) const {
   const double size = sizeOf(state_, c_), scale = size / size_;
   const Vec2 way = state_.extent(c_.rigid).box.frame.position - middle_;
   FrameLoad& load = witness.frame;
@@ -109,8 +108,6 @@ void ProofTransfer::express(Witness& witness, const Regrouping& blocks) const {
   load[1] += along * way.y() + across * way.x();
   for (std::size_t i = 2; i < load.size(); ++i) load[i] *= scale;
   for (Twist& outer : witness.outer) outer.omega *= scale;
-  reserveTightly(witness.lambda, c_.blocks.size());
-  blocks.apply(witness.lambda);
   for (const std::uint32_t i : fresh_) witness.lambda[i] = c_.blocks[i].lambda;
 }
 
@@ -145,12 +142,16 @@ std::vector<std::uint32_t> ProofTransfer::blocksNearBy() const {
   std::ranges::sort(near);
   near.erase(std::unique(near.begin(), near.end()), near.end());
   std::vector<std::uint32_t> blocks;
-  for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) {
-    const ContactBlock& k = c_.blocks[i];
-    if (std::ranges::binary_search(near, k.a) || std::ranges::binary_search(near, k.b)) {
-      blocks.push_back(i);
+  const auto isNear = [&](BodyId b) {
+    return std::ranges::binary_search(near, static_cast<std::uint32_t>(b));
+  };
+  for (const Weld& weld : c_.welds) {
+    if (!isNear(weld.a) && !isNear(weld.b)) continue;
+    for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) {
+      blocks.push_back(c_.contacts[i].block);
     }
   }
+  std::ranges::sort(blocks);
   return blocks;
 }
 
@@ -190,20 +191,36 @@ double ProofTransfer::motionOf(const Witness& witness,
 }
 
 void ProofTransfer::finish() {
-  if (!survives()) {
-    c_.certificate.clear();
-    return;
-  }
-  LoadCertificate& proof = c_.certificate.front();
+  const auto kept = std::ranges::count_if(before_, [](auto block) { return block != kNew; });
+  if (!survive(static_cast<std::size_t>(kept))) return c_.certificate.clear();
   std::vector<std::uint32_t> from;
   from.reserve(c_.blocks.size());
   for (std::uint32_t i = 0; i < c_.blocks.size(); ++i) {
     from.push_back(before_[c_.block_contact[i]]);
     if (from.back() == kNew) fresh_.push_back(i);
   }
-  dropColumns();
   const Regrouping blocks(std::move(from));
-  for (Witness& witness : proof.witnesses) express(witness, blocks);
+  for (Witness& witness : c_.certificate.front().witnesses) {
+    reserveTightly(witness.lambda, c_.blocks.size());
+    blocks.apply(witness.lambda);
+  }
+  conclude();
+}
+
+void ProofTransfer::finishGrowth(std::uint32_t first) {
+  if (!survive(first)) return c_.certificate.clear();
+  for (std::uint32_t i = first; i < c_.blocks.size(); ++i) fresh_.push_back(i);
+  for (Witness& witness : c_.certificate.front().witnesses) {
+    resizeTightly(witness.lambda, c_.blocks.size());
+  }
+  conclude();
+}
+
+/// Which proofs still are, once their impulses are in the new order.
+void ProofTransfer::conclude() {
+  LoadCertificate& proof = c_.certificate.front();
+  dropColumns();
+  for (Witness& witness : proof.witnesses) express(witness);
   holdNewContacts();
   const std::vector<std::uint32_t> near_by = blocksNearBy();
   for (Witness& witness : proof.witnesses) witness.motion = motionOf(witness, near_by);

@@ -19,19 +19,24 @@ void admitToProofs(const State& state, Collection& collection, std::span<const B
 /// Carries the proofs of a collection over to its new layout, or drops them where much has changed.
 class ProofTransfer {
  public:
-  /// Before the layout, with the contacts in order.
+  /// Before the layout.
   ProofTransfer(const State& state, Collection& collection);
-  /// Afterwards.
+  /// Likewise, where it is made anew, with the contacts in order.
+  void noteBlocks();
+  /// After a new layout.
   void finish();
+  /// After one that went on: blocks from this one on are new.
+  void finishGrowth(std::uint32_t first);
 
  private:
   static constexpr std::uint32_t kNew = Regrouping::kNew;
 
-  bool survives() const;
+  bool survive(std::size_t kept) const;
   bool changedMuch() const;
   void dropColumns();
-  void express(Witness& witness, const Regrouping& blocks) const;
+  void express(Witness& witness) const;
   void holdNewContacts();
+  void conclude();
   std::vector<std::uint32_t> blocksNearBy() const;
   double motionOf(const Witness& witness, const std::vector<std::uint32_t>& blocks) const;
 

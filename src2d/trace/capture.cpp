@@ -125,6 +125,7 @@ CollectionView view(const State& state, const Collection& c) {
   CollectionView seen;
   seen.id = c.id;
   seen.bodies = c.members;
+  std::ranges::sort(seen.bodies);
   seen.anchored = !r.floating();
   seen.anchor = c.anchor;
   for (const BodyId b : c.members) {
@@ -291,7 +292,7 @@ void countBodies(const State& state, Scratch& scratch) {
       stats.collections += 1;
       stats.asleep += r.asleep ? members : 0;
       stats.active_bodies += r.asleep ? 0 : 1;
-      stats.internal_contacts += r.asleep ? 0 : c.points;
+      stats.internal_contacts += r.asleep ? 0 : c.laid_out.points;
     }
   }
 }
