@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src2d/core/error.h"
+#include "src2d/proofs/proof_columns.h"
 #include "src2d/scene/range.h"
 
 namespace merge2d {
@@ -151,7 +152,7 @@ class StateCheck {
       checkFrame(c);
       checkInner(c);
       checkWelds(c);
-      const bool goes_on = !c.certificate.empty() && !c.block_contact.empty();
+      const bool goes_on = hasProofs(c) && !c.block_contact.empty() && c.laid_out.members > 0;
       if (!c.stale || goes_on) checkPlaces(c);
       if (!c.stale) checkLayout(c), checkProofs(c);  // else both are made anew
     }

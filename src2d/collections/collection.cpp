@@ -73,7 +73,7 @@ void absorbMembers(State& state, RigidId to, RigidId from) {
   target.members.insert(target.members.end(), source.members.begin(), source.members.end());
   if (source.members.front() < target.members.front()) {  // its name, and all places change
     sortTail(target.members);
-    target.block_contact.clear();
+    target.laid_out.members = 0;
   }
   if (state[to].floating()) {  // else a layout does
     state.extents[state[to].extent].bounds.include(placed(relative, state.extent(from).bounds));

@@ -120,6 +120,7 @@ void Growth::addBlocks() {
 
 bool layOutGrowth(State& state, Collection& c) {
   if (!hasProofs(c) || !isLarge(state, c) || !c.joints.empty()) return false;
+  if (c.laid_out.members == 0) return false;
   Growth growth(state, c);
   if (!growth.isLittle()) return false;
   growth.layOut();

@@ -225,7 +225,7 @@ struct InnerPush {
 /// had: later members, contacts, welds and blocks stand behind the others, in the order in which
 /// they joined (collections/layout.h).
 struct LaidOut {
-  std::uint32_t members = 0;        ///< all that had come in until then
+  std::uint32_t members = 0;        ///< all that had come in until then; 0: their places change
   std::uint32_t sorted_welds = 0;   ///< the first ones: ascending by pair
   std::uint32_t active_blocks = 0;  ///< the first ones; the others carried nothing at the merge.
                                     ///< Of the paper's rule, whose collections are always sorted

@@ -148,6 +148,44 @@ TEST_P(Growth, KeepsThePushOfTheImpulsesInside) {
   EXPECT_GT(compared, 2);
 }
 
+/// The lowest member names a collection, so all places change where one with a lower number joins:
+/// also while the blocks are put away.
+TEST_P(Growth, AMemberWithALowerNumberComesFirst) {
+  World world = start();
+  int compared = 0;
+  for (double time = 8.0; time < 12.0; time += 0.5) {
+    while (world.time() < time) world.step();
+    merge2d::Setup setup;
+    setUp(world.scene(), Mode::Merge, setup);
+    restoreState(world.save(), "world", world.scene(), setup);
+    State& state = setup.state;
+    const RigidId id = Both::largest(setup).rigid;
+    const BodyId first = state.collection(id).members.front();
+    std::vector<std::uint32_t> part(state.collection(id).members.size(), 0);
+    part.front() = 1;
+    splitCollection(state, id, part, {1, 0});
+    layOutCollections(state);
+    if (!hasProofs(state.collection(id))) continue;
+    putBlocksAway(state.collection(id));
+    const std::vector<InternalContact> before = state.collection(id).contacts;
+    mergeRigids(state, id, rigidOf(first));
+    EXPECT_EQ(state.firstBody(id), first);
+    absorbContacts(state);
+    layOutCollections(state);
+    const Collection& c = state.collection(id);
+    EXPECT_EQ(c.members.front(), first);
+    EXPECT_TRUE(std::ranges::is_sorted(c.members));
+    EXPECT_EQ(c.certificate.size(), 1u) << "the proofs are carried over";
+    for (const InternalContact& inner : before) {
+      const auto now = std::ranges::find(c.contacts, inner.key, &InternalContact::key);
+      ASSERT_NE(now, c.contacts.end());
+      EXPECT_EQ(c.blocks[now->block].lambda, inner.impulses());
+    }
+    ++compared;
+  }
+  EXPECT_GT(compared, 2);
+}
+
 TEST_P(Growth, GoesOnTheSameFromAnyStep) {
   World world = start();
   int grown = 0;
