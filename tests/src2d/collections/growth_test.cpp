@@ -110,10 +110,11 @@ TEST_P(Growth, IsALayoutOfTheWholeInAnotherOrder) {
   EXPECT_GT(compared, 10);
 }
 
-/// The push that a growth adds to is the one that a pass over all blocks gives.
-TEST_P(Growth, KeepsThePushOfTheImpulsesInside) {
-  World world = start();
-  int compared = 0;
+/// At some instants: takes a member out of the largest collection, and calls `visit(state, id,
+/// member)` where proofs are left. `choose(collection)` says which. Returns how often.
+template <class Choose, class Visit>
+int forEachTakenOut(World world, Choose&& choose, Visit&& visit) {
+  int visited = 0;
   for (double time = 8.0; time < 12.0; time += 0.5) {
     while (world.time() < time) world.step();
     merge2d::Setup setup;
@@ -121,17 +122,32 @@ TEST_P(Growth, KeepsThePushOfTheImpulsesInside) {
     restoreState(world.save(), "world", world.scene(), setup);
     State& state = setup.state;
     const RigidId id = Both::largest(setup).rigid;
-    const BodyId last = state.collection(id).members.back();
+    const BodyId member = choose(state.collection(id));
     std::vector<std::uint32_t> part(state.collection(id).members.size(), 0);
-    part.back() = 1;
+    part[state[rigidOf(member)].member] = 1;
     splitCollection(state, id, part, {1, 0});
     layOutCollections(state);
-    ASSERT_FALSE(hasGrown(state.collection(id)));
+    EXPECT_FALSE(hasGrown(state.collection(id)));
     if (!hasProofs(state.collection(id))) continue;
+    visit(state, id, member);
+    ++visited;
+  }
+  return visited;
+}
+
+void joinAgain(State& state, RigidId id, BodyId member) {
+  mergeRigids(state, id, rigidOf(member));
+  EXPECT_EQ(state.firstBody(id), std::ranges::min(state.collection(id).members));
+  absorbContacts(state);
+  layOutCollections(state);
+}
+
+/// The push that a growth adds to is the one that a pass over all blocks gives.
+TEST_P(Growth, KeepsThePushOfTheImpulsesInside) {
+  const auto last = [](const Collection& c) { return c.members.back(); };
+  const int compared = forEachTakenOut(start(), last, [](State& state, RigidId id, BodyId member) {
     layOutPush(state, state.collection(id));
-    mergeRigids(state, id, rigidOf(last));
-    absorbContacts(state);
-    layOutCollections(state);
+    joinAgain(state, id, member);
     Collection& c = state.collection(id);
     ASSERT_TRUE(hasGrown(c));
     const std::vector<Twist> kept = c.push.of;
@@ -143,37 +159,20 @@ TEST_P(Growth, KeepsThePushOfTheImpulsesInside) {
       EXPECT_EQ(kept[m].vy, c.push.of[m].vy) << m;
       EXPECT_EQ(kept[m].omega, c.push.of[m].omega) << m;
     }
-    ++compared;
-  }
+  });
   EXPECT_GT(compared, 2);
 }
 
 /// The lowest member names a collection, so all places change where one with a lower number joins:
 /// also while the blocks are put away.
 TEST_P(Growth, AMemberWithALowerNumberComesFirst) {
-  World world = start();
-  int compared = 0;
-  for (double time = 8.0; time < 12.0; time += 0.5) {
-    while (world.time() < time) world.step();
-    merge2d::Setup setup;
-    setUp(world.scene(), Mode::Merge, setup);
-    restoreState(world.save(), "world", world.scene(), setup);
-    State& state = setup.state;
-    const RigidId id = Both::largest(setup).rigid;
-    const BodyId first = state.collection(id).members.front();
-    std::vector<std::uint32_t> part(state.collection(id).members.size(), 0);
-    part.front() = 1;
-    splitCollection(state, id, part, {1, 0});
-    layOutCollections(state);
-    if (!hasProofs(state.collection(id))) continue;
+  const auto first = [](const Collection& c) { return c.members.front(); };
+  const int compared = forEachTakenOut(start(), first, [](State& state, RigidId id, BodyId member) {
     putBlocksAway(state.collection(id));
     const std::vector<InternalContact> before = state.collection(id).contacts;
-    mergeRigids(state, id, rigidOf(first));
-    EXPECT_EQ(state.firstBody(id), first);
-    absorbContacts(state);
-    layOutCollections(state);
+    joinAgain(state, id, member);
     const Collection& c = state.collection(id);
-    EXPECT_EQ(c.members.front(), first);
+    EXPECT_EQ(c.members.front(), member);
     EXPECT_TRUE(std::ranges::is_sorted(c.members));
     EXPECT_EQ(c.certificate.size(), 1u) << "the proofs are carried over";
     for (const InternalContact& inner : before) {
@@ -181,8 +180,7 @@ TEST_P(Growth, AMemberWithALowerNumberComesFirst) {
       ASSERT_NE(now, c.contacts.end());
       EXPECT_EQ(c.blocks[now->block].lambda, inner.impulses());
     }
-    ++compared;
-  }
+  });
   EXPECT_GT(compared, 2);
 }
 
