@@ -111,14 +111,12 @@ void recordWeld(const Scratch& scratch, const Weld& weld, const Criterion& test)
       record(test, "Unmerge", weld.a, weld.b, verdict, {.count = test.holds ? 0 : 1}));
 }
 
-/// The bodies of some weld move against each other, at their corners, by more than `noise`: a beam
+/// The bodies of a weld move against each other, at their corners, by more than `noise`: a beam
 /// that begins to tip about its pivot hardly moves there.
-bool turns(const Collection& c, const WeldMotions& motions, double noise) {
-  return std::ranges::any_of(c.welds, [&](const Weld& weld) {
-    const double limit = motions.limitOf(weld);
-    const WeldMotion motion = motions.of(weld, limit);
-    return !weld.expected && motion.most > limit && motion.least > noise;
-  });
+bool turns(const Weld& weld, const WeldMotions& motions, double noise) {
+  const double limit = motions.limitOf(weld);
+  const WeldMotion motion = motions.of(weld, limit);
+  return !weld.expected && motion.most > limit && motion.least > noise;
 }
 
 /// Cuts the welds whose bodies move. Motion slower than the residual may be an error of the solve.
@@ -128,9 +126,12 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRe
                const ProofSearch& search) {
   const WeldMotions motions(state, c, scratch.sweeps.front().trial_u);
   const double residual = c.hits.blow == state.step ? 0.0 : c.residual;
-  const bool moves = !search.isUnderWay() || turns(c, motions, residual / kDecided.tolerance);
+  const std::vector<std::uint32_t> welds = weldsAt(c, region.members);
+  const bool moves = !search.isUnderWay() || std::ranges::any_of(welds, [&](std::uint32_t i) {
+    return turns(c.welds[i], motions, residual / kDecided.tolerance);
+  });
   bool any = false;
-  for (const std::uint32_t i : weldsAt(c, region.members)) {
+  for (const std::uint32_t i : welds) {
     Weld& weld = c.welds[i];
     weld.cut = false;
     weld.motion = 0.0F;
@@ -292,7 +293,9 @@ bool restsIn(const State& state, Scratch& scratch, const SweepTools& tools, Coll
   const auto sure = [&] { return c.residual / kDecided.tolerance; };
   if (fastestContact(memory, c) > std::max(cutSpeed(state), sure())) return false;
   const WeldMotions motions(state, c, memory.trial_u);
-  const auto turnsBy = [&](double noise) { return turns(c, motions, noise); };
+  const auto turnsBy = [&](double noise) {
+    return std::ranges::any_of(c.welds, [&](const Weld& w) { return turns(w, motions, noise); });
+  };
   if (c.residual > tolerance || !turnsBy(c.residual)) return true;
   continueSearch(state, scratch, tools, c, kDecided.tolerance * tolerance);
   return !turnsBy(sure());

@@ -156,6 +156,27 @@ TEST(StateFile, AWallThatLosesBricksIsTakenOverInAnyStep) {
   EXPECT_GT(left, 20);
 }
 
+/// One that counts as large swings, and boxes fall on it, also while impulses are sought inside.
+TEST(StateFile, AWallOnWhichBoxesFallGoesOnTheSameFromAnyStep) {
+  Scene scene = wallOnSwingingPlatform(8, 10, 0.08, 5.0);
+  scene.settings.solver.iterations = 100;
+  for (int i = 0; i < 24; ++i) {
+    BodyDesc drop = box(0.3, 0.2, {-3.0 + 1.3 * (i % 5) + 0.01 * i, 9.5});
+    drop.pinned_until = 0.35 * i;
+    add(scene, drop);
+  }
+  World world = start(scene, Mode::Merge);
+  World resumed = start(scene, Mode::Merge);
+  for (int step = 1; step <= 800; ++step) {
+    const std::string bytes = world.save();
+    world.step();
+    if (step % 2 == 0) resumed = start(scene, Mode::Merge);
+    resumed.restore(bytes, "test");
+    resumed.step();
+    ASSERT_TRUE(resumed.save() == world.save()) << step;
+  }
+}
+
 TEST(StateFile, GoingBackLeavesNothingOfTheStepsAfter) {
   const Scene scene = parseScene(kMixed, "mixed.toml");
   World world = start(scene, Mode::MergeSleep);
