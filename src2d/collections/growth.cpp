@@ -42,7 +42,7 @@ class Growth {
 bool Growth::isLittle() {
   const std::size_t sorted = c_.laid_out.sorted_welds;
   const std::size_t behind = c_.welds.size() - sorted + c_.contacts.size() - contacts_;
-  if (kDecided.little * behind > sorted) return false;
+  if (!isSmallPart(behind, sorted)) return false;
   for (std::uint32_t m = members_; m < c_.members.size(); ++m) {
     state_[rigidOf(c_.members[m])].member = m;
   }

@@ -178,9 +178,10 @@ struct OuterLoad {
 
 /// Why the forces inside a collection are sought in this step.
 enum class Doubt : std::uint8_t {
-  None,    ///< its proofs cover the load
-  Search,  ///< a proof is being sought for a load that was not covered
-  Open,    ///< they do not cover it, or something hits it
+  None,     ///< its proofs cover the load
+  Search,   ///< a proof is being sought for a load that was not covered
+  Reached,  ///< a hit on something free may reach it: the solve of the step tells
+  Open,     ///< they do not cover it, or something hits it
 };
 
 /// The part of an open collection whose members the full solve takes on their own

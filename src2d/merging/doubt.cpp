@@ -13,6 +13,7 @@
 #include "src2d/relaxation/open_solve.h"
 #include "src2d/relaxation/passed_load.h"
 #include "src2d/relaxation/proof_search.h"
+#include "src2d/relaxation/reached_collection.h"
 
 namespace merge2d {
 namespace {
@@ -74,8 +75,6 @@ Criterion isCalm(const State& state, const Collection& c) {
 
 /// Proofs are needed whatever the load: none is known yet, or contacts or forces have changed.
 constexpr Criterion kInDoubt{"in-doubt", kOwnDecided, 1.0, 0.0, false};
-/// Something that it touches was hit.
-constexpr Criterion kNeighbourHit{"neighbour-hit", kOwnDecided, 1.0, 0.0, false};
 /// A frame that moves drags at it.
 constexpr Criterion kDragged{"dragged", kOwnDecided, 1.0, 0.0, false};
 
@@ -168,7 +167,6 @@ void findDoubts(State& state, Scratch& scratch) {
   scratch.regions.clear();  // some are left where an error ended the last step
   scratch.open.clear();
   openWhatFramesDrag(state, scratch);
-  bool any = false;
   for (Collection& c : state.collections) {
     if (!isSwept(state, c)) continue;
     openCertificate(state, c);
@@ -181,9 +179,10 @@ void findDoubts(State& state, Scratch& scratch) {
       c.certificate.front().search = {};  // whose load lacks the drag of the frame
       recordFinding(state, scratch, c, {doubt, kDragged, "open"});
     }
-    any |= doubt != Doubt::None;
     if (doubt == Doubt::None && isLongQuiet(state, c)) putBlocksAway(c);
   }
+  noteReached(state, scratch);
+  const bool any = std::ranges::any_of(scratch.doubts, [](Doubt d) { return d != Doubt::None; });
   scratch.sweeping = any;
   if (!any) return;
   scratch.last_doubt = state.step;
@@ -194,7 +193,8 @@ void findDoubts(State& state, Scratch& scratch) {
     recordFinding(state, scratch, state.collections[slot], {Doubt::Open, kNeighbourHit, "open"});
   }
   for (Collection& c : state.collections) {
-    if (doubtAbout(state, scratch, c) == Doubt::None) continue;
+    const Doubt doubt = doubtAbout(state, scratch, c);
+    if (doubt != Doubt::Search && doubt != Doubt::Open) continue;
     bringBlocksBack(state, c);
     writeImpulses(c);
     c.certificate.front().last_doubt = state.step;

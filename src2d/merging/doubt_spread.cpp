@@ -1,6 +1,9 @@
 #include "src2d/merging/doubt_spread.h"
 
+#include <algorithm>
+
 #include "src2d/collections/collection.h"
+#include "src2d/merging/disturbance.h"
 #include "src2d/proofs/decided_settings.h"
 
 namespace merge2d {
@@ -41,6 +44,37 @@ void spreadHits(State& state, Scratch& scratch) {
     if (!isSwept(state, state.collections[i]) || !hit[sets.find(i)]) continue;
     scratch.doubts[i] = Doubt::Open;
     if (met[sets.find(i)]) lengthen(state.collections[i].hits, state.step);
+  }
+}
+
+void noteReached(const State& state, Scratch& scratch) {
+  const auto moves = [&](BodyId b) {
+    const Rigid& r = state.rigid(b);
+    return !r.asleep && (r.floating() || state.isCollection(state[b].rigid));
+  };
+  const auto isFree = [&](BodyId b) { return moves(b) && !state.isCollection(state[b].rigid); };
+  const auto at = [&](BodyId b) { return static_cast<std::uint32_t>(state[b].rigid); };
+  std::vector<std::uint32_t> hit;
+  for (const Meeting& m : scratch.meetings) {
+    if (m.speed <= impactSpeed(state)) continue;
+    const BodyPair& pair = scratch.pairs[m.pair];
+    for (const BodyId b : {pair.a, pair.b}) {
+      if (isFree(b)) hit.push_back(at(b));
+    }
+  }
+  if (hit.empty()) return;
+  auto& sets = scratch.sets;
+  sets.reset(state.rigids.size());
+  for (const BodyPair& pair : scratch.pairs) {
+    if (moves(pair.a) && moves(pair.b)) sets.unite(at(pair.a), at(pair.b));
+  }
+  std::vector<std::uint8_t> reached(state.rigids.size(), 0);
+  for (const std::uint32_t id : hit) reached[sets.find(id)] = 1;
+  for (const Collection& c : state.collections) {
+    if (!isSwept(state, c) || state[c.rigid].floating()) continue;
+    Doubt& doubt = scratch.doubts[state.collections.slotOf(c)];
+    const bool is_reached = reached[sets.find(static_cast<std::uint32_t>(c.rigid))] != 0;
+    if (is_reached && doubt == Doubt::None) doubt = Doubt::Reached;
   }
 }
 

@@ -8,6 +8,11 @@ namespace merge2d {
 /// A hit passes through all collections that touch each other.
 void spreadHits(State& state, Scratch& scratch);
 
+/// A hit on something free may reach a collection on a frame, through others as well: the solve of
+/// the step tells (reached_collection.h). One that floats takes the blow as one body, and its own
+/// load is asked in the next step.
+void noteReached(const State& state, Scratch& scratch);
+
 /// Between two things that are fixed to different frames the full solve has no row, and no load
 /// tells how one drags at the other: where a frame moves, it is asked with the members on their
 /// own.

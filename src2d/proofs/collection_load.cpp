@@ -187,19 +187,20 @@ Twist velocityAt(const State& state, const Collection& c, const FrameLoad& load,
           load[1] + along * arm.y() + across * arm.x(), load[4] / size};
 }
 
+Twist memberGain(const State& state, const Collection& c, const CollectionLoad& load,
+                 const OuterLoad& outer) {
+  const Twist u = velocityAt(state, c, load.frame, state[c.members[outer.member]].local);
+  const Twist gain = gainOf(state, c, load, outer);
+  return {u.vx + gain.vx, u.vy + gain.vy, u.omega + gain.omega / load.size};
+}
+
 void loadMembers(const State& state, const Collection& c, const CollectionLoad& load,
                  std::vector<Twist>& out) {
   out.resize(c.members.size());
   for (std::uint32_t m = 0; m < out.size(); ++m) {
     out[m] = velocityAt(state, c, load.frame, state[c.members[m]].local);
   }
-  for (const OuterLoad& o : load.outer) {
-    const Twist gain = gainOf(state, c, load, o);
-    Twist& u = out[o.member];
-    u.vx += gain.vx;
-    u.vy += gain.vy;
-    u.omega += gain.omega / load.size;
-  }
+  for (const OuterLoad& o : load.outer) out[o.member] = memberGain(state, c, load, o);
 }
 
 }  // namespace merge2d

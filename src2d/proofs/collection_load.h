@@ -37,6 +37,11 @@ Twist gainOf(const State& state, const Collection& c, const CollectionLoad& load
 /// The velocity that the motion of the frame gives a member at a place in the frame.
 Twist velocityAt(const State& state, const Collection& c, const FrameLoad& load, const Vec2& local);
 
+/// The velocity that the frame's motion and an outer load give the member of that load, in the
+/// collection's frame.
+Twist memberGain(const State& state, const Collection& c, const CollectionLoad& load,
+                 const OuterLoad& outer);
+
 /// The velocities that a load gives all members, in the collection's frame, before contacts and
 /// joints inside act: momentum and angular momentum of a floating collection are zero.
 void loadMembers(const State& state, const Collection& c, const CollectionLoad& load,

@@ -47,8 +47,7 @@ void releaseFromProofs(const State& state, Collection& c) {
 void admitToProofs(const State& state, Collection& c, std::span<const BodyId> bodies) {
   if (!hasProofs(c)) return;
   LoadCertificate& proof = c.certificate.front();
-  if (kDecided.little * (proof.columns.size() + bodies.size()) > c.members.size())
-    return forgetProofs(c);
+  if (!isSmallPart(proof.columns.size() + bodies.size(), c.members.size())) return forgetProofs(c);
   for (const BodyId b : bodies) {
     const std::size_t column = columnOf(proof, b);
     for (Witness& witness : proof.witnesses) {
@@ -71,7 +70,7 @@ void ProofTransfer::noteBlocks() {
 }
 
 bool ProofTransfer::changedMuch() const {
-  return kDecided.little * c_.certificate.front().columns.size() > c_.members.size();
+  return !isSmallPart(c_.certificate.front().columns.size(), c_.members.size());
 }
 
 bool ProofTransfer::survive(std::size_t kept) const {

@@ -36,13 +36,9 @@ Twist Imbalance::ofFrame(std::uint32_t member) const {
 }
 
 Twist Imbalance::of(std::uint32_t member) const {
-  Twist u = ofFrame(member);
   const auto outer = std::ranges::lower_bound(load_.outer, member, {}, &OuterLoad::member);
-  if (outer != load_.outer.end() && outer->member == member) {
-    const Twist gain = gainOf(state_, c_, load_, *outer);
-    u = {u.vx + gain.vx, u.vy + gain.vy, u.omega + gain.omega / load_.size};
-  }
-  return leftOver(c_, member, u);
+  const bool acted_on = outer != load_.outer.end() && outer->member == member;
+  return leftOver(c_, member, acted_on ? memberGain(state_, c_, load_, *outer) : ofFrame(member));
 }
 
 std::vector<MemberLoad> Imbalance::loose() const {

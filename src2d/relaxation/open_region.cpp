@@ -122,17 +122,13 @@ SolverVelocity solvedVelocity(const State& state, const Scratch& scratch, BodyId
 
 void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
   region.slot = static_cast<std::uint32_t>(state.collections.slotOf(c));
-  region.whole = !opensInPart(state, c) || wasSearched(c);
-  if (region.whole) {
-    readImpulses(c, c.certificate.front().search.load);
-    for (std::uint32_t m = 0; m < c.members.size(); ++m) addMember(state, scratch, region, m);
-    return;
-  }
+  if (!opensInPart(state, c) || wasSearched(c)) return addAll(state, scratch, region);
   addOwn(state, scratch, c, region);
   addUnbalanced(state, scratch, c, region);
 }
 
 void listRegion(State& state, Scratch& scratch, OpenRegion& region) {
+  if (region.members.empty()) return;
   Collection& c = state.collections[region.slot];
   std::ranges::sort(region.members);
   for (const std::uint32_t m : region.members) scratch.open_members.push_back(c.members[m]);
@@ -157,7 +153,11 @@ bool widen(State& state, Scratch& scratch, OpenRegion& region) {
   const std::size_t first = region.members.size();
   for (const std::uint32_t m : behind) addIfOutside(state, scratch, region, m);
   if (!behind.empty()) addAround(state, scratch, region, first);
-  if (!region.whole) addDisturbed(state, scratch, c, region);
+  if (!region.whole) {
+    for (const std::uint32_t m : findDisturbed(state, scratch, c, region.passes)) {
+      addMember(state, scratch, region, m);
+    }
+  }
   return region.members.size() > first;
 }
 

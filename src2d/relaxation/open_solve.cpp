@@ -8,6 +8,7 @@
 #include "src2d/dynamics/solver.h"
 #include "src2d/proofs/collection_load.h"
 #include "src2d/relaxation/open_region.h"
+#include "src2d/relaxation/reached_collection.h"
 #include "src2d/relaxation/region_members.h"
 #include "src2d/relaxation/relaxation.h"
 
@@ -21,10 +22,18 @@ void open(State& state, Scratch& scratch) {
   scratch.open.assign(state.bodies.size(), 0);
   scratch.open_start.resize(state.bodies.size());
   for (Collection& c : state.collections) {
-    if (doubtAbout(state, scratch, c) != Doubt::Open) continue;
-    listWeldsOfMembers(c);
-    beginRegion(state, scratch, c, scratch.regions.emplace_back());
-    scratch.opened.push_back(c.rigid);
+    switch (doubtAbout(state, scratch, c)) {
+      case Doubt::None:
+      case Doubt::Search:
+        break;
+      case Doubt::Reached:
+        beginReached(state, scratch, c, scratch.regions.emplace_back());
+        break;
+      case Doubt::Open:
+        listWeldsOfMembers(c);
+        beginRegion(state, scratch, c, scratch.regions.emplace_back());
+        scratch.opened.push_back(c.rigid);
+    }
   }
 }
 
@@ -77,6 +86,9 @@ Doubt doubtAbout(const State& state, const Scratch& scratch, const Collection& c
 
 void solveOpened(State& state, Scratch& scratch) {
   open(state, scratch);
+  const auto isClosed = [&](const OpenRegion& region) {
+    return scratch.doubts[region.slot] == Doubt::Reached;
+  };
   scratch.last_sweep = state.step;
   for (bool wider = true; wider;) {
     listRegions(state, scratch);
@@ -84,8 +96,12 @@ void solveOpened(State& state, Scratch& scratch) {
     solveContacts(state, scratch);
     listOuterLoads(state, scratch);
     wider = false;
-    for (OpenRegion& region : scratch.regions) wider |= widen(state, scratch, region);
+    for (OpenRegion& region : scratch.regions) {
+      wider |=
+          isClosed(region) ? openReached(state, scratch, region) : widen(state, scratch, region);
+    }
   }
+  std::erase_if(scratch.regions, isClosed);
   scratch.solved = true;
   showVelocities(state, scratch);
   for (OpenRegion& region : scratch.regions) {

@@ -75,24 +75,24 @@ void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& re
   for (const MemberLoad& one : unbalanced) addIfOutside(state, scratch, region, one.member);
 }
 
-void addDisturbed(State& state, Scratch& scratch, Collection& c, OpenRegion& region) {
+std::vector<std::uint32_t> findDisturbed(const State& state, const Scratch& scratch, Collection& c,
+                                         bool passes) {
   const CollectionLoad load = loadOn(state, scratch, c);
   LoadPath path(state, scratch, c);
+  std::vector<std::uint32_t> disturbed;
   for (const OuterLoad& outer : relievedLoads(state, scratch, c, load)) {
     const std::uint32_t m = outer.member;
     if (isInside(scratch, c, m)) continue;
-    Twist u = velocityAt(state, c, load.frame, state[c.members[m]].local);
-    const Twist gain = gainOf(state, c, load, outer);
-    u = {u.vx + gain.vx, u.vy + gain.vy, u.omega + gain.omega / load.size};
-    const MemberLoad one{m, leftOver(c, m, u)};
+    const MemberLoad one{m, leftOver(c, m, memberGain(state, c, load, outer))};
     if (!isFast(state, c, m, one.gain)) continue;
-    if (region.passes && findPath(state, c, one, path)) {
+    if (passes && findPath(state, c, one, path)) {
       path.apply(c);
     } else {
-      addMember(state, scratch, region, m);
+      disturbed.push_back(m);
     }
   }
   path.restore(c);  // a hit is no load that lasts
+  return disturbed;
 }
 
 }  // namespace merge2d

@@ -2,6 +2,8 @@
 /// Which members of a collection a load may move, so that they must be on their own in an open
 /// region.
 
+#include <vector>
+
 #include "src2d/dynamics/state.h"
 #include "src2d/relaxation/imbalance.h"
 
@@ -17,9 +19,10 @@ Twist slowPartOf(const State& state, const Collection& c, const Imbalance& imbal
 /// must be listed.
 void addUnbalanced(State& state, Scratch& scratch, Collection& c, OpenRegion& region);
 
-/// After the solve: the members that something outside pushes by more than the impulses inside and,
-/// in a hit, contacts on the way to the frame can carry. The loads from outside must be listed
-/// again.
-void addDisturbed(State& state, Scratch& scratch, Collection& c, OpenRegion& region);
+/// After the solve: the members outside the region that something outside the collection pushes by
+/// more than the impulses inside and, where the hit `passes`, contacts on the way to the frame can
+/// carry. The loads from outside must be listed again.
+std::vector<std::uint32_t> findDisturbed(const State& state, const Scratch& scratch, Collection& c,
+                                         bool passes);
 
 }  // namespace merge2d

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "src2d/proofs/decided_settings.h"
+#include "src2d/proofs/proof_impulses.h"
 
 namespace merge2d {
 
@@ -35,6 +36,13 @@ void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t
   scratch.open[index(b)] = 1;
   scratch.open_start[index(b)] = startOf(state, c, b);
   region.members.push_back(member);
+}
+
+void addAll(State& state, Scratch& scratch, OpenRegion& region) {
+  Collection& c = state.collections[region.slot];
+  region.whole = true;
+  readImpulses(c, c.certificate.front().search.load);
+  for (std::uint32_t m = 0; m < c.members.size(); ++m) addMember(state, scratch, region, m);
 }
 
 Twist startOf(const State& state, const Collection& c, BodyId member) {

@@ -38,4 +38,7 @@ bool isInside(const Scratch& scratch, const Collection& c, std::uint32_t node);
 void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member);
 void addIfOutside(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member);
 
+/// All members, as a whole region; the load that is sought keeps the impulses before.
+void addAll(State& state, Scratch& scratch, OpenRegion& region);
+
 }  // namespace merge2d

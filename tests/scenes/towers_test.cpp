@@ -22,26 +22,42 @@ TEST(TowerPlatform, SwingsAsOneBodyUntilTheBallHitsIt) {
   EXPECT_LT((foot() - before).norm(), 0.1) << "it was not hit";
 }
 
-TEST(TowerPlatform, WhatIsLeftMergesAgainWhileItSwings) {
-  SceneRun run("tower-platform");
+/// The bodies that ride on the platform of a tower that was hit: before, at the fewest, and later.
+struct Riding {
+  std::ptrdiff_t all = 0, fewest = 0, later = 0;
+};
+
+Riding afterABallOf(const std::string& mass) {
+  SceneRun run("tower-platform", Mode::Merge, {{"body.ball.mass", mass}});
   run.until(5.9);
   const auto riding = [&] {
     return std::ranges::count_if(run.now().bodies, [&](const BodyState& b) {
       return b.collection != kNoCollection && b.collection == run.body("platform").collection;
     });
   };
-  const auto all = riding();
-  EXPECT_EQ(all, 325) << "platform and bricks";
-  auto fewest = all;
+  Riding found;
+  found.all = found.fewest = riding();
   while (run.world().time() < 12.0) {
     run.steps(5);
-    fewest = std::min(fewest, riding());
+    found.fewest = std::min(found.fewest, riding());
   }
-  EXPECT_LT(fewest, all - 30) << "the blow frees what it hits";
   run.until(20.0);
-  EXPECT_GT(riding(), fewest);
-  EXPECT_GT(riding(), 150);
+  found.later = riding();
   EXPECT_FALSE(run.body("platform").asleep) << "it swings";
+  return found;
+}
+
+/// Which bricks fall is chaotic: three balls, of which that of the scene is one.
+TEST(TowerPlatform, WhatIsLeftMergesAgainWhileItSwings) {
+  std::ptrdiff_t later = 0;
+  for (const char* mass : {"24", "25", "26"}) {
+    const Riding found = afterABallOf(mass);
+    EXPECT_EQ(found.all, 325) << "platform and bricks";
+    EXPECT_LT(found.fewest, found.all - 30) << "the blow frees what it hits";
+    EXPECT_GT(found.later, found.fewest);
+    later += found.later;
+  }
+  EXPECT_GT(later / 3, 150);
 }
 
 /// A ball that hits the tower, in one mode.

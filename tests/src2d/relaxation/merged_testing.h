@@ -36,7 +36,7 @@ class Merged {
     }
     throw std::logic_error("nothing has merged");
   }
-  const Scratch& scratch() const { return scratch_; }
+  Scratch& scratch() { return scratch_; }
   std::uint32_t last() { return static_cast<std::uint32_t>(collection().members.size()) - 1; }
   LoadPath path() { return {state(), scratch_, collection()}; }
   void open(std::uint32_t member) { scratch_.open[index(collection().members[member])] = 1; }
