@@ -14,7 +14,7 @@
 namespace merge2d {
 namespace {
 
-/// The members that cannot pass on what the solve has put on them.
+/// The members that cannot pass on the loads that the solve has put on them.
 std::vector<std::uint32_t> overloadedMembers(State& state, const Scratch& scratch, Collection& c) {
   if (coverageOf(state, c, loadOn(state, scratch, c)).carried.holds) return {};
   bringBlocksBack(state, c);
