@@ -24,14 +24,12 @@ struct DecidedSettings {
   /// a weld with friction 0.6 one of 5 mm/s. Without, rain on a wall of 5,000 takes six times as
   /// long.
   double slip_in_hit = 2.124e-6;
-  /// The part that is small [1].
-  /// A search has converged where the largest row residual is below this part of the cut speed.
+  /// A search has converged where the largest row residual is below this part of the cut speed [1].
   /// A weld must also move by more than the residual at the box where it moves least: a long body
   /// beside a short one makes much of the rotation that a residual leaves (ship-crane). While a
   /// search goes on that has found no motion yet, the residual must be below this part of the
   /// motion of some weld: where it need only be smaller, a wall on a swinging platform loses
-  /// bricks. And a collection keeps its layout while no larger part of it has come in, and its
-  /// proofs while no larger part of its members is loaded from outside (isSmallPart).
+  /// bricks.
   double tolerance = 0.1;
   /// Row sweeps per step, and at most so many sweeps: a search goes on in the next step. However
   /// many rows there are, it may take as many sweeps as the full solve.
@@ -60,13 +58,14 @@ struct DecidedSettings {
   /// would still seem at rest, at most so many steps, unless it is found to gain less by then. And
   /// a search: the memory of its rows is given back, though not at once, as loads come again.
   int past_steps = 200;
+  /// One in so many is a small part of a collection: it keeps its layout while no larger part of it
+  /// has come in, and its proofs while no larger part of its members is loaded from outside.
+  std::size_t little = 8;
 };
 inline constexpr DecidedSettings kDecided;
 
 /// So many are a small part of a collection.
-inline bool isSmallPart(std::size_t part, std::size_t of) {
-  return static_cast<double>(part) <= kDecided.tolerance * static_cast<double>(of);
-}
+inline bool isSmallPart(std::size_t part, std::size_t of) { return kDecided.little * part <= of; }
 
 /// Steps from a hit or an impulse on in which a collection is open: as many as a pair must be quiet
 /// for before it merges.
