@@ -225,15 +225,16 @@ TEST(DecidedUnmerge, UnderThePapersRuleTheFrictionBelowASwingingWallIsWrong) {
 }
 
 TEST(LongDecidedUnmerge, TheFrictionBelowASwingingWallOf5000IsThatOfItsMotion) {
-  const FrictionError square = frictionBelow(71, 71);
-  EXPECT_LE(square.at_most, 0.03);
-  EXPECT_LE(square.of_amplitude, 0.03);
-  // A search ends with residuals of 5 µm/s in each row, of the 4 mm/s that the platform gains in a
-  // step. Over 100 rows they add up to as much as 6 % in the mean: measured 4.5 % in a quarter of
-  // the period, and 2.0 % in the amplitude.
-  const FrictionError tower = frictionBelow(100, 50);
-  EXPECT_LE(tower.at_most, 0.05);
-  EXPECT_LE(tower.of_amplitude, 0.03);
+  EXPECT_LE(frictionBelow(71, 71).of_amplitude, 0.03);
+  EXPECT_LE(frictionBelow(100, 50).of_amplitude, 0.03);
+}
+
+/// Also between the extremes. A search ends with residuals of 5 µm/s in each row, of the 4 mm/s
+/// that the platform gains in a step: over 100 rows they add up to as much as 6 % in the mean.
+/// While one goes on, the friction is that of the last load that was carried.
+TEST(LongDecidedUnmerge, TheFrictionBelowASwingingWallOf5000IsNeverFarOff) {
+  EXPECT_LE(frictionBelow(71, 71).at_most, 0.03);
+  EXPECT_LE(frictionBelow(100, 50).at_most, 0.05);
 }
 
 TEST(DecidedUnmerge, SaysWhichMotionItDecidedFromAndCitesItsPage) {
