@@ -287,8 +287,8 @@ bool hasJointsOutside(const State& state, const Collection& c) {
 }
 
 /// Whether nothing moves in a search. What may turn is looked at more closely, for one step more.
-bool restsIn(const State& state, Scratch& scratch, const SweepTools& tools, Collection& c) {
-  const SweepMemory& memory = tools.memory;
+bool restsIn(const State& state, const SearchTools& tools, Collection& c) {
+  const SweepMemory& memory = tools.sweeps.memory;
   const double tolerance = toleratedResidual(state);
   const auto sure = [&] { return c.residual / kDecided.tolerance; };
   if (fastestContact(memory, c) > std::max(cutSpeed(state), sure())) return false;
@@ -297,7 +297,7 @@ bool restsIn(const State& state, Scratch& scratch, const SweepTools& tools, Coll
     return std::ranges::any_of(c.welds, [&](const Weld& w) { return turns(w, motions, noise); });
   };
   if (c.residual > tolerance || !turnsBy(c.residual)) return true;
-  continueSearch(state, scratch, tools, c, kDecided.tolerance * tolerance);
+  continueSearch(state, tools, c, kDecided.tolerance * tolerance);
   return !turnsBy(sure());
 }
 
@@ -307,11 +307,11 @@ Criterion movesNowhere(const State& state, const SweepMemory& memory, const Coll
 }
 
 /// The record of a search for the load of a step, with its step; none of one that looks ahead.
-void recordSearch(const State& state, const Scratch& scratch, const Collection& c,
-                  const ProofSearch& search, const Criterion& test, std::string_view verdict) {
-  if (!scratch.notes || search.ahead) return;
+void recordSearch(const State& state, Notes* notes, const Collection& c, const ProofSearch& search,
+                  const Criterion& test, std::string_view verdict) {
+  if (!notes || search.ahead) return;
   const BodyId first = state.firstBody(c.rigid);
-  scratch.notes->decisions.push_back(
+  notes->decisions.push_back(
       record(test, "SingleIterationPGS", first, first, verdict, {.count = search.steps}));
 }
 
@@ -335,14 +335,14 @@ bool overloadsJoints(State& state, const Collection& c) {
   return anyJointBreaks(state, c);
 }
 
-bool endSearch(State& state, Scratch& scratch, const SweepTools& tools, Collection& c) {
-  const SweepMemory& memory = tools.memory;
+bool endSearch(State& state, const SearchTools& tools, Collection& c) {
+  const SweepMemory& memory = tools.sweeps.memory;
   LoadCertificate& proof = c.certificate.front();
   if (proof.search.isSuspended()) return true;
-  const bool rests = restsIn(state, scratch, tools, c);
+  const bool rests = restsIn(state, tools, c);
   const Criterion converged = hasConverged(state, c);
   if (rests && !converged.holds) {
-    recordSearch(state, scratch, c, proof.search, converged, "search");
+    recordSearch(state, tools.notes, c, proof.search, converged, "search");
     c.settled = proof.search.ahead;
     return true;  // it goes on
   }
@@ -357,10 +357,10 @@ bool endSearch(State& state, Scratch& scratch, const SweepTools& tools, Collecti
   readImpulses(c, search.load);
   c.settled = rests && !overloadsJoints(state, c);
   if (c.settled) {
-    recordSearch(state, scratch, c, search, converged, "carried");
-  } else if (scratch.notes) {
+    recordSearch(state, tools.notes, c, search, converged, "carried");
+  } else if (tools.notes) {
     const Criterion why = rests ? kOverloaded : movesNowhere(state, memory, c);
-    recordSearch(state, scratch, c, search, why, "open");
+    recordSearch(state, tools.notes, c, search, why, "open");
   }
   if (rests) prove(state, c, std::move(search.load));
   return c.settled;

@@ -6,12 +6,13 @@
 
 #include "src2d/collections/parts.h"
 #include "src2d/dynamics/state.h"
+#include "src2d/relaxation/proof_search.h"
 
 namespace merge2d {
 
-/// After a step of a search, with the velocities that it left in `tools.memory`: where it has
-/// converged, keeps its proof. False where it has found motion, or a joint that bears too much.
-bool endSearch(State& state, Scratch& scratch, const SweepTools& tools, Collection& collection);
+/// After a step of a search, with the velocities that it left in `trial_u`: where it has converged,
+/// keeps its proof. False where it has found motion, or a joint that bears too much.
+bool endSearch(State& state, const SearchTools& tools, Collection& collection);
 
 /// Some joint inside bears too much with the impulses of the collection's blocks, which it takes
 /// over.

@@ -30,10 +30,11 @@ void countStep(ProofSearch& search) {
 }
 
 /// Goes on with the search inside a collection.
-void goOnWithSearch(State& state, Scratch& scratch, const SweepTools& tools, Collection& c) {
-  continueSearch(state, scratch, tools, c, toleratedResidual(state));
+void goOnWithSearch(State& state, Scratch& scratch, const SweepTools& sweeps, Collection& c) {
+  const SearchTools tools = searchToolsOf(scratch, sweeps, c);
+  continueSearch(state, tools, c, toleratedResidual(state));
   countStep(c.certificate.front().search);
-  if (endSearch(state, scratch, tools, c)) return;
+  if (endSearch(state, tools, c)) return;
   scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
 }
 

@@ -59,8 +59,8 @@ void startMembers(const State& state, std::vector<SolverVelocity>& u, Collection
 }
 
 /// False where the solve goes on in the next step: it may spend as many rows as sweeps may.
-bool solveDirectly(const State& state, Scratch& scratch, std::vector<SolverVelocity>& u,
-                   Collection& c) {
+bool solveDirectly(const State& state, const SearchTools& tools, Collection& c) {
+  std::vector<SolverVelocity>& u = tools.sweeps.memory.trial_u;
   c.push.forget();
   startMembers(state, u, c, false);
   std::vector<std::uint32_t> bodies;
@@ -70,7 +70,7 @@ bool solveDirectly(const State& state, Scratch& scratch, std::vector<SolverVeloc
   search.nncg.previous = 0.0;
   const double most = kDecided.row_sweeps / static_cast<double>(c.blocks.size() + c.joints.size());
   return continueByNewton(c.blocks, c.joints, bodies, u, toleratedResidual(state), search.newton,
-                          std::max(1, static_cast<int>(most)), scratch.newton.at(c.id));
+                          std::max(1, static_cast<int>(most)), *tools.newton);
 }
 
 }  // namespace
@@ -110,16 +110,20 @@ void makeRoom(const State& state, Scratch& scratch, const Collection& c) {
   if (isDirect(state, search) || search.isSuspended()) scratch.newton.try_emplace(c.id);
 }
 
-void continueSearch(const State& state, Scratch& scratch, const SweepTools& tools, Collection& c,
-                    double tolerance) {
+SearchTools searchToolsOf(Scratch& scratch, const SweepTools& sweeps, const Collection& c) {
+  const auto newton = scratch.newton.find(c.id);
+  return {sweeps, newton == scratch.newton.end() ? nullptr : &newton->second, scratch.notes};
+}
+
+void continueSearch(const State& state, const SearchTools& tools, Collection& c, double tolerance) {
   ProofSearch& search = c.certificate.front().search;
+  const SweepTools& sweeps = tools.sweeps;
   if (search.ahead) swapImpulses(c, search.load);
   const bool begins = isDirect(state, search) && c.residual > toleratedResidual(state);
-  if ((begins || search.isSuspended()) && !solveDirectly(state, scratch, tools.memory.trial_u, c))
-    return;
-  startMembers(state, tools.memory.trial_u, c, true);
+  if ((begins || search.isSuspended()) && !solveDirectly(state, tools, c)) return;
+  startMembers(state, sweeps.memory.trial_u, c, true);
   const auto budget = SweepBudget::ofSearch(state, c.blocks.size(), search.steps);
-  c.residual = static_cast<float>(relax(state, tools, c, tolerance, budget, &search));
+  c.residual = static_cast<float>(relax(state, sweeps, c, tolerance, budget, &search));
   if (search.ahead) swapImpulses(c, search.load);
 }
 

@@ -26,14 +26,23 @@ void renewLoad(const State& state, Collection& collection, const CollectionLoad&
 /// is fixed, as its rows follow from those of the others.
 void beginSearchAhead(const State& state, Collection& collection, Witness&& load, double way);
 
+/// Memory and records of a search: several threads may go on with searches in different
+/// collections.
+struct SearchTools {
+  SweepTools sweeps;
+  NewtonWorkspace* newton = nullptr;  ///< of a direct solve; none where none is due
+  Notes* notes = nullptr;             ///< none where no records are made
+};
+
 /// Where a direct solve keeps its matrix, if the search is to go on with one.
 void makeRoom(const State& state, Scratch& scratch, const Collection& collection);
+SearchTools searchToolsOf(Scratch& scratch, const SweepTools& sweeps, const Collection& collection);
 
 /// Goes on with a search, for one step at most or until its residual is below `tolerance` [m/s];
-/// leaves the members' velocities in `tools.memory.trial_u` and the largest residual of a row in
-/// Collection::residual. Several threads may go on with searches in different collections.
-void continueSearch(const State& state, Scratch& scratch, const SweepTools& tools,
-                    Collection& collection, double tolerance);
+/// leaves the members' velocities in `trial_u` of the memory of sweeps and the largest residual of
+/// a row in Collection::residual.
+void continueSearch(const State& state, const SearchTools& tools, Collection& collection,
+                    double tolerance);
 
 /// How fast the members move at the contacts with the velocities in `memory.trial_u` [m/s];
 /// infinite where one is no number.
