@@ -59,9 +59,10 @@ bool isLoose(const State& state, const Contact& contact, std::uint32_t shape) {
 
 /// Contacts that touch something with hidden sides, by the shape that touches; only those of shapes
 /// that touch two such things, where one of the contacts bears nothing yet.
-void listSeams(const State& state, std::vector<SeamContact>& seams) {
+void listSeams(const State& state, Scratch& scratch) {
   enum : std::uint8_t { kLoose = 1, kOne = 2, kTwo = 4 };
-  thread_local std::vector<std::uint8_t> found;  // per shape; between two calls all 0
+  std::vector<SeamContact>& seams = scratch.seams;
+  std::vector<std::uint8_t>& found = scratch.touchers;
   found.resize(std::max(found.size(), state.shape_body.size()), 0);
   seams.clear();
   const auto& order = state.contacts.order;
@@ -253,7 +254,7 @@ bool isHiddenByAny(const State& state, const Scratch& scratch, std::span<const S
 
 void dropHiddenSides(State& state, Scratch& scratch) {
   std::vector<SeamContact>& seams = scratch.seams;
-  listSeams(state, seams);
+  listSeams(state, scratch);
   for (auto first = seams.begin(); first != seams.end();) {
     const auto last = std::find_if(
         first, seams.end(), [&](const SeamContact& s) { return s.toucher != first->toucher; });

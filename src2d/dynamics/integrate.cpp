@@ -112,7 +112,7 @@ double farthestMove(const State& state, const Scratch& scratch) {
 }  // namespace
 
 void advancePositions(State& state, Scratch& scratch) {
-  thread_local std::vector<StoppedTurn> stopped;  // its memory is kept
+  std::vector<StoppedTurn> stopped;
   findStoppedTurns(state, scratch, stopped);
   state.moved = farthestMove(state, scratch);
   const auto& present = state.present.ids();

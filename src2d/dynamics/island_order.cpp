@@ -33,8 +33,8 @@ void sortBlocks(Scratch& scratch) {
     std::ranges::sort(order);
     return;
   }
-  thread_local std::vector<BlockOrder> by_colour;  // its memory serves all worlds of the thread
-  std::array<std::uint32_t, 65> place{};           // of the next block of each colour
+  auto& by_colour = scratch.by_colour;
+  std::array<std::uint32_t, 65> place{};  // of the next block of each colour
   for (const BlockOrder& block : order) ++place[block.colour() + 1];
   std::partial_sum(place.begin(), place.end(), place.begin());
   by_colour.resize(order.size());

@@ -10,11 +10,6 @@ bool moves(const Scratch& scratch, std::uint32_t rigid) { return scratch.u[rigid
 /// Turning by less in a step, nothing bends to speak of; by more, where it goes is a guess [rad].
 constexpr double kStraight = 1e-6, kTooFast = 0.5;
 
-/// How stiffly joints pull a rigid thing back that turns or moves [N m, N/m].
-struct TautLink {
-  double turning = 0.0, moving = 0.0;
-};
-
 /// The force on b, where it acts, and how stiff a rod under tension is across itself [N/m].
 struct JointPull {
   Vec2 at = Vec2::Zero(), force = Vec2::Zero();
@@ -143,7 +138,7 @@ void uniteJoints(const State& state, Scratch& scratch) {
 }
 
 void slowTautLinks(const State& state, Scratch& scratch) {
-  thread_local std::vector<TautLink> taut;  // per rigid; its memory is kept
+  std::vector<TautLink>& taut = scratch.taut_links;
   taut.assign(state.rigids.size(), {});
   for (const Joint& joint : state.joints) {
     if (!holds(state, joint) || isHidden(state, scratch, joint)) continue;

@@ -209,6 +209,17 @@ struct FoundByTask {
   std::vector<std::pair<std::uint32_t, Contact>> touching;  ///< with the index of the idle pair
 };
 
+/// The forces on a rigid thing beside gravity.
+struct Ties {
+  bool held = false;    ///< forces that are found by iteration: of contacts or joints
+  bool loaded = false;  ///< loads
+};
+
+/// How stiffly joints pull a rigid thing back that turns or moves [N m, N/m].
+struct TautLink {
+  double turning = 0.0, moving = 0.0;
+};
+
 /// Memory of a thread that solves islands, or the rows inside collections, one after the other.
 struct SweepMemory {
   NncgBuffers nncg;
@@ -246,7 +257,8 @@ struct Scratch {
   std::vector<double> ahead;       ///< per contact in order, where several threads follow them [m]
   std::vector<FoundByTask> found;  ///< per task
   std::vector<SeamContact> seams;
-  std::vector<Cast> casts;                          ///< ascending by key
+  std::vector<std::uint8_t> touchers;  ///< per shape, where seams are listed; else all 0
+  std::vector<Cast> casts;             ///< ascending by key
   std::vector<ActionOrder> kick_order, load_order;  ///< ascending; loads only where one is asked
   std::vector<NearPair> near_candidates;
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
@@ -293,6 +305,9 @@ struct Scratch {
   bool split = false;                              ///< some collection was taken apart
   std::vector<std::uint32_t> overloaded_joints;    ///< break after the full solve
 
+  // AccumulateRelativeMotion
+  std::vector<Ties> ties;  ///< per rigid that is present
+
   // Merge
   std::vector<ReadyPair> ready;  ///< ascending by bodies
 
@@ -308,7 +323,9 @@ struct Scratch {
   std::vector<JointOrder> joint_order;
   std::vector<JointBlock> joint_blocks;  ///< by island
   JointMemory joint_memory;
+  std::vector<TautLink> taut_links;  ///< per rigid
   std::vector<BlockOrder> block_order;
+  std::vector<BlockOrder> by_colour;        ///< as an intermediate order
   std::vector<std::uint32_t> island_roots;  ///< ascending
   std::vector<HitWay> hit_ways;
   /// Per thread, the caller's first (thread_memory.h).

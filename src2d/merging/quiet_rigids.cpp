@@ -11,15 +11,9 @@
 namespace merge2d {
 namespace {
 
-/// The forces on a rigid thing beside gravity.
-struct Ties {
-  bool held = false;    ///< forces that are found by iteration: of contacts or joints
-  bool loaded = false;  ///< loads
-};
-
 /// Per rigid thing that is present.
-const std::vector<Ties>& listTies(const State& state, const Scratch& scratch) {
-  thread_local std::vector<Ties> ties;  // its memory is kept
+const std::vector<Ties>& listTies(const State& state, Scratch& scratch) {
+  std::vector<Ties>& ties = scratch.ties;
   resizeTightly(ties, state.rigids.size());
   for (const RigidId id : state.present) ties[index(id)] = {};
   const auto tie = [&](BodyId b) -> Ties& { return ties[index(state[b].rigid)]; };

@@ -40,7 +40,7 @@ std::size_t bytesOfState(const State& s) {
       bytesOfBroadphase(s.broadphase);
   for (const Collection& c : s.collections.all()) {
     total += bytesOf(c.members, c.contacts, c.blocks, c.block_contact, c.welds, c.welds_of.numbers,
-                     c.joints, c.push.of, c.push.loose) +
+                     c.joints, c.push.of, c.push.unbalanced) +
              bytesOfProofs(c);
   }
   return total;
@@ -60,14 +60,15 @@ std::size_t bytesOfSweeps(const Scratch& s) {
 
 std::size_t bytesOfScratch(const Scratch& s) {
   return bytesOf(s.loads, s.kicks, s.springs, s.stretches, s.spring_gain, s.pairs, s.events,
-                 s.moved, s.moved_flag, s.candidates, s.touching, s.seams, s.casts, s.kick_order,
-                 s.load_order, s.near_candidates, s.near_refined, s.paired_with, s.meetings,
-                 s.seeds, s.stirred, s.restless, s.island_awake) +
+                 s.moved, s.moved_flag, s.candidates, s.touching, s.seams, s.touchers, s.casts,
+                 s.kick_order, s.load_order, s.near_candidates, s.near_refined, s.paired_with,
+                 s.meetings, s.seeds, s.stirred, s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.outer_loads,
                  s.load_place, s.doubts, s.regions, s.open_members, s.open_rows, s.open_start,
-                 s.open, s.swept, s.opened, s.overloaded_joints, s.ready) +
+                 s.open, s.swept, s.opened, s.overloaded_joints, s.ready, s.ties) +
          bytesOf(s.u, s.blocks, s.row_sources, s.islands, s.island_bodies, s.island_of, s.colours,
-                 s.joint_order, s.joint_blocks, s.block_order, s.hit_ways) +
+                 s.joint_order, s.joint_blocks, s.taut_links, s.block_order, s.by_colour,
+                 s.hit_ways) +
          bytesOfSweeps(s) + s.sets.memoryBytes() +
          bytesOf(s.ahead, s.found, s.island_changes, s.island_roots);
 }
