@@ -284,7 +284,7 @@ class StateCheck {
     const int points = c.laid_out.points;
     require(points >= 0 && static_cast<std::size_t>(points) <= 2 * c.contacts.size(), "blocks");
     require(c.push.of.empty() || c.push.of.size() == c.members.size(), "inner forces");
-    require(std::ranges::all_of(c.push.loose, [&](auto m) { return m < c.members.size(); }),
+    require(std::ranges::all_of(c.push.unbalanced, [&](auto m) { return m < c.members.size(); }),
             "inner forces");
     checkWeldsOfMembers(c);
   }

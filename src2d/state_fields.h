@@ -201,8 +201,8 @@ void fields(Ar& ar, Some<HitRun> auto& run) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<InnerPush> auto& p) {
-  auto& [of, loose, frame, tolerance, fastest] = p;
-  ar(of, loose, frame, tolerance, fastest);
+  auto& [of, unbalanced, frame, tolerance, fastest] = p;
+  ar(of, unbalanced, frame, tolerance, fastest);
 }
 template <class Ar>
 void fields(Ar& ar, Some<LaidOut> auto& l) {

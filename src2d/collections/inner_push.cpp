@@ -80,10 +80,10 @@ void renewPush(const State& state, Collection& c, std::span<const std::uint32_t>
       addPush(k, k.a == body ? own : End(), k.b == body ? own : End());
     }
   }
-  std::vector<std::uint32_t> loose;
-  std::set_union(c.push.loose.begin(), c.push.loose.end(), members.begin(), members.end(),
-                 std::back_inserter(loose));
-  c.push.loose = std::move(loose);
+  std::vector<std::uint32_t> unbalanced;
+  std::set_union(c.push.unbalanced.begin(), c.push.unbalanced.end(), members.begin(), members.end(),
+                 std::back_inserter(unbalanced));
+  c.push.unbalanced = std::move(unbalanced);
 }
 
 void extendPush(const State& state, Collection& c, std::uint32_t first) {
@@ -97,7 +97,7 @@ void extendPush(const State& state, Collection& c, std::uint32_t first) {
     const Weld& weld = c.welds[c.contacts[c.block_contact[i]].weld];
     addPush(c.blocks[i], end(weld.node_a), end(weld.node_b));
   }
-  c.push.forgetLoose();
+  c.push.forgetUnbalanced();
 }
 
 }  // namespace merge2d

@@ -201,22 +201,23 @@ struct HitRun {
 };
 
 /// The velocities that the impulses inside give the members. A writer of impulses that last calls
-/// `forget`, or `renewPush` for a few members (inner_push.h).
+/// `forget`, or `renewPush` for a few members (inner_push.h); one that puts them back in the same
+/// step need not.
 struct InnerPush {
   std::vector<Twist> of;  ///< per member, in the frame; empty: to be laid out anew
   /// Members that are faster than `tolerance` under the push and this motion of the frame, and
   /// perhaps some that are not; ascending.
-  std::vector<std::uint32_t> loose;
+  std::vector<std::uint32_t> unbalanced;
   FrameLoad frame{};
   double tolerance = -1.0;  ///< negative: they are not listed [m/s]
   double fastest = 0.0;     ///< of the others [m/s]
 
   void forget() {
     of.clear();
-    forgetLoose();  // there may be fewer members from now on
+    forgetUnbalanced();  // there may be fewer members from now on
   }
-  void forgetLoose() {
-    loose.clear();
+  void forgetUnbalanced() {
+    unbalanced.clear();
     tolerance = -1.0;
   }
 };

@@ -19,12 +19,12 @@ void Imbalance::look() {
   InnerPush& push = c_.push;
   push.frame = load_.frame;
   push.tolerance = toleratedResidual(state_);
-  push.loose.clear();
+  push.unbalanced.clear();
   push.fastest = 0.0;
   for (std::uint32_t m = 0; m < c_.members.size(); ++m) {
     const double speed = cornerSpeed(state_, c_, m, leftOver(c_, m, ofFrame(m)));
     if (speed > push.tolerance) {
-      push.loose.push_back(m);
+      push.unbalanced.push_back(m);
     } else {
       push.fastest = std::max(push.fastest, speed);
     }
@@ -41,11 +41,11 @@ Twist Imbalance::of(std::uint32_t member) const {
   return leftOver(c_, member, acted_on ? memberGain(state_, c_, load_, *outer) : ofFrame(member));
 }
 
-std::vector<MemberLoad> Imbalance::loose() const {
+std::vector<MemberLoad> Imbalance::unbalanced() const {
   std::vector<std::uint32_t> acted_on, members;
   for (const OuterLoad& outer : load_.outer) acted_on.push_back(outer.member);
-  std::set_union(c_.push.loose.begin(), c_.push.loose.end(), acted_on.begin(), acted_on.end(),
-                 std::back_inserter(members));
+  std::set_union(c_.push.unbalanced.begin(), c_.push.unbalanced.end(), acted_on.begin(),
+                 acted_on.end(), std::back_inserter(members));
   std::vector<MemberLoad> loads;
   for (const std::uint32_t m : members) loads.push_back({m, of(m)});
   return loads;

@@ -26,7 +26,7 @@ class Imbalance {
 
   /// The members of which a corner may move faster than the tolerated residual, with these
   /// velocities; ascending.
-  std::vector<MemberLoad> loose() const;
+  std::vector<MemberLoad> unbalanced() const;
 
   /// No other member moves faster [m/s].
   double fastestOfOthers() const { return c_.push.fastest; }

@@ -26,7 +26,7 @@ Remainder remainderOf(const State& state, Collection& c, const CollectionLoad& l
                       double tolerance) {
   const Imbalance imbalance(state, c, load);
   Remainder rest{{}, imbalance.fastestOfOthers()};
-  for (const MemberLoad& one : imbalance.loose()) {
+  for (const MemberLoad& one : imbalance.unbalanced()) {
     const double speed = cornerSpeed(state, c, one.member, one.gain);
     if (speed > tolerance) {
       rest.loads.push_back(one);

@@ -27,7 +27,7 @@ bool findPath(const State& state, const Collection& c, const MemberLoad& one, Lo
 
 std::vector<MemberLoad> findUnbalanced(const State& state, Collection& c,
                                        const CollectionLoad& load) {
-  std::vector<MemberLoad> found = Imbalance(state, c, load).loose();
+  std::vector<MemberLoad> found = Imbalance(state, c, load).unbalanced();
   std::erase_if(found,
                 [&](const MemberLoad& one) { return !isFast(state, c, one.member, one.gain); });
   return found;

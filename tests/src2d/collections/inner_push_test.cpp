@@ -41,7 +41,7 @@ TEST(InnerPush, IsTheSameWhereItIsRenewedMemberByMember) {
   const std::vector<Twist> whole = c.push.of;
   renewPush(merged.state(), c, allMembers(c));
   expectSame(c.push.of, whole);
-  EXPECT_EQ(c.push.loose, allMembers(c));
+  EXPECT_EQ(c.push.unbalanced, allMembers(c));
 }
 
 TEST(InnerPush, IsLaidOutAnewOnceItIsForgotten) {

@@ -29,7 +29,7 @@ std::vector<std::uint32_t> movedBy(Merged& merged, const CollectionLoad& load) {
 
 std::vector<std::uint32_t> fastOf(Merged& merged, const Collection& c, const Imbalance& imbalance) {
   std::vector<std::uint32_t> fast;
-  for (const MemberLoad& one : imbalance.loose()) {
+  for (const MemberLoad& one : imbalance.unbalanced()) {
     const double speed = cornerSpeed(merged.state(), c, one.member, one.gain);
     if (speed > cutSpeed(merged.state())) fast.push_back(one.member);
   }
