@@ -108,10 +108,10 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
       }
     }
   }
-  std::sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
+  std::stable_sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
     const auto key = [](const ContactView& c) {
-      // Two points may lie in one place: then the rest tells them apart, so that no sorting
-      // algorithm has a choice.
+      // Two points may lie in one place: then the rest tells them apart, or, where that is the sign
+      // of a zero, their order in the state. No sorting algorithm has a choice.
       return std::tuple(c.a, c.b, c.feature, c.x.x(), c.x.y(), c.lambda_n, c.lambda_t, c.gap, c.w_n,
                         c.w_t, c.normal.x(), c.normal.y(), c.internal, c.fresh);
     };
