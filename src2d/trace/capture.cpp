@@ -1,7 +1,9 @@
 #include "src2d/trace/capture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace merge2d {
 namespace {
@@ -108,12 +110,14 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
       }
     }
   }
-  std::stable_sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
-    const auto key = [](const ContactView& c) {
-      // Two points may lie in one place: then the rest tells them apart, or, where that is the sign
-      // of a zero, their order in the state. No sorting algorithm has a choice.
-      return std::tuple(c.a, c.b, c.feature, c.x.x(), c.x.y(), c.lambda_n, c.lambda_t, c.gap, c.w_n,
-                        c.w_t, c.normal.x(), c.normal.y(), c.internal, c.fresh);
+  std::sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
+    // Two points may lie in one place: then the rest tells them apart, −0 and 0 as well, so that no
+    // sorting algorithm has a choice.
+    const auto of = [](double number) { return std::pair(number, !std::signbit(number)); };
+    const auto key = [&](const ContactView& c) {
+      return std::tuple(c.a, c.b, c.feature, of(c.x.x()), of(c.x.y()), of(c.lambda_n),
+                        of(c.lambda_t), of(c.gap), of(c.w_n), of(c.w_t), of(c.normal.x()),
+                        of(c.normal.y()), c.internal, c.fresh);
     };
     return key(x) < key(y);
   });
