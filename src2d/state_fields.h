@@ -76,7 +76,7 @@ void fields(Ar& ar, Some<ContactPoint> auto& p) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<Contact> auto& c) {
-  auto& [key, normal, count, quiet_steps, parting, borne, points] = c;
+  auto& [key, normal, count, quiet_steps, parting, borne, points, faces] = c;  // sought anew
   ar(key, normal, count, quiet_steps, parting, borne, points);
 }
 template <class Ar>

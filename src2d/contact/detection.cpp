@@ -1,6 +1,8 @@
 #include "src2d/contact/detection.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "src2d/contact/approach.h"
 #include "src2d/contact/broadphase.h"
@@ -45,10 +47,9 @@ void loseTouch(Contact& contact) {
 }
 
 /// Hands on what is remembered of a point, or marks it as new. `inv_mass` is the larger of the two.
-void inherit(ContactPoint& point, const Contact& old, double inv_mass) {
+void inherit(ContactPoint& point, std::span<const ContactPoint> old, double inv_mass) {
   constexpr double kRounding = 1e-9;  // m/s: the body came as near as this in its last free step
-  for (int j = 0; j < old.count; ++j) {
-    const ContactPoint& before = old.points[static_cast<std::size_t>(j)];
+  for (const ContactPoint& before : old) {
     if (before.feature != point.feature) continue;
     point.breath = static_cast<float>(point.gap - before.gap);
     point.lambda_n = before.lambda_n;
@@ -197,9 +198,10 @@ void updateManifold(const State& state, Contact& contact, double ahead) {
   if (boxDistance(state, contact.key, b_in_a) > margin) return loseTouch(contact);
   const Collider& a = state.collider(contact.key.shape_a);
   const Collider& b = state.collider(contact.key.shape_b);
-  Manifold manifold = collide(a, b, b_in_a, margin);
+  Manifold manifold = collide(a, b, b_in_a, margin, &contact.faces);
   if (isHeldAtOneEnd(state, contact.key, manifold)) manifold = collide(a, b, b_in_a, kWholeFace);
-  const Contact old = contact;
+  const std::array<ContactPoint, 2> points = contact.points;
+  const std::span old(points.data(), static_cast<std::size_t>(contact.count));
   const double inv_mass =
       std::max(state.rigid(contact.key.a).inv_mass, state.rigid(contact.key.b).inv_mass);
   contact.count = static_cast<std::int16_t>(manifold.count);

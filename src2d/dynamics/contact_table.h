@@ -10,6 +10,7 @@
 #include "src2d/core/vec.h"
 #include "src2d/dynamics/parked.h"
 #include "src2d/dynamics/rigid.h"
+#include "src2d/geometry/collide.h"
 
 namespace merge2d {
 
@@ -53,6 +54,7 @@ struct Contact {
   std::array<float, 2> borne{};  ///< its impulse in the last step, along normal and tangent [N s]
   /// Of a single point, the second's lambda_t holds the impulse against rolling (contact_block.h).
   std::array<ContactPoint, 2> points;
+  FaceMemory faces;  ///< no result depends on it
 };
 
 /// Two shapes near each other that do not touch: all that is kept of most pairs of a heap.

@@ -4,8 +4,12 @@
 
 namespace merge2d {
 
-Manifold collide(const Collider& a, const Collider& b, const Pose& b_in_a, double margin) {
-  if (!a.isCircle() && !b.isCircle()) return collidePolygons(a, b, b_in_a, margin);
+Manifold collide(const Collider& a, const Collider& b, const Pose& b_in_a, double margin,
+                 FaceMemory* memory) {
+  if (!a.isCircle() && !b.isCircle()) {
+    FaceMemory none;
+    return collidePolygons(a, b, b_in_a, margin, memory ? *memory : none);
+  }
   if (!a.isCircle())
     return collidePolygonAndDisc(a, b_in_a.exactly(b.origin()), b.radius(), margin);
   if (b.isCircle()) {

@@ -7,7 +7,8 @@
 
 namespace merge2d {
 
-Manifold collidePolygons(const Collider& a, const Collider& b, const Pose& b_in_a, double margin);
+Manifold collidePolygons(const Collider& a, const Collider& b, const Pose& b_in_a, double margin,
+                         FaceMemory& memory);
 
 /// A polygon and a disc whose centre is given in the polygon's body frame.
 Manifold collidePolygonAndDisc(const Collider& polygon, const Vec2& center, double radius,

@@ -73,7 +73,7 @@ int faceAgainst(const Collider& collider, const Vec2& direction) {
 }
 
 /// Box2D's reference face, for points up to `margin` apart.
-ReferenceFace findReference(const Polygons& polygons, double margin) {
+ReferenceFace findReference(const Polygons& polygons, double margin, FaceMemory& memory) {
   const auto& [a, b, b_in_a] = polygons;
   b2Transform xf;
   xf.p = toFloat(b_in_a.exactly(b.origin()) - a.origin());
@@ -83,7 +83,7 @@ ReferenceFace findReference(const Polygons& polygons, double margin) {
   const bool usual = static_cast<float>(margin) == Collider::kUsualMargin;
   const float radius_a =
       usual ? a.polygon().m_radius : static_cast<float>(margin) + kFloatSlack - radius_b;
-  return referenceFace(a.polygon(), b.polygon(), xf, radius_a + radius_b);
+  return referenceFace(a.polygon(), b.polygon(), xf, radius_a + radius_b, memory);
 }
 
 FacePair facePair(const ReferenceFace& reference, const Polygons& polygons) {
@@ -213,9 +213,10 @@ Manifold clippedContact(const Polygons& polygons, const FacePair& pair, double m
 
 }  // namespace
 
-Manifold collidePolygons(const Collider& a, const Collider& b, const Pose& b_in_a, double margin) {
+Manifold collidePolygons(const Collider& a, const Collider& b, const Pose& b_in_a, double margin,
+                         FaceMemory& memory) {
   const Polygons polygons{a, b, b_in_a};
-  const ReferenceFace reference = findReference(polygons, margin);
+  const ReferenceFace reference = findReference(polygons, margin, memory);
   if (!reference.found) return {};
   return clippedContact(polygons, facePair(reference, polygons), margin);
 }

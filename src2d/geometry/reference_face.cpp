@@ -1,6 +1,8 @@
 #include "src2d/geometry/reference_face.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "src2d/geometry/collide_pairs.h"
 
@@ -29,11 +31,13 @@ FourPoints loadPoints(const b2Vec2* all, int first) {
 struct BestFace {
   int index = 0;
   float separation = -b2_maxFloat;
+  float lead = 0.0F;  ///< over the second best [m]
 };
 
 /// b2FindMaxSeparation; `xf` leads from the frame of `one` to that of `other`.
 BestFace bestFace(const b2PolygonShape& one, const b2PolygonShape& other, const b2Transform& xf) {
   BestFace best;
+  float second = -b2_maxFloat;
   for (int first = 0; first < one.m_count; first += 4) {
     const FourPoints n = loadPoints(one.m_normals, first), v = loadPoints(one.m_vertices, first);
     const FourFloats nx = xf.q.c * n.x - xf.q.s * n.y, ny = xf.q.s * n.x + xf.q.c * n.y;
@@ -46,26 +50,35 @@ BestFace bestFace(const b2PolygonShape& one, const b2PolygonShape& other, const 
       least = height < least ? height : least;
     }
     for (int i = 0; i < 4 && first + i < one.m_count; ++i) {
+      second = std::max(second, std::min(least[i], best.separation));
       if (least[i] > best.separation) best = {first + i, least[i]};
     }
   }
+  best.lead = best.separation - second;
   return best;
 }
 
 using Segment = std::array<b2Vec2, 2>;
 
+struct IncidentEdge {
+  Segment ends;
+  float lead = 0.0F;  ///< over the second that looks that way: of the cosines
+};
+
 /// b2FindIncidentEdge: the face of `other` that looks against the normal of a face of `one`.
-Segment incidentEdge(const b2PolygonShape& one, const b2Transform& xf_one, int face,
+IncidentEdge incidentEdge(const b2PolygonShape& one, const b2Transform& xf_one, int face,
                      const b2PolygonShape& other, const b2Transform& xf_other) {
   const b2Vec2 normal = b2MulT(xf_other.q, b2Mul(xf_one.q, one.m_normals[face]));
   int index = 0;
-  float least = b2_maxFloat;
+  float least = b2_maxFloat, second = b2_maxFloat;
   for (int i = 0; i < other.m_count; ++i) {
     const float along = b2Dot(normal, other.m_normals[i]);
+    second = std::min(second, std::max(along, least));
     if (along < least) least = along, index = i;
   }
   const int next = index + 1 < other.m_count ? index + 1 : 0;
-  return {b2Mul(xf_other, other.m_vertices[index]), b2Mul(xf_other, other.m_vertices[next])};
+  return {{b2Mul(xf_other, other.m_vertices[index]), b2Mul(xf_other, other.m_vertices[next])},
+          second - least};
 }
 
 /// b2ClipSegmentToLine. False when less than a segment is left.
@@ -79,8 +92,14 @@ bool clip(Segment& segment, const b2Vec2& normal, float offset) {
   return count == 2;
 }
 
+/// Whether an incident edge is near a face, and how far each may move until it may be no longer.
+struct Nearness {
+  bool is_near = false;
+  float by = 0.0F;  ///< [m]; 0 where that is not known
+};
+
 /// True where the incident edge, cut to the width of the face and `radius` more, is near the face.
-bool isNear(const b2PolygonShape& one, const b2Transform& xf, int face, Segment edge,
+Nearness nearness(const b2PolygonShape& one, const b2Transform& xf, int face, Segment edge,
             float radius) {
   const int next = face + 1 < one.m_count ? face + 1 : 0;
   b2Vec2 local_tangent = one.m_vertices[next] - one.m_vertices[face];
@@ -90,36 +109,84 @@ bool isNear(const b2PolygonShape& one, const b2Transform& xf, int face, Segment 
   const float front = b2Dot(normal, begin) + radius;
   const float side_begin = -b2Dot(tangent, begin) + radius, side_end = b2Dot(tangent, end) + radius;
   // Mostly one end is, and stays when the edge is cut.
-  const auto staysNear = [&](const b2Vec2& p) {
-    constexpr float kWell = 1e-6F;
+  const auto inside = [&](const b2Vec2& p) {
     const float along = b2Dot(tangent, p);
-    return -along < side_begin - kWell && along < side_end - kWell &&
-           b2Dot(normal, p) < front - kWell;
+    return std::min({side_begin + along, side_end - along, front - b2Dot(normal, p)});
   };
-  if (staysNear(edge[0]) || staysNear(edge[1])) return true;
-  if (!clip(edge, -tangent, side_begin) || !clip(edge, tangent, side_end)) return false;
+  constexpr float kWell = 1e-6F;
+  const float by = std::max(inside(edge[0]), inside(edge[1]));
+  if (by > kWell) return {true, by};
+  if (!clip(edge, -tangent, side_begin) || !clip(edge, tangent, side_end)) return {};
   const auto isLow = [&](const b2Vec2& p) {
     return b2Dot(normal, p) - b2Dot(normal, begin) <= radius;
   };
-  return isLow(edge[0]) || isLow(edge[1]);
+  return {isLow(edge[0]) || isLow(edge[1]), 0.0F};
 }
 
-}  // namespace
+/// How far the farthest vertex is from the centre, at most [m].
+float size(const b2PolygonShape& polygon) {
+  float most = 0.0F;
+  for (int i = 0; i < polygon.m_count; ++i) {
+    const b2Vec2& v = polygon.m_vertices[i];
+    most = std::max(most, std::abs(v.x) + std::abs(v.y));
+  }
+  return most;
+}
 
-ReferenceFace referenceFace(const b2PolygonShape& a, const b2PolygonShape& b,
-                            const b2Transform& b_in_a, float radius) {
+/// Bounds how far any corner of either polygon, seen from the other, has moved since then [m].
+float motionSince(const FaceMemory& then, const b2Transform& now) {
+  return std::abs(now.p.x - then.x) + std::abs(now.p.y - then.y) +
+         then.reach * (std::abs(now.q.c - then.c) + std::abs(now.q.s - then.s));
+}
+
+/// A face that was sought, with how far corners may move while it stays the one.
+struct Sought {
+  ReferenceFace face;
+  float room = 0.0F;  ///< [m]
+};
+
+Sought seekFace(const b2PolygonShape& a, const b2PolygonShape& b, const b2Transform& b_in_a,
+                float radius, float reach) {
   const b2Transform a_in_a = identity();
   const BestFace of_a = bestFace(a, b, b2MulT(b_in_a, a_in_a));
   if (of_a.separation > radius) return {};
   const BestFace of_b = bestFace(b, a, b2MulT(a_in_a, b_in_a));
   if (of_b.separation > radius) return {};
   constexpr float kTolerance = 0.1F * b2_linearSlop;
-  if (of_b.separation > of_a.separation + kTolerance) {
-    const Segment edge = incidentEdge(b, b_in_a, of_b.index, a, a_in_a);
-    return {isNear(b, b_in_a, of_b.index, edge, radius), true, of_b.index};
+  const float choice = of_b.separation - (of_a.separation + kTolerance);
+  const bool swapped = of_b.separation > of_a.separation + kTolerance;
+  const BestFace& best = swapped ? of_b : of_a;
+  const IncidentEdge edge = swapped ? incidentEdge(b, b_in_a, best.index, a, a_in_a)
+                                    : incidentEdge(a, a_in_a, best.index, b, b_in_a);
+  const Nearness near = swapped ? nearness(b, b_in_a, best.index, edge.ends, radius)
+                                : nearness(a, a_in_a, best.index, edge.ends, radius);
+  // Where two are compared both may change, each by as much as a corner moves.
+  const float apart = radius - std::max(of_a.separation, of_b.separation);
+  const float room = std::min({0.5F * best.lead, 0.5F * std::abs(choice), apart,
+                               0.5F * edge.lead * reach, near.by});
+  return {{near.is_near, swapped, best.index}, room};
+}
+
+}  // namespace
+
+ReferenceFace referenceFace(const b2PolygonShape& a, const b2PolygonShape& b,
+                            const b2Transform& b_in_a, float radius, FaceMemory& memory) {
+  if (radius >= memory.radius && motionSince(memory, b_in_a) < memory.holds) {
+    return {true, memory.swapped, memory.face};
   }
-  const Segment edge = incidentEdge(a, a_in_a, of_a.index, b, b_in_a);
-  return {isNear(a, a_in_a, of_a.index, edge, radius), false, of_a.index};
+  constexpr float kRounding = 4e-6F;  // of all that is compared, as a part of the reach
+  const float reach = std::max(size(b), size(a) + std::abs(b_in_a.p.x) + std::abs(b_in_a.p.y));
+  const Sought sought = seekFace(a, b, b_in_a, radius, reach);
+  memory = {.x = b_in_a.p.x,
+            .y = b_in_a.p.y,
+            .c = b_in_a.q.c,
+            .s = b_in_a.q.s,
+            .reach = reach,
+            .radius = radius,
+            .holds = sought.face.found ? sought.room - kRounding * reach : 0.0F,
+            .face = static_cast<std::uint8_t>(sought.face.face),
+            .swapped = sought.face.swapped};
+  return sought.face;
 }
 
 }  // namespace merge2d

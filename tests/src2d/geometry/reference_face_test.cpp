@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -51,7 +52,8 @@ TEST(ReferenceFace, IsTheOneThatBox2DFinds) {
     b2Manifold expected;
     b2CollidePolygons(&expected, &a.polygon(), identity(), &b.polygon(), xf);
     const float radius = a.polygon().m_radius + b.polygon().m_radius;
-    const ReferenceFace face = referenceFace(a.polygon(), b.polygon(), xf, radius);
+    FaceMemory none;
+    const ReferenceFace face = referenceFace(a.polygon(), b.polygon(), xf, radius, none);
     ASSERT_EQ(face.found, expected.pointCount > 0) << i;
     if (!face.found) continue;
     ++found;
@@ -60,6 +62,38 @@ TEST(ReferenceFace, IsTheOneThatBox2DFinds) {
     ASSERT_EQ(face.face, faceWithMiddle(whose, expected.localPoint)) << i;
   }
   EXPECT_GT(found, 10'000);
+}
+
+/// Small motions of all sizes, also across the places where the face changes.
+TEST(ReferenceFace, IsTheSameFromMemory) {
+  RandomPairs random;
+  int found = 0, from_memory = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Collider a = random.polygon(), b = random.polygon();
+    b2Transform xf = random.pose();
+    const double scale = std::pow(10.0, random.between(-7.0, -1.0));
+    double angle = std::atan2(xf.q.s, xf.q.c);
+    FaceMemory memory;
+    for (int step = 0; step < 20; ++step) {
+      xf.p += toFloat({random.between(-scale, scale), random.between(-scale, scale)});
+      angle += random.between(-scale, scale);
+      const Rotation turn = Rotation::of(angle);
+      xf.q.c = static_cast<float>(turn.c);
+      xf.q.s = static_cast<float>(turn.s);
+      const float radius = static_cast<float>(random.between(0.005, 0.006));
+      FaceMemory none;
+      const ReferenceFace expected = referenceFace(a.polygon(), b.polygon(), xf, radius, none);
+      const b2Vec2 before(memory.x, memory.y);
+      const ReferenceFace face = referenceFace(a.polygon(), b.polygon(), xf, radius, memory);
+      ASSERT_EQ(face.found, expected.found) << i;
+      if (!face.found) continue;
+      ASSERT_EQ(face.swapped, expected.swapped) << i;
+      ASSERT_EQ(face.face, expected.face) << i;
+      ++found;
+      from_memory += before == b2Vec2(memory.x, memory.y) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(from_memory, found / 4);
 }
 
 }  // namespace
