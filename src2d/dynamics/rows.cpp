@@ -75,13 +75,12 @@ bool aimRow(const State& state, const Scratch& scratch, const Contact& contact, 
 }
 
 /// A block of a collection, turned into the world.
-ContactBlock innerBlock(const State& state, const RowSource& source) {
+void makeInnerBlock(const State& state, const RowSource& source, ContactBlock& k) {
   const Collection& c = state.collections[source.slot()];
-  ContactBlock k = c.blocks[source.block()];
+  k = c.blocks[source.block()];
   const Vec2 n = state[c.rigid].rotation * Vec2(k.nx, k.ny);
   k.nx = n.x();
   k.ny = n.y();
-  return k;
 }
 
 /// Lever arms of the points of a block: as they are now, or as they will be where it was `cast` to.
@@ -118,16 +117,15 @@ bool aimBlock(State& state, const Scratch& scratch, const RowSource& source, con
 }
 
 /// The rows of one block.
-ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& source) {
-  if (source.isInner()) return innerBlock(state, source);
+void makeBlock(State& state, const Scratch& scratch, const RowSource& source, ContactBlock& k) {
+  if (source.isInner()) return makeInnerBlock(state, source, k);
   const Contact& contact = state.contacts.contactOf(source.points[0]);
-  const RowEnds ends = endsOf(state, scratch, source);
   BlockGeometry g;
   g.normal = state.pose(contact.key.a).rotation * contact.normal;
   g.count = source.count();
-  ContactBlock k;
-  k.a = static_cast<std::uint32_t>(ends.a);
-  k.b = static_cast<std::uint32_t>(ends.b);
+  k = {};
+  k.a = static_cast<std::uint32_t>(source.a);
+  k.b = static_cast<std::uint32_t>(source.b);
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
   const Contact& last = state.contacts.contactOf(source.points[source.count() == 2 ? 1 : 0]);
   k.bilateral = isHeld(state, contact) || isHeld(state, last);
@@ -152,7 +150,6 @@ ContactBlock makeBlock(State& state, const Scratch& scratch, const RowSource& so
     ContactPoint& point = state.contacts.point(source.points[1]);
     point.lambda_n = point.lambda_t = 0.0;
   }
-  return k;
 }
 
 void buildBlocks(State& state, Scratch& scratch) {
@@ -162,7 +159,7 @@ void buildBlocks(State& state, Scratch& scratch) {
   const auto size = static_cast<std::uint32_t>(order.size());
   resizeTightly(scratch.blocks, size);
   forEachIndex(scratch.tasks, size, kGrain, [&](std::size_t i, int) {
-    scratch.blocks[i] = makeBlock(state, scratch, scratch.row_sources[order[i].source()]);
+    makeBlock(state, scratch, scratch.row_sources[order[i].source()], scratch.blocks[i]);
   });
   for (std::uint32_t first = 0, last = 0; first < size; first = last) {
     while (last < size && order[last].island() == order[first].island()) ++last;
