@@ -8,6 +8,7 @@
 
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/joint_rows.h"
+#include "src2d/dynamics/row_sources.h"
 
 namespace merge2d {
 namespace {
@@ -64,8 +65,9 @@ void uniteIslands(const State& state, Scratch& scratch) {
   auto& sets = scratch.sets;
   sets.reset(state.rigids.size());
   for (const RowSource& source : scratch.row_sources) {
-    if (respondsInSolve(scratch, source.a) && respondsInSolve(scratch, source.b)) {
-      sets.unite(static_cast<std::uint32_t>(source.a), static_cast<std::uint32_t>(source.b));
+    const auto [a, b] = endsOf(state, scratch, source);
+    if (respondsInSolve(scratch, a) && respondsInSolve(scratch, b)) {
+      sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
     }
   }
   uniteJoints(state, scratch);
@@ -78,7 +80,7 @@ void colourBlocks(const State& state, Scratch& scratch) {
   reserveTightly(scratch.block_order, scratch.row_sources.size());
   scratch.block_order.resize(scratch.row_sources.size());
   for (std::uint32_t i = 0; i < scratch.row_sources.size(); ++i) {
-    const RowSource& ends = scratch.row_sources[i];
+    const RowEnds ends = endsOf(state, scratch, scratch.row_sources[i]);
     const bool a_moves = respondsInSolve(scratch, ends.a),
                b_moves = respondsInSolve(scratch, ends.b);
     std::uint64_t &a = scratch.colours[index(ends.a)], &b = scratch.colours[index(ends.b)];

@@ -22,7 +22,7 @@ void listSources(const State& state, const BodyPair& pair, Scratch& scratch) {
       if (joins) {
         sources.back().points[1] = point;
       } else {
-        sources.push_back({{point, kNone}, a, b});
+        sources.push_back({{point, kNone}});
       }
     }
   }
@@ -36,6 +36,15 @@ void listRowSources(const State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) listSources(state, pair, scratch);
   const auto& inner = scratch.open_rows;
   scratch.row_sources.insert(scratch.row_sources.end(), inner.begin(), inner.end());
+}
+
+RowEnds endsOf(const State& state, const Scratch& scratch, const RowSource& source) {
+  if (source.isInner()) {
+    const ContactBlock& k = state.collections[source.slot()].blocks[source.block()];
+    return {RigidId{k.a}, RigidId{k.b}};
+  }
+  const ContactKey& key = state.contacts.contactOf(source.points[0]).key;
+  return {moverOf(state, scratch, key.a), moverOf(state, scratch, key.b)};
 }
 
 }  // namespace merge2d

@@ -120,12 +120,13 @@ bool aimBlock(State& state, const Scratch& scratch, const RowSource& source, con
 void makeBlock(State& state, const Scratch& scratch, const RowSource& source, ContactBlock& k) {
   if (source.isInner()) return makeInnerBlock(state, source, k);
   const Contact& contact = state.contacts.contactOf(source.points[0]);
+  const RowEnds ends = endsOf(state, scratch, source);
   BlockGeometry g;
   g.normal = state.pose(contact.key.a).rotation * contact.normal;
   g.count = source.count();
   k = {};
-  k.a = static_cast<std::uint32_t>(source.a);
-  k.b = static_cast<std::uint32_t>(source.b);
+  k.a = static_cast<std::uint32_t>(ends.a);
+  k.b = static_cast<std::uint32_t>(ends.b);
   k.mu = frictionOf(state, contact.key.a, contact.key.b);
   const Contact& last = state.contacts.contactOf(source.points[source.count() == 2 ? 1 : 0]);
   k.bilateral = isHeld(state, contact) || isHeld(state, last);

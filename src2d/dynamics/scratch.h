@@ -118,10 +118,9 @@ struct SweepItem {
 struct RowSource {
   static constexpr PointIndex kInner = PointIndex{1} << 31;
   std::array<PointIndex, 2> points{kNone, kNone};
-  RigidId a{}, b{};  ///< on which it acts: rigid things, or members of open collections
 
-  static RowSource inside(std::uint32_t slot, std::uint32_t block, const ContactBlock& k) {
-    return {{kInner | slot, block}, RigidId{k.a}, RigidId{k.b}};
+  static RowSource inside(std::uint32_t slot, std::uint32_t block) {
+    return {{kInner | slot, block}};
   }
   bool isInner() const { return (points[0] & kInner) != 0; }
   std::uint32_t slot() const { return points[0] & ~kInner; }  ///< of the collection

@@ -28,7 +28,8 @@ class Collider {
 
   const Vec2& origin() const { return origin_; }  ///< centre of disc or vertices, body frame [m]
   double radius() const { return radius_; }       ///< of a disc, 0 for polygons [m]
-  int count() const { return count_; }            ///< of vertices, 0 for discs
+  float size() const { return size_; }  ///< no vertex is farther from `origin()`; 0 for discs [m]
+  int count() const { return count_; }  ///< of vertices, 0 for discs
 
   /// Vertex i in the body's frame [m], and the outward normal of the face from it to the next one.
   const Vec2& vertex(int i) const { return vertices_[static_cast<std::size_t>(i)]; }
@@ -40,6 +41,7 @@ class Collider {
   void fill(const Polygon& polygon);
 
   int count_ = 0;
+  float size_ = 0.0F;
   double radius_ = 0.0;
   Vec2 origin_ = Vec2::Zero();
   std::array<Vec2, Polygon::kMaxVertices> vertices_;
@@ -67,10 +69,9 @@ struct Manifold {
 /// seek it takes longer than the rest of a manifold, and bodies in a pile hardly move against each
 /// other. The manifold is the same, bit for bit, with this memory and without.
 struct FaceMemory {
-  float x = 0.0F, y = 0.0F, c = 1.0F, s = 0.0F;  ///< pose of B's centre seen from A's, as then
-  float reach = 0.0F;   ///< a turn by `d` [rad] moves no corner by more than reach · d [m]
-  float radius = 0.0F;  ///< points were sought up to this far apart [m]
-  float holds = 0.0F;   ///< while all corners have moved by less [m]; 0: nothing is known
+  float x = 0.0F, y = 0.0F;  ///< B's centre seen from A's, as then [m]
+  float turn = 0.0F;         ///< of B against A (reference_face.cpp)
+  std::uint16_t holds = 0;   ///< while all corners have moved by less [µm]; 0: nothing is known
   std::uint8_t face = 0;
   bool swapped = false;
 };

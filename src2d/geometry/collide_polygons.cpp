@@ -83,7 +83,7 @@ ReferenceFace findReference(const Polygons& polygons, double margin, FaceMemory&
   const bool usual = static_cast<float>(margin) == Collider::kUsualMargin;
   const float radius_a =
       usual ? a.polygon().m_radius : static_cast<float>(margin) + kFloatSlack - radius_b;
-  return referenceFace(a.polygon(), b.polygon(), xf, radius_a + radius_b, memory);
+  return referenceFace(a, b, xf, radius_a + radius_b, memory);
 }
 
 FacePair facePair(const ReferenceFace& reference, const Polygons& polygons) {

@@ -2,6 +2,7 @@
 /// longer agree with ours, and weld those nearer than 2.5 mm.
 
 #include <algorithm>
+#include <cmath>
 
 #include "src2d/core/assert.h"
 #include "src2d/geometry/collide_pairs.h"
@@ -37,6 +38,8 @@ void Collider::fill(const Polygon& polygon) {
     normals_[i] = -perpendicular(edge).normalized();
     polygon_.m_vertices[i] = toFloat(vertices_[i] - origin_);
     polygon_.m_normals[i] = toFloat(normals_[i]);
+    size_ =
+        std::max(size_, std::abs(polygon_.m_vertices[i].x) + std::abs(polygon_.m_vertices[i].y));
   }
   count_ = polygon_.m_count = static_cast<int>(count);
   polygon_.m_centroid.SetZero();

@@ -67,7 +67,7 @@ struct IncidentEdge {
 
 /// b2FindIncidentEdge: the face of `other` that looks against the normal of a face of `one`.
 IncidentEdge incidentEdge(const b2PolygonShape& one, const b2Transform& xf_one, int face,
-                     const b2PolygonShape& other, const b2Transform& xf_other) {
+                          const b2PolygonShape& other, const b2Transform& xf_other) {
   const b2Vec2 normal = b2MulT(xf_other.q, b2Mul(xf_one.q, one.m_normals[face]));
   int index = 0;
   float least = b2_maxFloat, second = b2_maxFloat;
@@ -100,7 +100,7 @@ struct Nearness {
 
 /// True where the incident edge, cut to the width of the face and `radius` more, is near the face.
 Nearness nearness(const b2PolygonShape& one, const b2Transform& xf, int face, Segment edge,
-            float radius) {
+                  float radius) {
   const int next = face + 1 < one.m_count ? face + 1 : 0;
   b2Vec2 local_tangent = one.m_vertices[next] - one.m_vertices[face];
   local_tangent.Normalize();
@@ -123,20 +123,21 @@ Nearness nearness(const b2PolygonShape& one, const b2Transform& xf, int face, Se
   return {isLow(edge[0]) || isLow(edge[1]), 0.0F};
 }
 
-/// How far the farthest vertex is from the centre, at most [m].
-float size(const b2PolygonShape& polygon) {
-  float most = 0.0F;
-  for (int i = 0; i < polygon.m_count; ++i) {
-    const b2Vec2& v = polygon.m_vertices[i];
-    most = std::max(most, std::abs(v.x) + std::abs(v.y));
-  }
-  return most;
+/// Grows with the angle of a rotation, by half of it at least [rad].
+float turnOf(const b2Rot& q) {
+  const float part = q.s / (std::abs(q.c) + std::abs(q.s));
+  return q.c < 0.0F ? std::copysign(2.0F, q.s) - part : part;
 }
 
 /// Bounds how far any corner of either polygon, seen from the other, has moved since then [m].
-float motionSince(const FaceMemory& then, const b2Transform& now) {
+float motionSince(const FaceMemory& then, const b2Transform& now, float reach) {
   return std::abs(now.p.x - then.x) + std::abs(now.p.y - then.y) +
-         then.reach * (std::abs(now.q.c - then.c) + std::abs(now.q.s - then.s));
+         2.0F * reach * std::abs(turnOf(now.q) - then.turn);
+}
+
+/// In whole micrometres, fewer rather than more.
+std::uint16_t micrometres(float x) {
+  return static_cast<std::uint16_t>(std::clamp(1e6F * x, 0.0F, 65535.0F));
 }
 
 /// A face that was sought, with how far corners may move while it stays the one.
@@ -162,31 +163,34 @@ Sought seekFace(const b2PolygonShape& a, const b2PolygonShape& b, const b2Transf
                                 : nearness(a, a_in_a, best.index, edge.ends, radius);
   // Where two are compared both may change, each by as much as a corner moves.
   const float apart = radius - std::max(of_a.separation, of_b.separation);
-  const float room = std::min({0.5F * best.lead, 0.5F * std::abs(choice), apart,
-                               0.5F * edge.lead * reach, near.by});
+  const float room = std::min(
+      {0.5F * best.lead, 0.5F * std::abs(choice), apart, 0.5F * edge.lead * reach, near.by});
   return {{near.is_near, swapped, best.index}, room};
 }
 
 }  // namespace
 
-ReferenceFace referenceFace(const b2PolygonShape& a, const b2PolygonShape& b,
-                            const b2Transform& b_in_a, float radius, FaceMemory& memory) {
-  if (radius >= memory.radius && motionSince(memory, b_in_a) < memory.holds) {
+ReferenceFace referenceFace(const Collider& a, const Collider& b, const b2Transform& b_in_a,
+                            float radius, FaceMemory& memory) {
+  constexpr float kRounding = 4e-6F;  // of all that is compared, as a part of the reach
+  const float reach = std::max(b.size(), a.size() + std::abs(b_in_a.p.x) + std::abs(b_in_a.p.y));
+  // The nearest that points are sought; a face that is found for these is for all others too.
+  const float least = a.polygon().m_radius + b.polygon().m_radius;
+  if (memory.holds > 0 && radius >= least &&
+      motionSince(memory, b_in_a, reach) < 1e-6F * static_cast<float>(memory.holds)) {
     return {true, memory.swapped, memory.face};
   }
-  constexpr float kRounding = 4e-6F;  // of all that is compared, as a part of the reach
-  const float reach = std::max(size(b), size(a) + std::abs(b_in_a.p.x) + std::abs(b_in_a.p.y));
-  const Sought sought = seekFace(a, b, b_in_a, radius, reach);
-  memory = {.x = b_in_a.p.x,
-            .y = b_in_a.p.y,
-            .c = b_in_a.q.c,
-            .s = b_in_a.q.s,
-            .reach = reach,
-            .radius = radius,
-            .holds = sought.face.found ? sought.room - kRounding * reach : 0.0F,
-            .face = static_cast<std::uint8_t>(sought.face.face),
-            .swapped = sought.face.swapped};
-  return sought.face;
+  const auto [face, room] = seekFace(a.polygon(), b.polygon(), b_in_a, radius, reach);
+  memory = {};
+  if (radius == least && face.found) {
+    memory = {.x = b_in_a.p.x,
+              .y = b_in_a.p.y,
+              .turn = turnOf(b_in_a.q),
+              .holds = micrometres(room - kRounding * reach),
+              .face = static_cast<std::uint8_t>(face.face),
+              .swapped = face.swapped};
+  }
+  return face;
 }
 
 }  // namespace merge2d

@@ -137,7 +137,7 @@ void listRegion(State& state, Scratch& scratch, OpenRegion& region) {
   for (const std::uint32_t block : blocksAt(c, region.members)) {
     const Weld& weld = c.welds[c.contacts[c.block_contact[block]].weld];
     if (!isInside(scratch, c, weld.node_a) || !isInside(scratch, c, weld.node_b)) continue;
-    scratch.open_rows.push_back(RowSource::inside(region.slot, block, c.blocks[block]));
+    scratch.open_rows.push_back(RowSource::inside(region.slot, block));
   }
 }
 

@@ -53,7 +53,7 @@ TEST(ReferenceFace, IsTheOneThatBox2DFinds) {
     b2CollidePolygons(&expected, &a.polygon(), identity(), &b.polygon(), xf);
     const float radius = a.polygon().m_radius + b.polygon().m_radius;
     FaceMemory none;
-    const ReferenceFace face = referenceFace(a.polygon(), b.polygon(), xf, radius, none);
+    const ReferenceFace face = referenceFace(a, b, xf, radius, none);
     ASSERT_EQ(face.found, expected.pointCount > 0) << i;
     if (!face.found) continue;
     ++found;
@@ -80,11 +80,12 @@ TEST(ReferenceFace, IsTheSameFromMemory) {
       const Rotation turn = Rotation::of(angle);
       xf.q.c = static_cast<float>(turn.c);
       xf.q.s = static_cast<float>(turn.s);
-      const float radius = static_cast<float>(random.between(0.005, 0.006));
+      const float least = a.polygon().m_radius + b.polygon().m_radius;
+      const float radius = least + static_cast<float>(std::max(0.0, random.between(-1e-3, 1e-3)));
       FaceMemory none;
-      const ReferenceFace expected = referenceFace(a.polygon(), b.polygon(), xf, radius, none);
+      const ReferenceFace expected = referenceFace(a, b, xf, radius, none);
       const b2Vec2 before(memory.x, memory.y);
-      const ReferenceFace face = referenceFace(a.polygon(), b.polygon(), xf, radius, memory);
+      const ReferenceFace face = referenceFace(a, b, xf, radius, memory);
       ASSERT_EQ(face.found, expected.found) << i;
       if (!face.found) continue;
       ASSERT_EQ(face.swapped, expected.swapped) << i;
