@@ -85,7 +85,8 @@ void colourBlocks(const State& state, Scratch& scratch) {
                b_moves = respondsInSolve(scratch, ends.b);
     std::uint64_t &a = scratch.colours[index(ends.a)], &b = scratch.colours[index(ends.b)];
     const std::uint64_t used = (a_moves ? a : 0) | (b_moves ? b : 0);
-    const auto colour = static_cast<std::uint32_t>(std::min(std::countr_one(used), 63));
+    const auto free = static_cast<std::uint32_t>(std::countr_one(used));
+    const std::uint32_t colour = std::min(free, BlockOrder::kMixed);
     if (a_moves) a |= std::uint64_t{1} << colour;
     if (b_moves) b |= std::uint64_t{1} << colour;
     const auto body = static_cast<std::uint32_t>(a_moves ? ends.a : ends.b);

@@ -111,9 +111,10 @@ class Nncg {
     if (rho > 1.0) rho = 0.0;
     for (std::size_t i = 0; i < blocks_; ++i) {
       auto lambda = rows(impulses_(i)), p = rows(m_.direction[i]), before = rows(m_.before[i]);
-      const Eigen::Array4d along = rho * p;
+      const Eigen::Array4d along = rho * p, next = lambda + along;
       p = along + keep * (lambda - before);
-      before = lambda += along;
+      lambda = next;
+      before = next;
     }
     for (std::size_t i = 0; i < bodies_; ++i) {
       SolverVelocity& u = velocity_(i);

@@ -1,7 +1,10 @@
-/// The rows of the full solve: from contacts to blocks.
+/// Rows that are made one by one.
+
+#include "src2d/dynamics/rows.h"
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/casts.h"
@@ -12,7 +15,6 @@
 #include "src2d/dynamics/row_sources.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/dynamics/start_velocities.h"
-#include "src2d/dynamics/task_pool.h"
 #include "src2d/scene/compliance.h"
 
 namespace merge2d {
@@ -117,7 +119,7 @@ bool aimBlock(State& state, const Scratch& scratch, const RowSource& source, con
 }
 
 /// The rows of one block.
-void makeBlock(State& state, const Scratch& scratch, const RowSource& source, ContactBlock& k) {
+void makeBlock(State& state, const Scratch& scratch, RowSource& source, ContactBlock& k) {
   if (source.isInner()) return makeInnerBlock(state, source, k);
   const Contact& contact = state.contacts.contactOf(source.points[0]);
   const RowEnds ends = endsOf(state, scratch, source);
@@ -148,27 +150,20 @@ void makeBlock(State& state, const Scratch& scratch, const RowSource& source, Co
                               : 0.0;
   fillMasses(k, softness, scratch.u[k.a], scratch.u[k.b]);
   if (k.count < source.count()) {  // the second is too close to the first to count
-    ContactPoint& point = state.contacts.point(source.points[1]);
+    ContactPoint& point = state.contacts.point(std::exchange(source.points[1], kNone));
     point.lambda_n = point.lambda_t = 0.0;
   }
 }
 
-void buildBlocks(State& state, Scratch& scratch) {
-  constexpr std::size_t kGrain = 64;  // blocks
+/// The islands of all blocks, whose rows are made when they are solved.
+void listIslands(Scratch& scratch) {
   scratch.islands.clear();
   const auto& order = scratch.block_order;
   const auto size = static_cast<std::uint32_t>(order.size());
   resizeTightly(scratch.blocks, size);
-  forEachIndex(scratch.tasks, size, kGrain, [&](std::size_t i, int) {
-    makeBlock(state, scratch, scratch.row_sources[order[i].source()], scratch.blocks[i]);
-  });
   for (std::uint32_t first = 0, last = 0; first < size; first = last) {
     while (last < size && order[last].island() == order[first].island()) ++last;
-    Island island{.root = order[first].island(), .first = first, .last = last};
-    for (std::uint32_t i = first; i < last; ++i) {
-      island.hits |= scratch.blocks[i].hits != 0;
-    }
-    scratch.islands.push_back(island);
+    scratch.islands.push_back({.root = order[first].island(), .first = first, .last = last});
   }
 }
 
@@ -204,12 +199,34 @@ double contactSoftness(const State& state, BodyId a, BodyId b, double inv_mass_a
   return compliance * (inv_mass_a + inv_mass_b);
 }
 
-void buildRows(State& state, Scratch& scratch) {
+void ContactRows::make(std::uint32_t block) {
+  makeBlock(state_, scratch_, sourceOf(block), scratch_.blocks[block]);
+}
+
+void ContactRows::store(std::uint32_t block) {
+  const ContactBlock& k = scratch_.blocks[block];
+  const RowSource& source = sourceOf(block);
+  if (source.isInner()) {
+    state_.collections[source.slot()].blocks[source.block()].lambda = k.lambda;
+    return;
+  }
+  for (int p = 0; p < k.count; ++p) {
+    ContactPoint& point = state_.contacts.point(source.points[static_cast<std::size_t>(p)]);
+    const ContactVelocity w = contactVelocity(k, p, k.nx, k.ny, scratch_.u[k.a], scratch_.u[k.b]);
+    point.lambda_n = k.lambda_n(p);
+    point.lambda_t = k.lambda_t(p);
+    point.w_n = static_cast<float>(w.n);
+    point.w_t = static_cast<float>(w.t);
+  }
+  if (k.rolls()) state_.contacts.secondOf(source.points[0]).lambda_t = k.lambda_r();
+}
+
+void listRows(State& state, Scratch& scratch) {
   startVelocities(state, scratch);
   orderKicks(state, scratch);  // bodies may have left their collections
   listRowSources(state, scratch);
   orderBlocks(state, scratch);
-  buildBlocks(state, scratch);
+  listIslands(scratch);
   buildJointBlocks(state, scratch);
   listIslandBodies(state, scratch);
 }

@@ -148,10 +148,12 @@ struct HitWay {
 /// small and quick to sort.
 struct BlockOrder {
   static constexpr int kSourceBits = 26, kIslandShift = 32;
+  /// The last colour holds what found no other; its blocks may share bodies.
+  static constexpr std::uint32_t kMixed = 63;
   std::uint64_t packed = 0;
 
   static BlockOrder of(std::uint32_t island, std::uint32_t colour, std::uint32_t source) {
-    MERGE2D_ASSERT(colour < 64 && source >> kSourceBits == 0, "colour {}, source {}", colour,
+    MERGE2D_ASSERT(colour <= kMixed && source >> kSourceBits == 0, "colour {}, source {}", colour,
                    source);
     return {std::uint64_t{island} << kIslandShift | std::uint64_t{colour} << kSourceBits | source};
   }
@@ -224,6 +226,7 @@ struct TautLink {
 struct SweepMemory {
   NncgBuffers nncg;
   WideBlocks wide;
+  std::vector<PackedAs> kinds;  ///< per block of an island
   /// Per body, and the world's: velocities in the collection that is solved, seen from there.
   std::vector<SolverVelocity> trial_u;
 };

@@ -8,7 +8,7 @@
 #include "src2d/dynamics/newton.h"
 #include "src2d/dynamics/nncg.h"
 #include "src2d/dynamics/thread_memory.h"
-#include "src2d/dynamics/wide_blocks.h"
+#include "src2d/dynamics/wide_solve.h"
 
 namespace merge2d {
 namespace {
@@ -114,37 +114,9 @@ void solveBends(const State& state, const IslandParts& island, std::vector<Solve
   m.uncorrected.restore(island.blocks, island.joints, island.bodies, u);
 }
 
-/// Islands of fewer blocks are swept one by one: packing them would cost as much.
-constexpr std::size_t kLeastWide = 24;
-
-bool isWide(const Island& island) {
-  return island.first_joint == island.last_joint && island.last - island.first >= kLeastWide;
-}
-
-/// The sweeps of an island without joints, four blocks at a time.
-SweepChange solveWide(Scratch& scratch, const Island& island, const SolverSettings& settings,
-                      const SweepTools& tools) {
-  WideBlocks& wide = tools.memory.wide;
-  const std::size_t size = island.last - island.first;
-  const std::span blocks(scratch.blocks.data() + island.first, size);
-  auto& u = scratch.u;
-  wide.pack(blocks, {scratch.block_order.data() + island.first, size}, u,
-            static_cast<std::uint32_t>(u.size() - 1));
-  Nncg iteration(
-      size, [&](std::size_t i) -> Impulses& { return wide.impulses()[i]; },
-      island.last_body - island.first_body,
-      [&](std::size_t i) -> SolverVelocity& {
-        return u[scratch.island_bodies[island.first_body + i]];
-      },
-      [&] { wide.sweep(blocks, u, tools.path, tools.tasks); }, tools.memory.nncg);
-  const SweepChange change = iteration.run(settings.iterations, isAccelerated(settings.method));
-  wide.storeImpulses(blocks);
-  return change;
-}
-
-/// Far-away bodies do not matter: each island has its own ρ.
-SweepChange solveIsland(const State& state, Scratch& scratch, const Island& island,
-                        const SweepTools& tools) {
+/// An island block by block. Far-away bodies do not matter: each island has its own ρ.
+SweepChange solveOneByOne(const State& state, Scratch& scratch, const Island& island,
+                          const SweepTools& tools) {
   NncgBuffers& buffers = tools.memory.nncg;
   const SolverSettings& settings = state.settings.solver;
   const std::span blocks(scratch.blocks.data() + island.first, island.last - island.first);
@@ -161,9 +133,6 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   }
   const auto body = [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; };
   const bool accelerate = isAccelerated(settings.method);
-  if (isWide(island) && tools.path != SweepPath::OneByOne && settings.method != SolverMethod::Pgs) {
-    return solveWide(scratch, island, settings, tools);
-  }
   if (joints.empty()) {
     Nncg iteration(
         blocks.size(), [&](std::size_t i) -> Impulses& { return blocks[i].lambda; }, bodies.size(),
@@ -190,6 +159,30 @@ SweepChange solveIsland(const State& state, Scratch& scratch, const Island& isla
   return change;
 }
 
+template <class Visit>
+void forEachBlock(const Island& island, TaskPool* tasks, Visit&& visit) {
+  constexpr std::size_t kGrain = 64;  // blocks
+  forEachIndex(tasks, island.last - island.first, kGrain,
+               [&](std::size_t i, int) { visit(island.first + static_cast<std::uint32_t>(i)); });
+}
+
+/// Makes the rows of an island, solves it, and stores the impulses, unless hits are still to come.
+SweepChange solveIsland(const State& state, Scratch& scratch, Island& island,
+                        const SweepTools& tools, ContactRows& rows) {
+  const SolverMethod method = state.settings.solver.method;
+  const bool sweeps = method != SolverMethod::Pgs && method != SolverMethod::Newton;
+  if (isWide(island) && tools.path != SweepPath::OneByOne && sweeps) {
+    return solveWide(state.settings.solver, scratch, island, tools, rows);
+  }
+  forEachBlock(island, tools.tasks, [&](std::uint32_t i) { rows.make(i); });
+  for (std::uint32_t i = island.first; i < island.last; ++i) {
+    island.hits |= scratch.blocks[i].hits != 0;
+  }
+  const SweepChange change = solveOneByOne(state, scratch, island, tools);
+  if (!island.hits) forEachBlock(island, tools.tasks, [&](std::uint32_t i) { rows.store(i); });
+  return change;
+}
+
 bool isLargeIsland(const Island& island) {
   constexpr std::size_t kLeastLarge = 1000;  // blocks
   return island.last - island.first >= kLeastLarge;
@@ -204,8 +197,8 @@ bool sharesColours(const State& state, const Scratch& scratch) {
 
 /// Islands share fixed bodies alone, and are solved side by side. Joints are solved with a memory
 /// of their own, in order.
-void solveIslands(const State& state, Scratch& scratch) {
-  const auto& islands = scratch.islands;
+void solveIslands(const State& state, Scratch& scratch, ContactRows& rows) {
+  auto& islands = scratch.islands;
   provideMemory(scratch);
   scratch.island_changes.assign(islands.size(), {});
   const bool shares = sharesColours(state, scratch);
@@ -213,7 +206,7 @@ void solveIslands(const State& state, Scratch& scratch) {
     return i.first_joint != i.last_joint || (shares && isLargeIsland(i));
   };
   const auto solve = [&](std::size_t i, const SweepTools& tools) {
-    scratch.island_changes[i] = solveIsland(state, scratch, islands[i], tools);
+    scratch.island_changes[i] = solveIsland(state, scratch, islands[i], tools, rows);
   };
   forEachIndex(scratch.tasks, islands.size(), 1, [&](std::size_t i, int thread) {
     if (!isInTurn(islands[i])) solve(i, toolsOf(scratch, thread));
@@ -225,48 +218,29 @@ void solveIslands(const State& state, Scratch& scratch) {
   if (std::ranges::none_of(islands, isWide)) scratch.sweeps.front().wide.release();
 }
 
-/// Hands the impulses back to the contacts, with the velocities that they leave.
-void storeImpulses(State& state, const Scratch& scratch) {
-  constexpr std::size_t kGrain = 128;  // blocks
-  forEachIndex(scratch.tasks, scratch.blocks.size(), kGrain, [&](std::size_t i, int) {
-    const ContactBlock& k = scratch.blocks[i];
-    const RowSource& source = scratch.row_sources[scratch.block_order[i].source()];
-    if (source.isInner()) {
-      state.collections[source.slot()].blocks[source.block()].lambda = k.lambda;
-      return;
-    }
-    for (int p = 0; p < k.count; ++p) {
-      ContactPoint& point = state.contacts.point(source.points[static_cast<std::size_t>(p)]);
-      const ContactVelocity w = contactVelocity(k, p, k.nx, k.ny, scratch.u[k.a], scratch.u[k.b]);
-      point.lambda_n = k.lambda_n(p);
-      point.lambda_t = k.lambda_t(p);
-      point.w_n = static_cast<float>(w.n);
-      point.w_t = static_cast<float>(w.t);
-    }
-    if (k.rolls()) state.contacts.secondOf(source.points[0]).lambda_t = k.lambda_r();
-  });
-}
-
 }  // namespace
 
 void solveContacts(State& state, Scratch& scratch) {
   const bool post = state.settings.solver.stabilisation == Stabilisation::Post;
   if (std::exchange(scratch.solved, false) && !post) return;
-  buildRows(state, scratch);
-  scratch.stats.contacts = 0;
-  for (std::size_t i = 0; i < scratch.blocks.size(); ++i) {
-    const bool inner = scratch.row_sources[scratch.block_order[i].source()].isInner();
-    if (!inner) scratch.stats.contacts += scratch.blocks[i].count;
-  }
+  listRows(state, scratch);
+  ContactRows rows(state, scratch);
   scratch.hit_ways.clear();
   SweepChange all;
-  solveIslands(state, scratch);
+  solveIslands(state, scratch, rows);
   for (std::size_t i = 0; i < scratch.islands.size(); ++i) {
-    if (scratch.islands[i].hits) resolveHits(state, scratch, scratch.islands[i]);
+    const Island& island = scratch.islands[i];
+    if (island.hits) {
+      resolveHits(state, scratch, island);
+      forEachBlock(island, scratch.tasks, [&](std::uint32_t block) { rows.store(block); });
+    }
     all.squared += scratch.island_changes[i].squared;
     all.total += scratch.island_changes[i].total;
   }
-  storeImpulses(state, scratch);
+  scratch.stats.contacts = 0;
+  for (const RowSource& source : scratch.row_sources) {
+    if (!source.isInner()) scratch.stats.contacts += source.count();
+  }
   storeJointImpulses(state, scratch);
   scratch.stats.residual = all.total > 0.0 ? std::sqrt(all.squared / all.total) : 0.0;
 }

@@ -31,10 +31,6 @@ double contactSize(const State& state, BodyId a, BodyId b);
 double contactSoftness(const State& state, BodyId a, BodyId b, double inv_mass_a,
                        double inv_mass_b);
 
-/// Sets up the velocities u₋ + h M⁻¹ f and the rows of all contacts in B, with the impulses of the
-/// last step as a start.
-void buildRows(State& state, Scratch& scratch);
-
 /// Sweeps over the rows; writes the impulses into the contacts and the velocities into `scratch.u`.
 void solveContacts(State& state, Scratch& scratch);
 

@@ -1,7 +1,8 @@
 #include "src2d/dynamics/wide_blocks.h"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <utility>
 
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/scratch.h"
@@ -9,56 +10,12 @@
 
 namespace merge2d {
 
-// Vectors are passed by reference, and within this file: no interface depends on how.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-namespace portable {
-#include "src2d/dynamics/wide_kernel.h"
-}  // namespace portable
-
-#if defined(__x86_64__) && !defined(__AVX2__)
-#define MERGE2D_HAS_AVX2
-#ifdef __clang__
-#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#endif
-namespace avx2 {
-#include "src2d/dynamics/wide_kernel.h"
-}  // namespace avx2
-#ifdef __clang__
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
-#endif
-
-#pragma GCC diagnostic pop
-
 namespace {
-
-using SweepWide = decltype(&portable::sweepWide);
-
-SweepWide sweepBy([[maybe_unused]] SweepPath path) {
-#ifdef MERGE2D_HAS_AVX2
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-  if (path == SweepPath::Avx2 && has_avx2) return avx2::sweepWide;
-#endif
-  return portable::sweepWide;
-}
 
 /// Fewer blocks than this of a colour are solved one by one.
 constexpr std::uint32_t kLeastLanes = 2;
 
-/// Blocks that the kernel knows: no magnets, no rolling discs.
-bool isPlain(const ContactBlock& k) { return !k.bilateral && !k.rolls(); }
-
 constexpr std::size_t kGrain = 16;  ///< groups that a thread solves in a row
-
-/// The last colour holds what found no other; its blocks may share bodies.
-constexpr std::uint32_t kMixedColour = 63;
 
 void setLane(WideBlock& w, std::size_t lane, const ContactBlock& k, const SolverVelocity& a,
              const SolverVelocity& b) {
@@ -86,40 +43,60 @@ void setLane(WideBlock& w, std::size_t lane, const ContactBlock& k, const Solver
   w.b[lane] = k.b;
 }
 
+/// The block of a lane again, but for its impulses.
+void takeLane(const WideBlock& w, std::size_t lane, ContactBlock& k) {
+  k = {.a = w.a[lane], .b = w.b[lane], .count = w.points, .nx = w.nx[lane], .ny = w.ny[lane]};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(w.points); ++i) {
+    k.arm_an[i] = w.arm_an[i][lane];
+    k.arm_bn[i] = w.arm_bn[i][lane];
+    k.arm_at[i] = w.arm_at[i][lane];
+    k.arm_bt[i] = w.arm_bt[i][lane];
+    k.inv_kt[i] = w.inv_kt[i][lane];
+    k.bias[i] = w.bias[i][lane];
+  }
+  k.k11 = w.k11[lane];
+  if (w.points == 2) {
+    k.k12 = w.k12[lane];
+    k.k22 = w.k22[lane];
+    k.inv_det = w.inv_det[lane];
+  }
+  k.softness = w.softness[lane];
+  k.mu = w.mu[lane];
+}
+
 }  // namespace
 
-void WideBlocks::begin(std::size_t blocks, std::size_t chosen) {
-  wide_.clear();
+void WideBlocks::begin(std::size_t blocks, std::size_t chosen, std::uint32_t idle) {
+  groups_ = 0;
   alone_.clear();
   colours_.clear();
+  idle_ = idle;
   reserveTightly(wide_, chosen / 4 + 1);
   resizeTightly(impulses_, blocks + 2);
   impulses_[blocks] = impulses_[blocks + 1] = {};
 }
 
-void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const BlockOrder> order,
-                      const std::vector<SolverVelocity>& u, std::uint32_t idle) {
+void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const PackedAs> kinds,
+                      std::span<const BlockOrder> order, const std::vector<SolverVelocity>& u,
+                      std::uint32_t idle) {
   const auto size = static_cast<std::uint32_t>(blocks.size());
-  begin(size, size);
-  for (std::uint32_t i = 0; i < size; ++i) impulses_[i] = blocks[i].lambda;
+  begin(size, size, idle);
+  for (std::uint32_t i = 0; i < size; ++i) {
+    if (!isPlain(kinds[i])) impulses_[i] = blocks[i].lambda;
+  }
   for (std::uint32_t first = 0, last = 0; first < size; first = last) {
     while (last < size && order[last].colour() == order[first].colour()) ++last;
-    if (order[first].colour() == kMixedColour) {
-      for (std::uint32_t i = first; i < last; ++i) alone_.push_back(i);
-      const auto wide = static_cast<std::uint32_t>(wide_.size());
-      colours_.push_back({wide, wide, static_cast<std::uint32_t>(alone_.size())});
-    } else {
-      colour_.resize(last - first);
-      std::iota(colour_.begin(), colour_.end(), first);
-      packColour(blocks, u, idle);
-    }
+    const bool mixed = order[first].colour() == BlockOrder::kMixed;
+    const auto at = [&](std::size_t i) { return first + static_cast<std::uint32_t>(i); };
+    const auto kind_at = [&](std::size_t i) { return mixed ? PackedAs::Alone : kinds[first + i]; };
+    packColour(last - first, at, kind_at, blocks, u);
   }
 }
 
 void WideBlocks::packChosen(std::span<const ContactBlock> blocks,
                             std::span<const std::uint32_t> chosen,
                             const std::vector<SolverVelocity>& u, std::uint32_t idle) {
-  begin(blocks.size(), chosen.size());
+  begin(blocks.size(), chosen.size(), idle);
   for (const std::uint32_t i : chosen) impulses_[i] = blocks[i].lambda;
   if (taken_.size() < u.size()) resizeTightly(taken_, u.size());
   const auto moves = [&](std::uint32_t body) {
@@ -133,79 +110,136 @@ void WideBlocks::packChosen(std::span<const ContactBlock> blocks,
   for (const std::uint32_t i : chosen) {
     const ContactBlock& k = blocks[i];
     if (isTaken(k.a) || isTaken(k.b)) {
-      packColour(blocks, u, idle);
+      packChosenColour(blocks, u);
       colour_.clear();
       ++colours_so_far_;
     }
     taken_[k.a] = taken_[k.b] = colours_so_far_;
     colour_.push_back(i);
   }
-  packColour(blocks, u, idle);
+  packChosenColour(blocks, u);
 }
 
-void WideBlocks::packColour(std::span<const ContactBlock> blocks,
-                            const std::vector<SolverVelocity>& u, std::uint32_t idle) {
-  pairs_.clear();
-  singles_.clear();
-  for (const std::uint32_t i : colour_) {
-    auto& list = !isPlain(blocks[i]) ? alone_ : blocks[i].count == 2 ? pairs_ : singles_;
-    list.push_back(i);
-  }
+void WideBlocks::packChosenColour(std::span<const ContactBlock> blocks,
+                                  const std::vector<SolverVelocity>& u) {
+  const auto at = [&](std::size_t i) { return colour_[i]; };
+  const auto kind_at = [&](std::size_t i) { return packedAs(blocks[colour_[i]]); };
+  packColour(colour_.size(), at, kind_at, blocks, u);
+}
+
+/// Four of a kind are a group, and so are the last ones of a kind.
+template <class At, class KindAt>
+void WideBlocks::packColour(std::size_t size, At&& at, KindAt&& kind_at,
+                            std::span<const ContactBlock> blocks,
+                            const std::vector<SolverVelocity>& u) {
+  const auto packKind = [&](PackedAs kind) {
+    std::array<std::uint32_t, 4> chosen{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      if (kind_at(i) != kind) continue;
+      chosen[count++] = at(i);
+      if (count == 4) packGroup({chosen.data(), std::exchange(count, 0)}, kind, blocks, u);
+    }
+    if (count > 0) packGroup({chosen.data(), count}, kind, blocks, u);
+  };
   Colour colour;
-  packGroups(blocks, u, pairs_, idle, blocks.size());
-  colour.last_pair = static_cast<std::uint32_t>(wide_.size());
-  packGroups(blocks, u, singles_, idle, blocks.size() + 1);
-  colour.last_single = static_cast<std::uint32_t>(wide_.size());
+  packKind(PackedAs::PlainPair);
+  packKind(PackedAs::Pair);
+  colour.last_pair = groups_;
+  packKind(PackedAs::PlainSingle);
+  packKind(PackedAs::Single);
+  colour.last_single = groups_;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (kind_at(i) == PackedAs::Alone) alone_.push_back(at(i));
+  }
   colour.last_alone = static_cast<std::uint32_t>(alone_.size());
   colours_.push_back(colour);
 }
 
-void WideBlocks::packGroups(std::span<const ContactBlock> blocks,
-                            const std::vector<SolverVelocity>& u,
-                            const std::vector<std::uint32_t>& chosen, std::uint32_t idle,
-                            std::size_t idle_impulses) {
-  const ContactBlock none{.a = idle, .b = idle};
-  for (std::size_t first = 0; first < chosen.size(); first += 4) {
-    const std::size_t last = std::min(first + 4, chosen.size());
-    if (last - first < kLeastLanes) {
-      alone_.insert(alone_.end(), chosen.begin() + static_cast<std::ptrdiff_t>(first),
-                    chosen.end());
-      return;
-    }
-    appendTightly(wide_);
-    WideBlock& w = wide_.back();
-    for (std::size_t lane = 0; lane < 4; ++lane) {
-      const bool used = first + lane < last;
-      const ContactBlock& k = used ? blocks[chosen[first + lane]] : none;
-      setLane(w, lane, k, u[k.a], u[k.b]);
-      w.block[lane] = used ? chosen[first + lane] : static_cast<std::uint32_t>(idle_impulses);
-    }
+void WideBlocks::packGroup(std::span<const std::uint32_t> chosen, PackedAs kind,
+                           std::span<const ContactBlock> blocks,
+                           const std::vector<SolverVelocity>& u) {
+  const bool plain = isPlain(kind);
+  const bool pairs = kind == PackedAs::PlainPair || kind == PackedAs::Pair;
+  if (chosen.size() < kLeastLanes) {
+    alone_.insert(alone_.end(), chosen.begin(), chosen.end());
+    return;
   }
+  if (groups_ == wide_.size()) appendTightly(wide_);
+  WideBlock& w = wide_[groups_++];
+  w.points = pairs ? 2 : 1;
+  w.plain = plain;
+  w.too_close = 0;
+  const auto unused = static_cast<std::uint32_t>(impulses_.size()) - (pairs ? 2 : 1);
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    w.block[lane] = lane < chosen.size() ? chosen[lane] : unused;
+  }
+  for (std::size_t lane = 0; !plain && lane < chosen.size(); ++lane) {
+    const ContactBlock& k = blocks[chosen[lane]];
+    setLane(w, lane, k, u[k.a], u[k.b]);
+  }
+  if (!isFull(w)) clearUnused(w);
+}
+
+void WideBlocks::clearUnused(WideBlock& group) const {
+  const ContactBlock none{.a = idle_, .b = idle_};
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    if (!isUsed(group, lane)) setLane(group, lane, none, {}, {});
+  }
+}
+
+void WideBlocks::takeOut(std::size_t group, std::size_t lane, const ContactBlock& block) {
+  WideBlock& w = wide_[group];
+  auto colour =
+      std::ranges::find_if(colours_, [&](const Colour& c) { return group < c.last_single; });
+  const std::uint32_t i =
+      std::exchange(w.block[lane], static_cast<std::uint32_t>(impulses_.size()) - 2);
+  clearUnused(w);
+  impulses_[i] = block.lambda;
+  alone_.insert(alone_.begin() + static_cast<std::ptrdiff_t>(colour->last_alone), i);
+  for (; colour != colours_.end(); ++colour) ++colour->last_alone;
+}
+
+void WideBlocks::warmStart(std::span<const ContactBlock> blocks, std::vector<SolverVelocity>& u,
+                           SweepPath path, TaskPool* tasks) {
+  const auto warm_start = wideKernels(path).warm_start;
+  forEachColour(warm_start, u, tasks,
+                [&](std::uint32_t i) { applyImpulses(blocks[i], u[blocks[i].a], u[blocks[i].b]); });
 }
 
 void WideBlocks::sweep(std::span<ContactBlock> blocks, std::vector<SolverVelocity>& u,
                        SweepPath path, TaskPool* tasks) {
-  const SweepWide sweep_wide = sweepBy(path);
+  forEachColour(wideKernels(path).sweep, u, tasks, [&](std::uint32_t i) {
+    ContactBlock& k = blocks[i];
+    k.lambda = impulses_[i];
+    solveBlock(k, k.nx, k.ny, u[k.a], u[k.b]);
+    impulses_[i] = k.lambda;
+  });
+}
+
+/// Colour by colour: `wide` for the groups, `one` for blocks that are solved alone.
+template <class One>
+void WideBlocks::forEachColour(WideKernels::OnImpulses wide, std::vector<SolverVelocity>& u,
+                               TaskPool* tasks, One&& one) {
   const WideBlock* const all = wide_.data();
-  std::uint32_t wide = 0, alone = 0;
+  std::uint32_t group = 0, alone = 0;
   for (const Colour& colour : colours_) {
-    forEachRun(tasks, colour.last_single - wide, kGrain, [&](std::size_t i, std::size_t n, int) {
-      const std::size_t first = wide + i, last = first + n;
+    forEachRun(tasks, colour.last_single - group, kGrain, [&](std::size_t i, std::size_t n, int) {
+      const std::size_t first = group + i, last = first + n;
       const std::size_t pairs = std::clamp<std::size_t>(colour.last_pair, first, last);
-      sweep_wide(all + first, all + pairs, all + last, impulses_.data(), u.data());
+      wide(all + first, all + pairs, all + last, impulses_.data(), u.data());
     });
-    wide = colour.last_single;
-    for (; alone < colour.last_alone; ++alone) {
-      ContactBlock& k = blocks[alone_[alone]];
-      Impulses& impulses = impulses_[alone_[alone]];
-      k.lambda = impulses;
-      solveBlock(k, k.nx, k.ny, u[k.a], u[k.b]);
-      impulses = k.lambda;
-    }
+    group = colour.last_single;
+    for (; alone < colour.last_alone; ++alone) one(alone_[alone]);
   }
 }
 
-void WideBlocks::storeImpulses(std::span<ContactBlock> blocks) const {
+void WideBlocks::unpack(std::span<ContactBlock> blocks) const {
+  for (const WideBlock& w : groups()) {
+    for (std::size_t lane = 0; w.plain && lane < 4; ++lane) {
+      if (isUsed(w, lane)) takeLane(w, lane, blocks[w.block[lane]]);
+    }
+  }
   for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].lambda = impulses_[i];
 }
 
@@ -215,7 +249,7 @@ void WideBlocks::storeImpulses(std::span<ContactBlock> blocks,
 }
 
 std::size_t WideBlocks::memoryBytes() const {
-  return bytesOf(wide_, alone_, colours_, impulses_, colour_, pairs_, singles_, taken_);
+  return bytesOf(wide_, alone_, colours_, impulses_, colour_, taken_);
 }
 
 }  // namespace merge2d

@@ -1,5 +1,5 @@
 /// `solveBlock` for four blocks at once: the same operations in the same order in each lane, where
-/// `solveBlock` branches both sides and a choice. Included by wide_blocks.cpp once for each set of
+/// `solveBlock` branches both sides and a choice. Included by wide_kernels.cpp once for each set of
 /// instructions, inside a namespace; so it includes nothing, and has no `#pragma once`.
 ///
 /// GCC and clang make two or four machine instructions of one of these operations, as the processor
@@ -186,4 +186,28 @@ inline void sweepWide(const WideBlock* first, const WideBlock* end_of_pairs, con
                       Impulses* impulses, SolverVelocity* u) {
   for (; first != end_of_pairs; ++first) solvePairs(*first, impulses, u);
   for (; first != last; ++first) solveSingles(*first, impulses, u);
+}
+
+/// `applyImpulses` for four blocks of two points or of one.
+inline void warmStart(const WideBlock& k, int points, const Impulses* impulses, SolverVelocity* u) {
+  FourBlocks s;
+  read(s, k, impulses, u);
+  for (int i = 0; i < points; ++i) {
+    const Four &p_n = i == 0 ? s.n1 : s.n2, &p_t = i == 0 ? s.t1 : s.t2;
+    const Four px = k.nx * p_n - k.ny * p_t, py = k.ny * p_n + k.nx * p_t;
+    s.a.vx -= s.a.inv_mass * px;
+    s.a.vy -= s.a.inv_mass * py;
+    s.a.omega -= k.inv_inertia_a * (k.arm_an[i] * p_n + k.arm_at[i] * p_t);
+    s.b.vx += s.b.inv_mass * px;
+    s.b.vy += s.b.inv_mass * py;
+    s.b.omega += k.inv_inertia_b * (k.arm_bn[i] * p_n + k.arm_bt[i] * p_t);
+  }
+  scatter(s.a, u, k.a);
+  scatter(s.b, u, k.b);
+}
+
+inline void warmStartWide(const WideBlock* first, const WideBlock* end_of_pairs,
+                          const WideBlock* last, Impulses* impulses, SolverVelocity* u) {
+  for (; first != end_of_pairs; ++first) warmStart(*first, 2, impulses, u);
+  for (; first != last; ++first) warmStart(*first, 1, impulses, u);
 }

@@ -53,7 +53,8 @@ std::size_t bytesOfBuffers(const NncgBuffers& m) {
 std::size_t bytesOfSweeps(const Scratch& s) {
   std::size_t total = bytesOf(s.sweeps);
   for (const SweepMemory& memory : s.sweeps) {
-    total += bytesOfBuffers(memory.nncg) + memory.wide.memoryBytes() + bytesOf(memory.trial_u);
+    total += bytesOfBuffers(memory.nncg) + memory.wide.memoryBytes() +
+             bytesOf(memory.trial_u, memory.kinds);
   }
   return total;
 }
