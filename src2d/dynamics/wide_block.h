@@ -33,7 +33,7 @@ struct alignas(32) WideBlock {
   std::uint8_t too_close = 0;             ///< bit: the two points of that lane count as one
 };
 
-/// What the rows of four blocks are made from.
+/// The source of the rows of four blocks.
 struct FourContacts {
   Four nx, ny;                                      ///< normals, in the frames of the bodies a
   Four x, y, c, s;                                  ///< poses of these

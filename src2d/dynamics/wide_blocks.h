@@ -18,8 +18,8 @@ namespace merge2d {
 struct BlockOrder;
 class TaskPool;
 
-/// The kinds of blocks. Only the places of plain ones are taken when they are packed: their rows and
-/// impulses are filled in later.
+/// The kinds of blocks. Only the places of plain ones are taken when they are packed: their rows
+/// and impulses are filled in later.
 enum class PackedAs : std::uint8_t { PlainPair, Pair, PlainSingle, Single, Alone };
 
 inline bool isPlain(PackedAs kind) {

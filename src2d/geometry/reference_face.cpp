@@ -155,7 +155,7 @@ Sought seekFace(const b2PolygonShape& a, const b2PolygonShape& b, const b2Transf
   if (of_b.separation > radius) return {};
   constexpr float kTolerance = 0.1F * b2_linearSlop;
   const float choice = of_b.separation - (of_a.separation + kTolerance);
-  const bool swapped = of_b.separation > of_a.separation + kTolerance;
+  const bool swapped = choice > 0.0F;
   const BestFace& best = swapped ? of_b : of_a;
   const IncidentEdge edge = swapped ? incidentEdge(b, b_in_a, best.index, a, a_in_a)
                                     : incidentEdge(a, a_in_a, best.index, b, b_in_a);

@@ -175,7 +175,7 @@ void stepBack(const State& state, Scratch& scratch, Collection& c, const Criteri
     recordWeld(scratch, weld, brief);
     if (!weld.cut) weld.reason = reasonOfCut(c, weld);
     weld.cut = true;
-    weld.motion = static_cast<float>(state.settings.merging.velocity / kDecided.past_steps);
+    weld.motion = static_cast<float>(state.settings.merging.velocity / kDecided.patience);
   }
   c.hits.endRun();
 }

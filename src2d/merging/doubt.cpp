@@ -153,7 +153,7 @@ Finding findDoubt(State& state, const Scratch& scratch, Collection& c) {
 /// Nothing has been sought inside for so long that its blocks are put away in this step.
 bool isLongQuiet(const State& state, const Collection& c) {
   const LoadCertificate& proof = c.certificate.front();
-  return state.step - std::max(proof.last_doubt, proof.since) == kDecided.past_steps;
+  return state.step - std::max(proof.last_doubt, proof.since) == kDecided.patience;
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ void merge(State& state, Scratch& scratch) {
   if (!pairs.empty()) mergingMethod(state).weld(state, scratch, pairs);
   recordTwoFrames(state, scratch);
   layOutCollections(state);  // the next step starts from the layouts
-  const bool released = releaseOpenRows(state, scratch, kDecided.past_steps);
+  const bool released = releaseOpenRows(state, scratch, kDecided.patience);
   if (!pairs.empty()) {
     dropFreeSlots(state);
     compactContacts(state.contacts);

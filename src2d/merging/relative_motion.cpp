@@ -29,7 +29,7 @@ bool hasStopped(const State& state, const BodyPair& pair, const Contact& contact
   if (contact.parting <= 0.0F || contact.quiet_steps >= -1) return false;
   const auto gain = static_cast<double>(contact.parting);
   const double steps = stepsUntilSeen(state, gain) + contact.quiet_steps;
-  return steps >= kDecided.tolerance * kDecided.past_steps &&
+  return steps >= kDecided.tolerance * kDecided.patience &&
          relativeMotion(state, pair) < 0.5 * steps * gain;
 }
 

@@ -31,10 +31,9 @@ struct DecidedSettings {
   /// motion of some weld: where it need only be smaller, a wall on a swinging platform loses
   /// bricks.
   double tolerance = 0.1;
-  /// Row sweeps per step, and at most so many sweeps: a search goes on in the next step. However
-  /// many rows there are, it may take as many sweeps as the full solve.
+  /// Row sweeps of a search per step; it goes on in the next one. However many rows there are, it
+  /// may take as many sweeps as the full solve.
   double row_sweeps = 1e4;
-  int most_sweeps = 200;
   /// Times as many where a search has found motion: without, a wall of 5,000 that swings takes
   /// three times as long on average.
   double when_open = 4.0;
@@ -51,13 +50,15 @@ struct DecidedSettings {
   /// A load is covered where the witnesses leave this part of the frame's motion over, and of the
   /// forces from outside. These weigh less, as they act on one member each [1].
   double left_over = 0.9e-3, outer_weight = 0.05;
-  /// Steps after which something is past. A hit: until then a collection is looked at once in as
-  /// many steps as a pair must be quiet for before it merges, as a heap into which bodies fall
-  /// changes before a search could end; the filling funnel and the collapsing tower-platform take
-  /// three quarters of the time. The motion of a pair that parted slowly: it waits as long as it
-  /// would still seem at rest, at most so many steps, unless it is found to gain less by then. And
-  /// a search: the memory of its rows is given back, though not at once, as loads come again.
-  int past_steps = 200;
+  /// So many iterations are enough to wait for. Sweeps of a search in one step: more settle what
+  /// the next step has anew. And steps after which something is past. A hit: until then a
+  /// collection is looked at once in as many steps as a pair must be quiet for before it merges, as
+  /// a heap into which bodies fall changes before a search could end; the filling funnel and the
+  /// collapsing tower-platform take three quarters of the time. The motion of a pair that parted
+  /// slowly: it waits as long as it would still seem at rest, at most so many steps, unless it is
+  /// found to gain less by then. And a search: the memory of its rows is given back, though not at
+  /// once, as loads come again.
+  int patience = 200;
   /// One in so many is a small part of a collection: it keeps its layout while no larger part of it
   /// has come in, and its proofs while no larger part of its members is loaded from outside.
   std::size_t little = 8;
@@ -112,7 +113,7 @@ inline bool lasts(const State& state, std::int64_t steps) {
 
 /// Steps after which a pair no longer seems at rest that parts with this gain per step [m/s].
 inline double stepsUntilSeen(const State& state, double gain) {
-  return std::min<double>(kDecided.past_steps, state.settings.merging.velocity / gain);
+  return std::min<double>(kDecided.patience, state.settings.merging.velocity / gain);
 }
 
 /// Below this residual a search has converged [m/s].

@@ -16,7 +16,7 @@ namespace merge2d {
 
 bool isLookedAt(const State& state, const Collection& c) {
   const std::int64_t since_hit = state.step - c.hits.blow;
-  return since_hit >= kDecided.past_steps || since_hit % state.settings.merging.steps == 0;
+  return since_hit >= kDecided.patience || since_hit % state.settings.merging.steps == 0;
 }
 
 namespace {

@@ -18,7 +18,7 @@ class SweepBudget {
   /// A search begins with 500 row sweeps, one round over 50 rows, and doubles them in each step, as
   /// many loads do not last: the collapsing tower-platform then takes half as many.
   static SweepBudget ofSearch(const State& state, std::size_t rows, int step) {
-    const double first = ReachedRows::kRound * kDecided.row_sweeps / kDecided.most_sweeps;
+    const double first = ReachedRows::kRound * kDecided.row_sweeps / kDecided.patience;
     return SweepBudget(std::min(rowSweeps(state, rows), std::ldexp(first, step)));
   }
   /// More where motion was found, as the end decides which welds part.
@@ -26,13 +26,13 @@ class SweepBudget {
     return SweepBudget(kDecided.when_open * rowSweeps(state, rows));
   }
 
-  bool isSpent() const { return sweeps_ >= kDecided.most_sweeps || left_ <= 0.0; }
+  bool isSpent() const { return sweeps_ >= kDecided.patience || left_ <= 0.0; }
   bool isUntouched() const { return sweeps_ == 0; }
 
   /// Sweeps over so many rows that are left, at least one.
   int affordable(std::size_t rows) const {
     const double sweeps = left_ / static_cast<double>(std::max<std::size_t>(rows, 1));
-    return std::clamp(static_cast<int>(sweeps), 1, std::max(1, kDecided.most_sweeps - sweeps_));
+    return std::clamp(static_cast<int>(sweeps), 1, std::max(1, kDecided.patience - sweeps_));
   }
 
   void spend(int sweeps, std::size_t rows) {
