@@ -72,8 +72,8 @@ void WideBlocks::begin(std::size_t blocks, std::size_t chosen, std::uint32_t idl
   colours_.clear();
   idle_ = idle;
   reserveTightly(wide_, chosen / 4 + 1);
-  resizeTightly(impulses_, blocks + 2);
-  impulses_[blocks] = impulses_[blocks + 1] = {};
+  blocks_ = static_cast<std::uint32_t>(blocks);
+  resizeTightly(impulses_, blocks);
 }
 
 void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const PackedAs> kinds,
@@ -170,7 +170,7 @@ void WideBlocks::packGroup(std::span<const std::uint32_t> chosen, PackedAs kind,
   w.points = pairs ? 2 : 1;
   w.plain = plain;
   w.too_close = 0;
-  const auto unused = static_cast<std::uint32_t>(impulses_.size()) - (pairs ? 2 : 1);
+  const std::uint32_t unused = chosen.size() < 4 ? addUnused() : 0;
   for (std::size_t lane = 0; lane < 4; ++lane) {
     w.block[lane] = lane < chosen.size() ? chosen[lane] : unused;
   }
@@ -179,6 +179,13 @@ void WideBlocks::packGroup(std::span<const std::uint32_t> chosen, PackedAs kind,
     setLane(w, lane, k, u[k.a], u[k.b]);
   }
   if (!isFull(w)) clearUnused(w);
+}
+
+/// Impulses of the lanes of a group that have no block: none of another group, which another thread
+/// may solve.
+std::uint32_t WideBlocks::addUnused() {
+  appendTightly(impulses_);
+  return static_cast<std::uint32_t>(impulses_.size() - 1);
 }
 
 void WideBlocks::clearUnused(WideBlock& group) const {
@@ -192,8 +199,7 @@ void WideBlocks::takeOut(std::size_t group, std::size_t lane, const ContactBlock
   WideBlock& w = wide_[group];
   auto colour =
       std::ranges::find_if(colours_, [&](const Colour& c) { return group < c.last_single; });
-  const std::uint32_t i =
-      std::exchange(w.block[lane], static_cast<std::uint32_t>(impulses_.size()) - 2);
+  const std::uint32_t i = std::exchange(w.block[lane], addUnused());
   clearUnused(w);
   impulses_[i] = block.lambda;
   alone_.insert(alone_.begin() + static_cast<std::ptrdiff_t>(colour->last_alone), i);

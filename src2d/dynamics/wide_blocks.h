@@ -51,7 +51,7 @@ class WideBlocks {
   std::span<const std::uint32_t> alone() const { return alone_; }
   /// True for a lane that has a block.
   bool isUsed(const WideBlock& group, std::size_t lane) const {
-    return group.block[lane] + 2 < impulses_.size();
+    return group.block[lane] < blocks_;
   }
   bool isFull(const WideBlock& group) const { return isUsed(group, 3); }
 
@@ -60,7 +60,7 @@ class WideBlocks {
   /// The block of that lane is solved alone from now on.
   void takeOut(std::size_t group, std::size_t lane, const ContactBlock& block);
 
-  /// Per block; two more for lanes without a block.
+  /// Per block; then one for each group that has lanes without a block, which write to it.
   std::vector<Impulses>& impulses() { return impulses_; }
 
   /// Adds the impulses that the blocks begin with.
@@ -93,6 +93,7 @@ class WideBlocks {
                   const std::vector<SolverVelocity>& u);
   void packGroup(std::span<const std::uint32_t> chosen, PackedAs kind,
                  std::span<const ContactBlock> blocks, const std::vector<SolverVelocity>& u);
+  std::uint32_t addUnused();
   template <class One>
   void forEachColour(WideKernels::OnImpulses wide, std::vector<SolverVelocity>& u, TaskPool* tasks,
                      One&& one);
@@ -102,6 +103,7 @@ class WideBlocks {
   std::vector<std::uint32_t> alone_;  ///< blocks that are solved one by one
   std::vector<Colour> colours_;
   std::vector<Impulses> impulses_;
+  std::uint32_t blocks_ = 0;  ///< also of those that are not chosen
   std::uint32_t idle_ = 0;
   std::vector<std::uint32_t> colour_;  ///< chosen blocks of the colour that is packed
   std::vector<std::uint64_t> taken_;   ///< per body: the colour that it is in

@@ -85,6 +85,27 @@ TEST(Threads, ALargeHeapIsSolvedTheSame) {
   }
 }
 
+/// A wide wall under discs. Some bricks bounce, some discs bounce or resist rolling: their rows are
+/// made one by one, and in many colours two groups of a kind are not full.
+TEST(Threads, LargeColoursOfAllKindsOfRowsAreSolvedTheSame) {
+  Scene scene = wall(4, 150);
+  for (std::size_t i = 1; i < scene.bodies.size(); i += 7) scene.bodies[i].restitution = 0.2;
+  for (int i = 0; i < 149; ++i) {
+    BodyDesc ball = disc(0.1, {i - 74.0, 4.1});
+    if (i % 3 == 0) ball.restitution = 0.5;
+    if (i % 5 == 0) ball.rolling = 0.01;
+    add(scene, ball);
+  }
+  const auto end = [&](int threads) {
+    World world(scene, {.mode = Mode::Reference, .timings = false, .threads = threads});
+    runSteps(world, 40);
+    EXPECT_GT(world.stats().contacts, 2000);
+    return world.save();
+  };
+  const std::string alone = end(1);
+  for (const int threads : {2, 3}) EXPECT_TRUE(end(threads) == alone);
+}
+
 /// Stacks side by side on one moving floor, each a collection whose load is new in each step.
 TEST(Threads, ManySearchesAtOnceFindTheSame) {
   const auto end = [](int threads) {
