@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "src2d/core/memory.h"
+
 namespace merge2d {
 
 /// Moves runs of elements within the vector where those that stay keep their order, as most do when
@@ -54,7 +56,7 @@ class Regrouping {
   /// none lands on one that has not moved yet.
   template <class T>
   void moveInPlace(std::vector<T>& v) const {
-    if (v.size() < from_.size()) v.resize(from_.size());
+    if (v.size() < from_.size()) resizeTightly(v, from_.size());
     for (const Run& run : runs_) {
       if (run.to < run.from) std::copy_n(v.begin() + run.from, run.count, v.begin() + run.to);
     }
@@ -69,7 +71,8 @@ class Regrouping {
 
   template <class T>
   void copy(std::vector<T>& v) const {
-    std::vector<T> moved(from_.size());
+    std::vector<T> moved;
+    resizeTightly(moved, from_.size());
     for (std::size_t to = 0; to < from_.size(); ++to) {
       if (from_[to] != kNew) moved[to] = v[from_[to]];
     }
