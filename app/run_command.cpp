@@ -97,7 +97,7 @@ class Record {
   void add(const World& world) {
     summary_.add(world);
     if (!trace_ && !table_) return;
-    world.capture(snapshot_);
+    trace_ ? world.capture(snapshot_) : world.captureMotion(snapshot_);
     if (trace_) trace_->writer.add(snapshot_), trace_->file.check();
     if (table_) table_->writer.add(snapshot_), table_->file.check();
   }

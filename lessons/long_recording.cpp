@@ -50,9 +50,7 @@ class LongRun {
     const bool full = out_.detail == Detail::Full && out_.steps % out_.every == 0;
     if (full) return lookInto();
     recorder_.skip();
-    const double overlap = seen_.stats.max_penetration;  // the last one that was measured
     recorder_.world().captureMotion(seen_);
-    seen_.stats.max_penetration = overlap;
     feed_.add(seen_);
   }
   void finish() { feed_.finish(); }

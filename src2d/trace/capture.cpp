@@ -81,6 +81,20 @@ void showInternalVelocity(const State& state, const Scratch& scratch, const Coll
   }
 }
 
+/// By bodies and feature. Two points may lie in one place: then the rest tells them apart, −0 and 0
+/// as well, so that no sorting algorithm has a choice.
+bool comesBefore(const ContactView& x, const ContactView& y) {
+  const auto names = [](const ContactView& c) { return std::tuple(c.a, c.b, c.feature); };
+  if (names(x) != names(y)) return names(x) < names(y);
+  const auto of = [](double number) { return std::pair(number, !std::signbit(number)); };
+  const auto rest = [&](const ContactView& c) {
+    return std::tuple(of(c.x.x()), of(c.x.y()), of(c.lambda_n), of(c.lambda_t), of(c.gap),
+                      of(c.w_n), of(c.w_t), of(c.normal.x()), of(c.normal.y()), c.internal,
+                      c.fresh);
+  };
+  return rest(x) < rest(y);
+}
+
 void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) {
   out.contacts.clear();
   const auto show = [&](ContactTable::Slot slot) {
@@ -110,17 +124,7 @@ void captureContacts(const State& state, const Scratch& scratch, Snapshot& out) 
       }
     }
   }
-  std::sort(out.contacts.begin(), out.contacts.end(), [](const auto& x, const auto& y) {
-    // Two points may lie in one place: then the rest tells them apart, −0 and 0 as well, so that no
-    // sorting algorithm has a choice.
-    const auto of = [](double number) { return std::pair(number, !std::signbit(number)); };
-    const auto key = [&](const ContactView& c) {
-      return std::tuple(c.a, c.b, c.feature, of(c.x.x()), of(c.x.y()), of(c.lambda_n),
-                        of(c.lambda_t), of(c.gap), of(c.w_n), of(c.w_t), of(c.normal.x()),
-                        of(c.normal.y()), c.internal, c.fresh);
-    };
-    return key(x) < key(y);
-  });
+  std::ranges::sort(out.contacts, comesBefore);
 }
 
 /// Of an anchored collection centre and inertia are those of its members.
@@ -197,6 +201,35 @@ void captureJoints(const State& state, Snapshot& out) {
   }
 }
 
+double deepestOf(const Contact& contact) {
+  double deepest = 0.0;
+  for (int i = 0; i < contact.count; ++i) {
+    deepest = std::max(deepest, -contact.points[static_cast<std::size_t>(i)].gap);
+  }
+  return deepest;
+}
+
+double deepestOf(const InternalContact& inner) {
+  double deepest = 0.0;
+  for (int i = 0; i < inner.count; ++i) {
+    deepest = std::max(deepest, -inner.gap[static_cast<std::size_t>(i)]);
+  }
+  return deepest;
+}
+
+double deepestOfAll(const State& state) {
+  double deepest = 0.0;
+  const auto look = [&](ContactTable::Slot slot) {
+    deepest = std::max(deepest, deepestOf(state.contacts[slot]));
+  };
+  for (const ContactTable::Slot slot : state.contacts.order) look(slot);
+  state.contacts.parked.forEach(look);
+  for (const Collection& c : state.collections.all()) {
+    for (const InternalContact& inner : c.contacts) deepest = std::max(deepest, deepestOf(inner));
+  }
+  return deepest;
+}
+
 /// Momentum and energy of the bodies that respond to forces.
 void measure(const State& state, const Actions& actions, const Snapshot& seen, Stats& stats) {
   stats.kinetic_energy = stats.potential_energy = stats.angular_momentum = 0.0;
@@ -212,10 +245,7 @@ void measure(const State& state, const Actions& actions, const Snapshot& seen, S
     stats.angular_momentum += body.inertia * b.omega + body.mass * cross(b.x, b.v);
   }
   stats.potential_energy += springEnergy(state, actions);
-  stats.max_penetration = 0.0;
-  for (const ContactView& c : seen.contacts) {
-    stats.max_penetration = std::max(stats.max_penetration, -c.gap);
-  }
+  stats.max_penetration = deepestOfAll(state);
 }
 
 }  // namespace
@@ -253,10 +283,7 @@ void captureMotion(const State& state, const Actions& actions, const Scratch& sc
 double deepestOverlap(const State& state, const std::vector<Event>& events) {
   double deepest = 0.0;
   for (const ContactTable::Slot slot : state.contacts.order) {
-    const Contact& contact = state.contacts[slot];
-    for (int i = 0; i < contact.count; ++i) {
-      deepest = std::max<double>(deepest, -contact.points[static_cast<std::size_t>(i)].gap);
-    }
+    deepest = std::max(deepest, deepestOf(state.contacts[slot]));
   }
   std::vector<RigidId> grown;  // none in most steps
   for (const Event& event : events) {
@@ -269,9 +296,7 @@ double deepestOverlap(const State& state, const std::vector<Event>& events) {
   grown.erase(std::unique(grown.begin(), grown.end()), grown.end());
   for (const RigidId id : grown) {
     for (const InternalContact& inner : state.collection(id).contacts) {
-      for (int i = 0; i < inner.count; ++i) {
-        deepest = std::max<double>(deepest, -inner.gap[static_cast<std::size_t>(i)]);
-      }
+      deepest = std::max(deepest, deepestOf(inner));
     }
   }
   return deepest;

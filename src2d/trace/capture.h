@@ -11,8 +11,7 @@ namespace merge2d {
 void captureState(const State& state, const Actions& actions, const Scratch& scratch,
                   Snapshot& out);
 
-/// The same without contacts, welds and joints: what moves, at a fraction of the cost. The deepest
-/// overlap is not measured.
+/// The same without contacts, welds and joints, at a fraction of the cost.
 void captureMotion(const State& state, const Actions& actions, const Scratch& scratch,
                    Snapshot& out);
 

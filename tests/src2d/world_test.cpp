@@ -245,6 +245,23 @@ TEST(World, TheMotionOfASleepingHeapIsCapturedLikeAllElse) {
   EXPECT_EQ(motion.stats.asleep, all.stats.asleep);
 }
 
+TEST(World, TheDeepestOverlapIsThatOfAllContactsInBothCaptures) {
+  for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {
+    World world(wall(6, 6), inMode(mode));
+    for (const int steps : {0, 1, 20, 400}) {
+      runSteps(world, steps);
+      Snapshot motion;
+      world.captureMotion(motion);
+      const Snapshot all = world.capture();
+      double deepest = 0.0;
+      for (const ContactView& contact : all.contacts) deepest = std::max(deepest, -contact.gap);
+      EXPECT_EQ(all.stats.max_penetration, deepest) << name(mode) << " " << steps;
+      EXPECT_EQ(motion.stats.max_penetration, deepest) << name(mode) << " " << steps;
+      EXPECT_EQ(deepest > 0.0, steps > 1);
+    }
+  }
+}
+
 TEST(World, CountsTheMemoryOfItsWideSweeps) {
   const auto bytesBy = [](SweepPath path) {
     WorldOptions options = inMode(Mode::Reference);
