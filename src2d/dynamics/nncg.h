@@ -8,12 +8,21 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include "src2d/core/memory.h"
 #include "src2d/dynamics/state.h"
+#include "src2d/dynamics/wide_block.h"
 
 namespace merge2d {
+
+/// Impulses one after the other in memory, for which there are wide kernels (wide_block.h).
+struct ImpulsesInARow {
+  Impulses* first = nullptr;
+  const WideKernels* kernels = nullptr;
+  Impulses& operator()(std::size_t i) const { return first[i]; }
+};
 
 /// `impulses(i)` for i < `blocks` are those of a block of rows, `velocity(i)` for i < `bodies` what
 /// they act on, each once; `sweep()` solves every block once and changes both. With `accelerate`
@@ -67,6 +76,8 @@ class Nncg {
   int done() const { return done_; }  ///< sweeps of the last run
 
  private:
+  static constexpr bool kInARow = std::is_same_v<ImpulsesAt, ImpulsesInARow>;
+
   template <class Enough>
   SweepChange iterate(int sweeps, bool accelerate, double previous, Enough&& enough) {
     SweepChange change;
@@ -95,6 +106,7 @@ class Nncg {
 
   /// Four sums side by side, one per row of a block: always in the same order.
   SweepChange changeSince() const {
+    if constexpr (kInARow) return impulses_.kernels->change(vectors());
     Eigen::Array4d squared = Eigen::Array4d::Zero(), total = squared;
     for (std::size_t i = 0; i < blocks_; ++i) {
       const Eigen::Array4d now = rows(impulses_(i)), change = now - rows(m_.before[i]);
@@ -109,7 +121,8 @@ class Nncg {
   void step(double rho) {
     const double keep = rho > 1.0 ? 0.0 : 1.0;
     if (rho > 1.0) rho = 0.0;
-    for (std::size_t i = 0; i < blocks_; ++i) {
+    if constexpr (kInARow) impulses_.kernels->step(vectors(), rho, keep);
+    for (std::size_t i = 0; !kInARow && i < blocks_; ++i) {
       auto lambda = rows(impulses_(i)), p = rows(m_.direction[i]), before = rows(m_.before[i]);
       const Eigen::Array4d along = rho * p, next = lambda + along;
       p = along + keep * (lambda - before);
@@ -126,6 +139,10 @@ class Nncg {
       before.vy = u.vy += along.vy;
       before.omega = u.omega += along.omega;
     }
+  }
+
+  ImpulseVectors vectors() const {
+    return {impulses_.first, m_.before.data(), m_.direction.data(), blocks_};
   }
 
   /// As one vector: a compiler alone takes them one by one where they may overlap.

@@ -198,12 +198,6 @@ struct OpenRegion {
   bool passes = false;           ///< its hits may be passed on to the frame (load_path.h)
 };
 
-/// The change of all impulses in the last sweep, squared, beside the impulses themselves [N² s²].
-struct SweepChange {
-  double squared = 0.0;
-  double total = 0.0;
-};
-
 /// The findings of one task of the contact detection, where several threads search.
 struct FoundByTask {
   std::vector<ContactKey> candidates;

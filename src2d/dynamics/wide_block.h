@@ -5,6 +5,7 @@
 /// as those of contact_block.h and rows.cpp, on every processor.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "src2d/core/sweep_path.h"
@@ -25,7 +26,6 @@ struct alignas(32) WideBlock {
   Four softness;
   Four bias[2];
   Four mu;
-  Four inv_inertia_a, inv_inertia_b, surface_a, surface_b;
   std::array<std::uint32_t, 4> a{}, b{};  ///< indices into the velocities
   std::array<std::uint32_t, 4> block{};   ///< indices into the impulses
   std::int16_t points = 0;                ///< of each block
@@ -59,6 +59,18 @@ struct FourContactVelocities {
   Four n[2], t[2];
 };
 
+/// The change of all impulses in the last sweep, squared, beside the impulses themselves [N² s²].
+struct SweepChange {
+  double squared = 0.0;
+  double total = 0.0;
+};
+
+/// Impulses of all blocks as vectors of the conjugate gradient (dynamics/nncg.h).
+struct ImpulseVectors {
+  Impulses *now = nullptr, *before = nullptr, *direction = nullptr;
+  std::size_t size = 0;  ///< blocks
+};
+
 /// One set of instructions.
 struct WideKernels {
   /// Runs of blocks with two points, then with one, that share no moving body.
@@ -70,6 +82,8 @@ struct WideKernels {
   void (*make_rows)(const FourContacts& of, const RowSettings& settings, const SolverVelocity* u,
                     WideBlock& to);
   void (*velocities)(const WideBlock& of, const SolverVelocity* u, FourContactVelocities& to);
+  SweepChange (*change)(const ImpulseVectors& of);
+  void (*step)(const ImpulseVectors& of, double rho, double keep);
 };
 
 /// Of the fastest instructions of `path` that the processor has.

@@ -17,8 +17,7 @@ constexpr std::uint32_t kLeastLanes = 2;
 
 constexpr std::size_t kGrain = 16;  ///< groups that a thread solves in a row
 
-void setLane(WideBlock& w, std::size_t lane, const ContactBlock& k, const SolverVelocity& a,
-             const SolverVelocity& b) {
+void setLane(WideBlock& w, std::size_t lane, const ContactBlock& k) {
   w.nx[lane] = k.nx;
   w.ny[lane] = k.ny;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -35,10 +34,6 @@ void setLane(WideBlock& w, std::size_t lane, const ContactBlock& k, const Solver
   w.inv_det[lane] = k.inv_det;
   w.softness[lane] = k.softness;
   w.mu[lane] = k.mu;
-  w.inv_inertia_a[lane] = a.inv_inertia;
-  w.inv_inertia_b[lane] = b.inv_inertia;
-  w.surface_a[lane] = a.surface;
-  w.surface_b[lane] = b.surface;
   w.a[lane] = k.a;
   w.b[lane] = k.b;
 }
@@ -77,8 +72,7 @@ void WideBlocks::begin(std::size_t blocks, std::size_t chosen, std::uint32_t idl
 }
 
 void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const PackedAs> kinds,
-                      std::span<const BlockOrder> order, const std::vector<SolverVelocity>& u,
-                      std::uint32_t idle) {
+                      std::span<const BlockOrder> order, std::uint32_t idle) {
   const auto size = static_cast<std::uint32_t>(blocks.size());
   begin(size, size, idle);
   for (std::uint32_t i = 0; i < size; ++i) {
@@ -89,7 +83,7 @@ void WideBlocks::pack(std::span<const ContactBlock> blocks, std::span<const Pack
     const bool mixed = order[first].colour() == BlockOrder::kMixed;
     const auto at = [&](std::size_t i) { return first + static_cast<std::uint32_t>(i); };
     const auto kind_at = [&](std::size_t i) { return mixed ? PackedAs::Alone : kinds[first + i]; };
-    packColour(last - first, at, kind_at, blocks, u);
+    packColour(last - first, at, kind_at, blocks);
   }
 }
 
@@ -110,37 +104,35 @@ void WideBlocks::packChosen(std::span<const ContactBlock> blocks,
   for (const std::uint32_t i : chosen) {
     const ContactBlock& k = blocks[i];
     if (isTaken(k.a) || isTaken(k.b)) {
-      packChosenColour(blocks, u);
+      packChosenColour(blocks);
       colour_.clear();
       ++colours_so_far_;
     }
     taken_[k.a] = taken_[k.b] = colours_so_far_;
     colour_.push_back(i);
   }
-  packChosenColour(blocks, u);
+  packChosenColour(blocks);
 }
 
-void WideBlocks::packChosenColour(std::span<const ContactBlock> blocks,
-                                  const std::vector<SolverVelocity>& u) {
+void WideBlocks::packChosenColour(std::span<const ContactBlock> blocks) {
   const auto at = [&](std::size_t i) { return colour_[i]; };
   const auto kind_at = [&](std::size_t i) { return packedAs(blocks[colour_[i]]); };
-  packColour(colour_.size(), at, kind_at, blocks, u);
+  packColour(colour_.size(), at, kind_at, blocks);
 }
 
 /// Four of a kind are a group, and so are the last ones of a kind.
 template <class At, class KindAt>
 void WideBlocks::packColour(std::size_t size, At&& at, KindAt&& kind_at,
-                            std::span<const ContactBlock> blocks,
-                            const std::vector<SolverVelocity>& u) {
+                            std::span<const ContactBlock> blocks) {
   const auto packKind = [&](PackedAs kind) {
     std::array<std::uint32_t, 4> chosen{};
     std::size_t count = 0;
     for (std::size_t i = 0; i < size; ++i) {
       if (kind_at(i) != kind) continue;
       chosen[count++] = at(i);
-      if (count == 4) packGroup({chosen.data(), std::exchange(count, 0)}, kind, blocks, u);
+      if (count == 4) packGroup({chosen.data(), std::exchange(count, 0)}, kind, blocks);
     }
-    if (count > 0) packGroup({chosen.data(), count}, kind, blocks, u);
+    if (count > 0) packGroup({chosen.data(), count}, kind, blocks);
   };
   Colour colour;
   packKind(PackedAs::PlainPair);
@@ -157,8 +149,7 @@ void WideBlocks::packColour(std::size_t size, At&& at, KindAt&& kind_at,
 }
 
 void WideBlocks::packGroup(std::span<const std::uint32_t> chosen, PackedAs kind,
-                           std::span<const ContactBlock> blocks,
-                           const std::vector<SolverVelocity>& u) {
+                           std::span<const ContactBlock> blocks) {
   const bool plain = isPlain(kind);
   const bool pairs = kind == PackedAs::PlainPair || kind == PackedAs::Pair;
   if (chosen.size() < kLeastLanes) {
@@ -175,8 +166,7 @@ void WideBlocks::packGroup(std::span<const std::uint32_t> chosen, PackedAs kind,
     w.block[lane] = lane < chosen.size() ? chosen[lane] : unused;
   }
   for (std::size_t lane = 0; !plain && lane < chosen.size(); ++lane) {
-    const ContactBlock& k = blocks[chosen[lane]];
-    setLane(w, lane, k, u[k.a], u[k.b]);
+    setLane(w, lane, blocks[chosen[lane]]);
   }
   if (!isFull(w)) clearUnused(w);
 }
@@ -191,7 +181,7 @@ std::uint32_t WideBlocks::addUnused() {
 void WideBlocks::clearUnused(WideBlock& group) const {
   const ContactBlock none{.a = idle_, .b = idle_};
   for (std::size_t lane = 0; lane < 4; ++lane) {
-    if (!isUsed(group, lane)) setLane(group, lane, none, {}, {});
+    if (!isUsed(group, lane)) setLane(group, lane, none);
   }
 }
 

@@ -37,8 +37,7 @@ class WideBlocks {
   /// Takes the blocks of an island, whose order is `order`; `idle` is the index of a velocity that
   /// never responds. Blocks and velocities must outlive the sweeps.
   void pack(std::span<const ContactBlock> blocks, std::span<const PackedAs> kinds,
-            std::span<const BlockOrder> order, const std::vector<SolverVelocity>& u,
-            std::uint32_t idle);
+            std::span<const BlockOrder> order, std::uint32_t idle);
 
   /// The same for `chosen` ones in any order: neighbours in it that share no moving body are solved
   /// side by side.
@@ -87,12 +86,12 @@ class WideBlocks {
   };
 
   void begin(std::size_t blocks, std::size_t chosen, std::uint32_t idle);
-  void packChosenColour(std::span<const ContactBlock> blocks, const std::vector<SolverVelocity>& u);
+  void packChosenColour(std::span<const ContactBlock> blocks);
   template <class At, class KindAt>
-  void packColour(std::size_t size, At&& at, KindAt&& kind_at, std::span<const ContactBlock> blocks,
-                  const std::vector<SolverVelocity>& u);
+  void packColour(std::size_t size, At&& at, KindAt&& kind_at,
+                  std::span<const ContactBlock> blocks);
   void packGroup(std::span<const std::uint32_t> chosen, PackedAs kind,
-                 std::span<const ContactBlock> blocks, const std::vector<SolverVelocity>& u);
+                 std::span<const ContactBlock> blocks);
   std::uint32_t addUnused();
   template <class One>
   void forEachColour(WideKernels::OnImpulses wide, std::vector<SolverVelocity>& u, TaskPool* tasks,

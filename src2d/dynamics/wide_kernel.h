@@ -12,6 +12,11 @@ struct FourVelocities {
   Four vx, vy, omega, inv_mass;
 };
 
+/// The rest of four bodies.
+struct FourInertias {
+  Four inv_inertia, surface;
+};
+
 /// Rows become columns.
 inline void transpose(Four& p, Four& q, Four& r, Four& s) {
   const Four pq_low = __builtin_shufflevector(p, q, 0, 4, 2, 6);
@@ -34,6 +39,20 @@ inline void gather(FourVelocities& to, const SolverVelocity* u,
   load(to.omega, &u[of[2]].vx);
   load(to.inv_mass, &u[of[3]].vx);
   transpose(to.vx, to.vy, to.omega, to.inv_mass);
+}
+
+inline void gather(FourInertias& to, const SolverVelocity* u,
+                   const std::array<std::uint32_t, 4>& of) {
+  using Two = double __attribute__((vector_size(16)));
+  Two p, q, r, s;
+  __builtin_memcpy(&p, &u[of[0]].inv_inertia, sizeof p);
+  __builtin_memcpy(&q, &u[of[1]].inv_inertia, sizeof q);
+  __builtin_memcpy(&r, &u[of[2]].inv_inertia, sizeof r);
+  __builtin_memcpy(&s, &u[of[3]].inv_inertia, sizeof s);
+  const Four pr = __builtin_shufflevector(p, r, 0, 1, 2, 3);
+  const Four qs = __builtin_shufflevector(q, s, 0, 1, 2, 3);
+  to.inv_inertia = __builtin_shufflevector(pr, qs, 0, 4, 2, 6);
+  to.surface = __builtin_shufflevector(pr, qs, 1, 5, 3, 7);
 }
 
 /// Bodies that do not respond are left alone: other threads read them.
@@ -85,6 +104,7 @@ inline void solveByCases(const WideBlock& k, const Four& w1, const Four& w2, con
 /// it stays in registers, as long as the functions that share it are inlined.
 struct FourBlocks {
   FourVelocities a, b;
+  FourInertias rest_a, rest_b;
   Four n1, n2, t1, t2;
   Four v_n, v_t;  ///< of the centres of mass against each other, with the belts
 };
@@ -93,6 +113,8 @@ struct FourBlocks {
                                         const SolverVelocity* u) {
   gather(s.a, u, k.a);
   gather(s.b, u, k.b);
+  gather(s.rest_a, u, k.a);
+  gather(s.rest_b, u, k.b);
   load(s.n1, impulses[k.block[0]].data());
   load(s.n2, impulses[k.block[1]].data());
   load(s.t1, impulses[k.block[2]].data());
@@ -100,7 +122,7 @@ struct FourBlocks {
   transpose(s.n1, s.n2, s.t1, s.t2);
   const Four dx = s.b.vx - s.a.vx, dy = s.b.vy - s.a.vy;
   s.v_n = k.nx * dx + k.ny * dy;
-  s.v_t = k.nx * dy - k.ny * dx + k.surface_a + k.surface_b;
+  s.v_t = k.nx * dy - k.ny * dx + s.rest_a.surface + s.rest_b.surface;
 }
 
 /// Moves the centres of mass by what was added along normal and tangent, and writes all back.
@@ -140,8 +162,8 @@ inline void solvePairs(const WideBlock& k, Impulses* impulses, SolverVelocity* u
   const Four p1 = x1 - s.n1, p2 = x2 - s.n2;
   s.n1 = x1;
   s.n2 = x2;
-  s.a.omega -= k.inv_inertia_a * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
-  s.b.omega += k.inv_inertia_b * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
+  s.a.omega -= s.rest_a.inv_inertia * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
+  s.b.omega += s.rest_b.inv_inertia * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
 
   // Their friction, as one row: ManifoldFriction.
   const Four pressure = x1 + x2, half = Four{} + 0.5;
@@ -156,8 +178,8 @@ inline void solvePairs(const WideBlock& k, Impulses* impulses, SolverVelocity* u
   const Four f1 = of1 * both - s.t1, f2 = of2 * both - s.t2;
   s.t1 = of1 * both;
   s.t2 = of2 * both;
-  s.a.omega -= k.inv_inertia_a * (k.arm_at[0] * f1 + k.arm_at[1] * f2);
-  s.b.omega += k.inv_inertia_b * (k.arm_bt[0] * f1 + k.arm_bt[1] * f2);
+  s.a.omega -= s.rest_a.inv_inertia * (k.arm_at[0] * f1 + k.arm_at[1] * f2);
+  s.b.omega += s.rest_b.inv_inertia * (k.arm_bt[0] * f1 + k.arm_bt[1] * f2);
   write(s, k, p1 + p2, f1 + f2, impulses, u);
 }
 
@@ -171,14 +193,14 @@ inline void solveSingles(const WideBlock& k, Impulses* impulses, SolverVelocity*
   notNegative(x);
   const Four p_n = x - s.n1;
   s.n1 = x;
-  s.a.omega -= k.inv_inertia_a * k.arm_an[0] * p_n;
-  s.b.omega += k.inv_inertia_b * k.arm_bn[0] * p_n;
+  s.a.omega -= s.rest_a.inv_inertia * k.arm_an[0] * p_n;
+  s.b.omega += s.rest_b.inv_inertia * k.arm_bn[0] * p_n;
   Four y = s.t1 - k.inv_kt[0] * (s.v_t + k.arm_bt[0] * s.b.omega - k.arm_at[0] * s.a.omega);
   clamp(y, k.mu * x);
   const Four p_t = y - s.t1;
   s.t1 = y;
-  s.a.omega -= k.inv_inertia_a * k.arm_at[0] * p_t;
-  s.b.omega += k.inv_inertia_b * k.arm_bt[0] * p_t;
+  s.a.omega -= s.rest_a.inv_inertia * k.arm_at[0] * p_t;
+  s.b.omega += s.rest_b.inv_inertia * k.arm_bt[0] * p_t;
   write(s, k, p_n, p_t, impulses, u);
 }
 
@@ -197,10 +219,10 @@ inline void warmStart(const WideBlock& k, int points, const Impulses* impulses, 
     const Four px = k.nx * p_n - k.ny * p_t, py = k.ny * p_n + k.nx * p_t;
     s.a.vx -= s.a.inv_mass * px;
     s.a.vy -= s.a.inv_mass * py;
-    s.a.omega -= k.inv_inertia_a * (k.arm_an[i] * p_n + k.arm_at[i] * p_t);
+    s.a.omega -= s.rest_a.inv_inertia * (k.arm_an[i] * p_n + k.arm_at[i] * p_t);
     s.b.vx += s.b.inv_mass * px;
     s.b.vy += s.b.inv_mass * py;
-    s.b.omega += k.inv_inertia_b * (k.arm_bn[i] * p_n + k.arm_bt[i] * p_t);
+    s.b.omega += s.rest_b.inv_inertia * (k.arm_bn[i] * p_n + k.arm_bt[i] * p_t);
   }
   scatter(s.a, u, k.a);
   scatter(s.b, u, k.b);

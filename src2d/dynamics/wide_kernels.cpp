@@ -11,8 +11,10 @@ namespace merge2d {
 
 namespace portable {
 #include "src2d/dynamics/wide_kernel.h"
+#include "src2d/dynamics/wide_nncg_kernel.h"
 #include "src2d/dynamics/wide_rows_kernel.h"
-constexpr WideKernels kKernels{warmStartWide, sweepWide, makeRowsWide, velocitiesWide};
+constexpr WideKernels kKernels{warmStartWide,  sweepWide,  makeRowsWide,
+                               velocitiesWide, changeWide, stepWide};
 }  // namespace portable
 
 #if defined(__x86_64__) && !defined(__AVX2__)
@@ -25,8 +27,10 @@ constexpr WideKernels kKernels{warmStartWide, sweepWide, makeRowsWide, velocitie
 #endif
 namespace avx2 {
 #include "src2d/dynamics/wide_kernel.h"
+#include "src2d/dynamics/wide_nncg_kernel.h"
 #include "src2d/dynamics/wide_rows_kernel.h"
-constexpr WideKernels kKernels{warmStartWide, sweepWide, makeRowsWide, velocitiesWide};
+constexpr WideKernels kKernels{warmStartWide,  sweepWide,  makeRowsWide,
+                               velocitiesWide, changeWide, stepWide};
 }  // namespace avx2
 #ifdef __clang__
 #pragma clang attribute pop

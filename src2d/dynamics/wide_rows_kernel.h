@@ -2,18 +2,6 @@
 /// rows.cpp and contact_block.h. Included by wide_kernels.cpp once for each set of instructions,
 /// after wide_kernel.h; so it includes nothing, and has no `#pragma once`.
 
-/// The rest of four bodies.
-struct FourInertias {
-  Four inv_inertia, surface;
-};
-
-inline void gather(FourInertias& to, const SolverVelocity* u,
-                   const std::array<std::uint32_t, 4>& of) {
-  to.inv_inertia =
-      Four{u[of[0]].inv_inertia, u[of[1]].inv_inertia, u[of[2]].inv_inertia, u[of[3]].inv_inertia};
-  to.surface = Four{u[of[0]].surface, u[of[1]].surface, u[of[2]].surface, u[of[3]].surface};
-}
-
 /// std::max(a, b) and std::min(a, b)
 inline void maximum(Four& to, const Four& a, const Four& b) { to = a < b ? b : a; }
 inline void minimum(Four& to, const Four& a, const Four& b) { to = b < a ? b : a; }
@@ -81,9 +69,8 @@ inline void setSoftness(const FourContacts& of, const RowSettings& settings,
 }
 
 /// merge2d::fillMasses
-inline void fillMasses(const FourVelocities& a, const FourVelocities& b, WideBlock& k) {
-  const Four& inv_inertia_a = k.inv_inertia_a;
-  const Four& inv_inertia_b = k.inv_inertia_b;
+inline void fillMasses(const FourVelocities& a, const FourVelocities& b, const Four& inv_inertia_a,
+                       const Four& inv_inertia_b, WideBlock& k) {
   const Four inv_mass = a.inv_mass + b.inv_mass;
   for (int i = 0; i < k.points; ++i) {
     k.inv_kt[i] = 1.0 / (inv_mass + inv_inertia_a * k.arm_at[i] * k.arm_at[i] +
@@ -113,14 +100,10 @@ inline void makeRowsWide(const FourContacts& of, const RowSettings& settings,
   FourInertias rest_a, rest_b;
   gather(rest_a, u, k.a);
   gather(rest_b, u, k.b);
-  k.inv_inertia_a = rest_a.inv_inertia;
-  k.inv_inertia_b = rest_b.inv_inertia;
-  k.surface_a = rest_a.surface;
-  k.surface_b = rest_b.surface;
   setArms(of, k);
   setBias(of, settings, k);
   setSoftness(of, settings, a, b, k);
-  fillMasses(a, b, k);
+  fillMasses(a, b, rest_a.inv_inertia, rest_b.inv_inertia, k);
 }
 
 /// merge2d::contactVelocity
@@ -128,10 +111,13 @@ inline void velocitiesWide(const WideBlock& k, const SolverVelocity* u, FourCont
   FourVelocities a, b;
   gather(a, u, k.a);
   gather(b, u, k.b);
+  FourInertias rest_a, rest_b;
+  gather(rest_a, u, k.a);
+  gather(rest_b, u, k.b);
   const Four dx = b.vx - a.vx, dy = b.vy - a.vy;
   const Four v_n = k.nx * dx + k.ny * dy, v_t = k.nx * dy - k.ny * dx;
   for (int i = 0; i < k.points; ++i) {
     to.n[i] = v_n + k.arm_bn[i] * b.omega - k.arm_an[i] * a.omega;
-    to.t[i] = v_t + k.arm_bt[i] * b.omega - k.arm_at[i] * a.omega + k.surface_a + k.surface_b;
+    to.t[i] = v_t + k.arm_bt[i] * b.omega - k.arm_at[i] * a.omega + rest_a.surface + rest_b.surface;
   }
 }

@@ -27,7 +27,7 @@ class WideIsland {
     makeOthers();
     const std::span order(scratch_.block_order.data() + island_.first, blocks_.size());
     const auto idle = static_cast<std::uint32_t>(scratch_.u.size() - 1);
-    wide_.pack(blocks_, tools_.memory.kinds, order, scratch_.u, idle);
+    wide_.pack(blocks_, tools_.memory.kinds, order, idle);
     const auto groups = wide_.groups();
     forEachIndex(tools_.tasks, groups.size(), kGroupsAtOnce, [&](std::size_t i, int) {
       if (groups[i].plain) rows_.makeGroup(wide_, groups[i], island_.first, tools_.path);
@@ -44,7 +44,7 @@ class WideIsland {
     const std::span bodies(scratch_.island_bodies.data() + island_.first_body,
                            island_.last_body - island_.first_body);
     Nncg iteration(
-        blocks_.size(), [&](std::size_t i) -> Impulses& { return wide_.impulses()[i]; },
+        blocks_.size(), ImpulsesInARow{wide_.impulses().data(), &wideKernels(tools_.path)},
         bodies.size(), [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; },
         [&] { wide_.sweep(blocks_, u, tools_.path, tools_.tasks); }, tools_.memory.nncg);
     return iteration.run(settings.iterations, isAccelerated(settings.method));

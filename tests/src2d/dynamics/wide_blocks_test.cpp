@@ -106,7 +106,7 @@ TEST(WideBlocks, GiveTheSameBitsAsOneBlockAfterTheOther) {
       std::vector<PackedAs> kinds;
       for (const ContactBlock& k : island.blocks) kinds.push_back(packedAs(k));
       WideBlocks wide;
-      wide.pack(island.blocks, kinds, island.order, island.u, kBodies);
+      wide.pack(island.blocks, kinds, island.order, kBodies);
       for (int sweep = 1; sweep <= 4; ++sweep) {
         sweepOneByOne(expected);
         wide.sweep(island.blocks, island.u, path);
