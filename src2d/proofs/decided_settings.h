@@ -60,7 +60,8 @@ struct DecidedSettings {
   /// once, as loads come again.
   int patience = 200;
   /// One in so many is a small part of a collection: it keeps its layout while no larger part of it
-  /// has come in, and its proofs while no larger part of its members is loaded from outside.
+  /// has come in, and its proofs while no larger part of its members is loaded from outside; and an
+  /// open region that leaves no larger part outside takes all.
   std::size_t little = 8;
 };
 inline constexpr DecidedSettings kDecided;

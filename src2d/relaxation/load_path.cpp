@@ -17,7 +17,7 @@ Vec2 directionOf(double x, double y) {
 }  // namespace
 
 LoadPath::LoadPath(const State& state, const Scratch& scratch, const Collection& c)
-    : state_(state), scratch_(scratch), c_(c) {}
+    : state_(state), scratch_(scratch), c_(c), place_(c.members.size(), 0) {}
 
 bool LoadPath::find(const MemberLoad& load, double tolerance) {
   tolerance_ = tolerance;
@@ -32,7 +32,7 @@ bool LoadPath::find(std::span<const MemberLoad> loads, const FrameLoad& frame, d
 }
 
 bool LoadPath::find(std::span<const MemberLoad> loads, const Vec2& along) {
-  nodes_.clear();
+  forgetNodes();
   along_ = along;
   front_.clear();
   changes_.clear();
@@ -48,6 +48,11 @@ bool LoadPath::find(std::span<const MemberLoad> loads, const Vec2& along) {
   return true;
 }
 
+void LoadPath::forgetNodes() {
+  for (const Node& node : nodes_) place_[node.member] = 0;
+  nodes_.clear();
+}
+
 void LoadPath::apply(Collection& c) {
   for (const Change& change : changes_) {
     ContactBlock& k = c.blocks[change.block];
@@ -59,7 +64,7 @@ void LoadPath::apply(Collection& c) {
 
 std::vector<std::uint32_t> LoadPath::members() const {
   std::vector<std::uint32_t> members;
-  for (const auto& [member, node] : nodes_) members.push_back(member);
+  for (const Node& node : nodes_) members.push_back(node.member);
   std::ranges::sort(members);
   return members;
 }
@@ -72,7 +77,7 @@ void LoadPath::restore(Collection& c) {
 
 /// To the bodies behind its contacts. False where these cannot take it.
 bool LoadPath::passOn(std::uint32_t member) {
-  const Node& node = nodes_.at(member);
+  const Node node = known(member);
   const auto isSlow = [&](const Wrench& w) {
     return node.inv_mass * std::sqrt(w.x * w.x + w.y * w.y) + node.turn * std::abs(w.spin) <=
            tolerance_;
@@ -124,8 +129,7 @@ void LoadPath::listEdges(std::uint32_t block, std::uint32_t member, std::uint32_
   const ContactBlock& k = c_.blocks[block];
   if (k.bilateral) return;
   const bool is_b = k.b == index(c_.members[member]);
-  const double size = nodes_.at(member).size,
-               other_size = isFrame(c_, other) ? 1.0 : nodes_.at(other).size;
+  const double size = known(member).size, other_size = isFrame(c_, other) ? 1.0 : known(other).size;
   for (int i = 0; i < k.count; ++i) {
     if (k.bias[i] != 0.0) continue;
     const ConePoint point{.nx = k.nx,
@@ -142,9 +146,11 @@ void LoadPath::listEdges(std::uint32_t block, std::uint32_t member, std::uint32_
 }
 
 LoadPath::Node& LoadPath::nodeOf(std::uint32_t member) {
-  const auto [at, is_new] = nodes_.try_emplace(member);
-  Node& node = at->second;
-  if (!is_new) return node;
+  std::uint32_t& place = place_[member];
+  if (place != 0) return nodes_[place - 1];
+  Node& node = nodes_.emplace_back();
+  place = static_cast<std::uint32_t>(nodes_.size());
+  node.member = member;
   const Body& body = state_[c_.members[member]];
   node.depth = along_.dot(body.local);
   node.size = state_.extent(rigidOf(c_.members[member])).box.half.norm();

@@ -5,7 +5,6 @@
 /// convex cone, and those of the load are added to those that there are.
 
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -41,6 +40,7 @@ class LoadPath {
  private:
   /// A member, when something is passed on to it.
   struct Node {
+    std::uint32_t member = 0;
     Wrench load;
     double depth = 0.0;                 ///< of its centre along the way [m]
     double size = 1.0;                  ///< by which moments are divided [m]
@@ -54,17 +54,20 @@ class LoadPath {
   };
 
   bool find(std::span<const MemberLoad> loads, const Vec2& along);
+  void forgetNodes();
   bool passOn(std::uint32_t member);
   void add(std::uint32_t member, const Wrench& load);
   std::uint32_t takeFirst();
   void listEdges(std::uint32_t member);
   void listEdges(std::uint32_t block, std::uint32_t member, std::uint32_t other);
+  /// Valid until the next one is looked at.
   Node& nodeOf(std::uint32_t member);
+  const Node& known(std::uint32_t member) const { return nodes_[place_[member] - 1]; }
   bool isOpen(std::uint32_t member) const {
     return !scratch_.open.empty() && scratch_.open[index(c_.members[member])] != 0;
   }
   bool isBefore(std::uint32_t a, std::uint32_t b) const {
-    const double depth_a = nodes_.at(a).depth, depth_b = nodes_.at(b).depth;
+    const double depth_a = known(a).depth, depth_b = known(b).depth;
     return depth_a < depth_b || (depth_a == depth_b && a < b);
   }
 
@@ -73,7 +76,8 @@ class LoadPath {
   const Collection& c_;
   double tolerance_ = 0.0;
   Vec2 along_ = Vec2::UnitX();
-  std::unordered_map<std::uint32_t, Node> nodes_;  ///< of the members that were looked at
+  std::vector<Node> nodes_;           ///< of the members that were looked at
+  std::vector<std::uint32_t> place_;  ///< per member: one more than its place there, or 0
   std::vector<std::uint32_t> front_;  ///< a heap: members that have not passed their load on
   std::vector<ConeEdge> edges_;       ///< of the body in question
   std::vector<Change> changes_;       ///< of the way that was found

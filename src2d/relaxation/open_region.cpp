@@ -55,6 +55,14 @@ void addAround(State& state, Scratch& scratch, OpenRegion& region, std::size_t f
   region.rings *= 2;
 }
 
+/// A region that leaves but a small part of the members outside takes them all: to go on in rings
+/// costs more solves than it saves rows.
+void completeMost(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
+  const std::size_t outside = c.members.size() - region.members.size();
+  if (!isSmallPart(outside, c.members.size())) return;
+  for (std::uint32_t m = 0; m < c.members.size(); ++m) addIfOutside(state, scratch, region, m);
+}
+
 /// Calls `visit` with each block between a member inside and one outside.
 template <class Visit>
 void forEachHeld(const Scratch& scratch, const Collection& c, const OpenRegion& region,
@@ -125,6 +133,7 @@ void beginRegion(State& state, Scratch& scratch, Collection& c, OpenRegion& regi
   if (!opensInPart(state, c) || wasSearched(c)) return addAll(state, scratch, region);
   addOwn(state, scratch, c, region);
   addUnbalanced(state, scratch, c, region);
+  completeMost(state, scratch, c, region);
 }
 
 void listRegion(State& state, Scratch& scratch, OpenRegion& region) {
@@ -158,6 +167,7 @@ bool widen(State& state, Scratch& scratch, OpenRegion& region) {
       addMember(state, scratch, region, m);
     }
   }
+  completeMost(state, scratch, c, region);
   return region.members.size() > first;
 }
 

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/merging_testing.h"
+#include "src2d/proofs/decided_settings.h"
+#include "tests/src2d/relaxation/merged_testing.h"
 
 namespace merge2d {
 namespace {
@@ -169,6 +170,27 @@ TEST(OpenRegion, BoxesThatFallFlatOnAWallPartNothing) {
   run.until(6.0);
   EXPECT_EQ(run.count(EventType::Unmerge), before);
   EXPECT_EQ(moved(start, run.now(), 0.01), 4) << "the boxes";
+}
+
+/// How many members a wall opens where impulses act on the first ones.
+std::size_t openedByKicks(std::size_t kicked) {
+  Merged merged(wall(20, 30));
+  Collection& c = merged.collection();
+  EXPECT_TRUE(opensInPart(merged.state(), c));
+  merged.scratch().open_start.resize(merged.state().bodies.size());
+  for (std::size_t m = 0; m < kicked; ++m) {
+    merged.scratch().kicks.push_back({c.members[m], merged.state().pose(c.members[m]).position});
+  }
+  OpenRegion region;
+  beginRegion(merged.state(), merged.scratch(), c, region);
+  return region.members.size();
+}
+
+TEST(OpenRegion, TakesAllMembersOnceItLeavesButASmallPartOutside) {
+  constexpr std::size_t kAll = 610, kSmall = 76;
+  EXPECT_EQ(openedByKicks(3), 3u);
+  EXPECT_EQ(openedByKicks(kAll - kSmall - 1), kAll - kSmall - 1);
+  EXPECT_EQ(openedByKicks(kAll - kSmall), kAll);
 }
 
 }  // namespace
