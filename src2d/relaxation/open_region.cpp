@@ -59,8 +59,7 @@ void addAround(State& state, Scratch& scratch, OpenRegion& region, std::size_t f
 /// costs more solves than it saves rows.
 void completeMost(State& state, Scratch& scratch, const Collection& c, OpenRegion& region) {
   const std::size_t outside = c.members.size() - region.members.size();
-  if (!isSmallPart(outside, c.members.size())) return;
-  for (std::uint32_t m = 0; m < c.members.size(); ++m) addIfOutside(state, scratch, region, m);
+  if (isSmallPart(outside, c.members.size())) addOthers(state, scratch, region);
 }
 
 /// Calls `visit` with each block between a member inside and one outside.

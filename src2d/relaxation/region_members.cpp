@@ -38,6 +38,11 @@ void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t
   region.members.push_back(member);
 }
 
+void addOthers(State& state, Scratch& scratch, OpenRegion& region) {
+  const Collection& c = state.collections[region.slot];
+  for (std::uint32_t m = 0; m < c.members.size(); ++m) addIfOutside(state, scratch, region, m);
+}
+
 void addAll(State& state, Scratch& scratch, OpenRegion& region) {
   Collection& c = state.collections[region.slot];
   region.whole = true;

@@ -37,6 +37,8 @@ bool isInside(const Scratch& scratch, const Collection& c, std::uint32_t node);
 /// One more member, which has moved with its collection so far.
 void addMember(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member);
 void addIfOutside(State& state, Scratch& scratch, OpenRegion& region, std::uint32_t member);
+/// All members that are outside.
+void addOthers(State& state, Scratch& scratch, OpenRegion& region);
 
 /// All members, as a whole region; the load that is sought keeps the impulses before.
 void addAll(State& state, Scratch& scratch, OpenRegion& region);

@@ -86,14 +86,6 @@ double relaxRegion(State& state, Scratch& scratch, OpenRegion& region) {
   return residual;
 }
 
-/// A load that lasts may move any member.
-void addOthers(State& state, Scratch& scratch, OpenRegion& region) {
-  const Collection& c = state.collections[region.slot];
-  for (std::uint32_t m = 0; m < c.members.size(); ++m) {
-    if (scratch.open[index(c.members[m])] == 0) addMember(state, scratch, region, m);
-  }
-}
-
 /// In a small collection a search that is under way goes on, with its gradient and its budget.
 double relaxWhole(State& state, Scratch& scratch, OpenRegion& region) {
   Collection& c = state.collections[region.slot];
@@ -126,7 +118,7 @@ void relaxOpen(State& state, Scratch& scratch, OpenRegion& region) {
   auto& trial_u = scratch.sweeps.front().trial_u;
   trial_u.resize(state.bodies.size() + 1);
   trial_u.back() = {};
-  if (!local) addOthers(state, scratch, region);
+  if (!local) addOthers(state, scratch, region);  // a load that lasts may move any member
   for (const std::uint32_t m : region.members) {
     const SolverVelocity& u = scratch.sweep_u[index(c.members[m])];
     const Vec2 v = back * Vec2(Vec2(u.vx, u.vy) - one.at(armOf(state, c, c.members[m])));
