@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/support/merging_testing.h"
 
 namespace merge2d {
@@ -38,6 +40,59 @@ TEST(ExpectedContacts, ABodyPushesANeighbourThatItDoesNotTouchYet) {
     EXPECT_NEAR(run.body("a").v.x(), reference.body("a").v.x(), 2.0) << rule;
     EXPECT_NEAR(run.body("b").v.x(), reference.body("b").v.x(), 2.0) << rule;
     EXPECT_LT(run.body("a").x.x() + 1.0, run.body("b").x.x() + 0.01) << "they do not overlap";
+  }
+}
+
+TEST(ExpectedContacts, TwoThatAreDrivenAtEachOtherMeetWhicheverIsFaster) {
+  for (const auto& [left, right] : {std::pair(150.0, -1.0), {1.0, -150.0}, {100.0, -100.0}}) {
+    SCOPED_TRACE(left);
+    Simulation run(kNeighbours, Mode::Merge), reference(kNeighbours, Mode::Reference);
+    for (Simulation* s : {&run, &reference}) {
+      s->until(1.5);
+      s->kick("a", {left, 0.0});
+      s->kick("b", {right, 0.0});
+      s->steps(1);
+    }
+    for (const char* name : {"a", "b"}) {
+      EXPECT_NEAR(run.body(name).v.x(), reference.body(name).v.x(), 2.0) << name;
+    }
+    EXPECT_LT(run.body("a").x.x() + 1.0, run.body("b").x.x() + 0.01) << "they do not overlap";
+  }
+}
+
+/// On one floor two stacks are two collections, and detection looks at no pair of them.
+TEST(ExpectedContacts, ABodyPushesAStackBesideItsOwn) {
+  const std::string stacks = kGround + R"(
+[[body]]
+name = "a"
+at = [0, 0.5]
+box = [1, 1]
+repeat = {count = [1, 2], spacing = [1, 1]}
+[[body]]
+name = "b"
+at = [1.02, 0.5]
+box = [1, 1]
+repeat = {count = [1, 2], spacing = [1, 1]}
+)";
+  Simulation run(stacks, Mode::Merge), reference(stacks, Mode::Reference);
+  for (Simulation* s : {&run, &reference}) {
+    s->until(1.5);
+    s->kick("a[0,1]", {150.0, 0.0});
+    s->steps(1);
+  }
+  EXPECT_GT(reference.body("b[0,1]").v.x(), 40.0);
+  EXPECT_NEAR(run.body("b[0,1]").v.x(), reference.body("b[0,1]").v.x(), 2.0);
+}
+
+/// A blow in many parts is one blow, and others far from it do not meet it.
+TEST(ExpectedContacts, ManySmallImpulsesAreOneLargeOne) {
+  Simulation whole(kNeighbours, Mode::Merge), parts(kNeighbours, Mode::Merge);
+  for (Simulation* s : {&whole, &parts}) s->until(1.5);
+  whole.kick("a", {128.0, 0.0});
+  for (int i = 0; i < 64; ++i) parts.kick("a", {2.0, 0.0});
+  for (Simulation* s : {&whole, &parts}) s->steps(1);
+  for (const char* name : {"a", "b", "plate"}) {
+    EXPECT_NEAR(parts.body(name).v.x(), whole.body(name).v.x(), 1e-9) << name;
   }
 }
 
