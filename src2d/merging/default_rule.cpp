@@ -71,8 +71,11 @@ void goOnWithSearches(State& state, Scratch& scratch) {
 /// Where a search has found motion, the full solve of the same step finds the moving welds.
 void solveDoubted(State& state, Scratch& scratch) {
   goOnWithSearches(state, scratch);
-  const auto asksTheSolve = [](Doubt d) { return d == Doubt::Open || d == Doubt::Reached; };
-  if (std::ranges::any_of(scratch.doubts, asksTheSolve)) solveOpened(state, scratch);
+  const auto asksTheSolve = [&](const Collection& c) {
+    const Doubt doubt = doubtAbout(state, scratch, c);
+    return doubt == Doubt::Open || doubt == Doubt::Reached;
+  };
+  if (std::ranges::any_of(state.collections, asksTheSolve)) solveOpened(state, scratch);
 }
 
 /// Deviation: contacts inside a collection are rigid rows, without bias and softness: their overlap

@@ -150,6 +150,12 @@ Finding findDoubt(State& state, const Scratch& scratch, Collection& c) {
                                 : seek(state, scratch, c, finding, load);
 }
 
+/// A parked collection is asleep, and keeps a mark that nobody asks for.
+void clearDoubts(const State& state, Scratch& scratch) {
+  scratch.doubts.resize(state.collections.size(), Doubt::None);
+  for (const std::uint32_t slot : state.collections.active()) scratch.doubts[slot] = Doubt::None;
+}
+
 /// Nothing has been sought inside for so long that its blocks are put away in this step.
 bool isLongQuiet(const State& state, const Collection& c) {
   const LoadCertificate& proof = c.certificate.front();
@@ -163,7 +169,7 @@ void findDoubts(State& state, Scratch& scratch) {
   listOuterLoads(state, scratch);
   scratch.sweep_contacts.clear();
   scratch.sweep_joints.clear();
-  scratch.doubts.assign(state.collections.size(), Doubt::None);
+  clearDoubts(state, scratch);
   scratch.regions.clear();  // some are left where an error ended the last step
   scratch.open.clear();
   openWhatFramesDrag(state, scratch);
@@ -182,7 +188,9 @@ void findDoubts(State& state, Scratch& scratch) {
     if (doubt == Doubt::None && isLongQuiet(state, c)) putBlocksAway(c);
   }
   noteReached(state, scratch);
-  const bool any = std::ranges::any_of(scratch.doubts, [](Doubt d) { return d != Doubt::None; });
+  const bool any = std::ranges::any_of(state.collections.active(), [&](std::uint32_t slot) {
+    return scratch.doubts[slot] != Doubt::None;
+  });
   scratch.sweeping = any;
   if (!any) return;
   scratch.last_doubt = state.step;

@@ -14,6 +14,21 @@ void lengthen(HitRun& run, std::int64_t step) {
   run.last = step;
 }
 
+/// A few of many disjoint sets.
+class SetNames {
+ public:
+  void add(std::uint32_t name) { names_.push_back(name); }
+  /// To be called between the last `add` and the first `contains`.
+  void sort() {
+    std::ranges::sort(names_);
+    names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
+  }
+  bool contains(std::uint32_t name) const { return std::ranges::binary_search(names_, name); }
+
+ private:
+  std::vector<std::uint32_t> names_;
+};
+
 }  // namespace
 
 void spreadHits(State& state, Scratch& scratch) {
@@ -32,18 +47,21 @@ void spreadHits(State& state, Scratch& scratch) {
   for (const Joint& joint : state.joints) {
     if (!joint.to_world && holds(state, joint)) unite(joint.a, joint.b);
   }
-  const auto slots = static_cast<std::uint32_t>(state.collections.size());
-  std::vector<std::uint8_t> hit(slots, 0), met(slots, 0);
-  for (std::uint32_t i = 0; i < slots; ++i) {
-    const Collection& c = state.collections[i];
+  const auto setOf = [&](const Collection& c) {
+    return sets.find(static_cast<std::uint32_t>(state.collections.slotOf(c)));
+  };
+  SetNames hit, met;
+  for (const Collection& c : state.collections) {
     if (!isSwept(state, c) || !isHit(state, c)) continue;
-    hit[sets.find(i)] = 1;
-    if (state.step - c.hits.met < hitSteps(state)) met[sets.find(i)] = 1;
+    hit.add(setOf(c));
+    if (state.step - c.hits.met < hitSteps(state)) met.add(setOf(c));
   }
-  for (std::uint32_t i = 0; i < slots; ++i) {
-    if (!isSwept(state, state.collections[i]) || !hit[sets.find(i)]) continue;
-    scratch.doubts[i] = Doubt::Open;
-    if (met[sets.find(i)]) lengthen(state.collections[i].hits, state.step);
+  hit.sort();
+  met.sort();
+  for (Collection& c : state.collections) {
+    if (!isSwept(state, c) || !hit.contains(setOf(c))) continue;
+    scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
+    if (met.contains(setOf(c))) lengthen(c.hits, state.step);
   }
 }
 
@@ -68,12 +86,13 @@ void noteReached(const State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
     if (moves(pair.a) && moves(pair.b)) sets.unite(at(pair.a), at(pair.b));
   }
-  std::vector<std::uint8_t> reached(state.rigids.size(), 0);
-  for (const std::uint32_t id : hit) reached[sets.find(id)] = 1;
+  SetNames reached;
+  for (const std::uint32_t id : hit) reached.add(sets.find(id));
+  reached.sort();
   for (const Collection& c : state.collections) {
     if (!isSwept(state, c) || state[c.rigid].floating()) continue;
     Doubt& doubt = scratch.doubts[state.collections.slotOf(c)];
-    const bool is_reached = reached[sets.find(static_cast<std::uint32_t>(c.rigid))] != 0;
+    const bool is_reached = reached.contains(sets.find(static_cast<std::uint32_t>(c.rigid)));
     if (is_reached && doubt == Doubt::None) doubt = Doubt::Reached;
   }
 }
