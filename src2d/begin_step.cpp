@@ -1,6 +1,7 @@
 #include "src2d/begin_step.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "src2d/collections/collection.h"
 #include "src2d/contact/parking.h"
@@ -41,10 +42,14 @@ void takeOverStirred(State& state, Actions& actions, Scratch& scratch) {
 }
 
 void letGo(State& state, Actions& actions, Scratch& scratch) {
-  for (Actions::Launch& launch : actions.launches) {
-    if (launch.done || !reached(state, launch.time)) continue;
-    launch.done = true;
-    bringAllBack(state, scratch);
+  auto& launches = actions.launches;
+  const std::vector<std::uint32_t> due = actions.timetable.launches.begun(
+      launches.size(), [&](std::uint32_t i) { return launches[i].time; },
+      [&](double time) { return reached(state, time); });
+  for (const std::uint32_t i : due) {
+    Actions::Launch& launch = launches[i];
+    if (std::exchange(launch.done, true)) continue;
+    bringBackAround(state, scratch, launch.body);
     wakeAround(state, scratch, launch.body);
     state[rigidOf(launch.body)].anchor = kFloating;
     releaseBody(state, scratch, launch.body);
@@ -66,7 +71,7 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
     Body& body = state[id];
     if (body.magnet_on == on) continue;
     body.magnet_on = on;
-    bringAllBack(state, scratch);
+    bringBackAround(state, scratch, id);
     wakeAround(state, scratch, id);
     // Contacts inside collections turn bilateral, or back.
     for (Collection& c : state.collections) {

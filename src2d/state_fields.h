@@ -265,8 +265,9 @@ void fields(Ar& ar, Some<Actions::Launch> auto& l) {
 template <class Ar>
 void fields(Ar& ar, Some<Actions> auto& actions) {
   auto& [springs, forces, impulses, magnets, emissions, next_impulse, next_emission, scripts,
-         user_kicks, user_loads, loaded, stirred, launches] = actions;
+         user_kicks, user_loads, loaded, stirred, launches, timetable] = actions;
   ar(springs, next_impulse, next_emission, user_kicks, user_loads, loaded, stirred, launches);
+  if constexpr (!std::is_const_v<std::remove_reference_t<decltype(actions)>>) timetable = {};
 }
 
 template <class Ar>

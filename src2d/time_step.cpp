@@ -49,6 +49,7 @@ void setTimeStep(Setup& setup, double h) {
   const double ratio = h / std::exchange(state.h, h);
   state.paced_step = state.step;
   state.paced_time = state.time;
+  setup.actions.timetable = {};  // the last step would have begun earlier or later
   for (Collection& c : state.collections) {
     if (c.id == kNoCollection) continue;
     dropRows(state, c, ratio);

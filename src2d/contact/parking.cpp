@@ -191,10 +191,21 @@ void parkSleepers(State& state, Scratch& scratch) {
 }
 
 void bringBackAround(State& state, Scratch& scratch, BodyId body) {
+  if (state.parked.count == 0) return;
   const RigidId id = state[body].rigid;
-  if (!state[id].floating() && !state.isCollection(id)) return bringAllBack(state, scratch);
-  if (!state.parked.holds(id)) return;
-  std::vector<RigidId> queue{id};
+  std::vector<RigidId> queue;
+  const auto add = [&](RigidId other) {
+    if (state.parked.holds(other)) queue.push_back(other);
+  };
+  add(id);
+  // A body that is never parked ties nothing together, but its pairs went with those that rest on
+  // it. The boxes of a pair meet: the broadphase drops it where they do not.
+  const bool is_tie = state[id].floating() || state.isCollection(id);
+  if (!is_tie && state[id].present()) {
+    state.broadphase.tree.queryLeaf(state[id].leaf,
+                                    [&](std::uint32_t other) { add(RigidId{other}); });
+  }
+  if (queue.empty()) return;
   bringBackSets(state, queue);
   collectPairs(state, scratch);
 }

@@ -134,6 +134,31 @@ void addUserLoads(Actions& actions, Scratch& scratch) {
   actions.user_loads.clear();
 }
 
+/// Timed forces are over once they did not act in the last step either. Time goes on, but for a
+/// step of another length and a state that is restored; both begin a new timetable.
+void addTimedForces(const State& state, Actions& actions, Scratch& scratch) {
+  const double middle = state.time + 0.5 * state.h, before = middle - state.h;
+  const auto& forces = actions.forces;
+  auto& [launches, schedule, acting] = actions.timetable;
+  const std::vector<std::uint32_t> begun = schedule.begun(
+      forces.size(), [&](std::uint32_t i) { return forces[i].from; },
+      [&](double time) { return time <= middle; });
+  if (!begun.empty()) {
+    acting.insert(acting.end(), begun.begin(), begun.end());
+    std::ranges::sort(acting);
+  }
+  std::erase_if(acting, [&](std::uint32_t i) { return forces[i].until <= before; });
+  for (const std::uint32_t i : acting) {
+    const ForceDesc& f = forces[i];
+    const BodyId body{static_cast<std::uint32_t>(f.body)};
+    if (!state[body].alive) continue;
+    const auto acts = [&](double time) { return time >= f.from && time < f.until; };
+    if (acts(middle) != acts(before)) scratch.stirred.push_back(body);
+    if (!acts(middle)) continue;
+    scratch.loads.push_back(loadAt(state, body, state.pose(body) * f.at, f.force));
+  }
+}
+
 double smooth(double s) { return s * s * (3.0 - 2.0 * s); }
 
 ScriptPose poseOf(const Sinusoid& script, const Actions::Scripted& s, double time) {
@@ -179,15 +204,7 @@ void listLoads(State& state, Actions& actions, Scratch& scratch) {
   scratch.loads.clear();
   scratch.springs.clear();
   addSprings(state, actions, scratch);
-  const double middle = state.time + 0.5 * state.h;
-  for (const ForceDesc& f : actions.forces) {
-    const BodyId body{static_cast<std::uint32_t>(f.body)};
-    if (!state[body].alive) continue;
-    const auto acts = [&](double time) { return time >= f.from && time < f.until; };
-    if (acts(middle) != acts(middle - state.h)) scratch.stirred.push_back(body);
-    if (!acts(middle)) continue;
-    scratch.loads.push_back(loadAt(state, body, state.pose(body) * f.at, f.force));
-  }
+  addTimedForces(state, actions, scratch);
   addUserLoads(actions, scratch);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Forces from outside: springs, timed forces and impulses, magnets, emission, and scripted motion.
 
+#include "src2d/dynamics/schedule.h"
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
@@ -38,6 +39,7 @@ struct Actions {
     bool done = false;
   };
   std::vector<Launch> launches;
+  Timetable timetable;
 };
 
 /// The pose of a scripted body's frame at `time`.
