@@ -68,7 +68,7 @@ struct World::Impl {
     rest.forget();
     return setup;
   }
-  /// The same for those that do no more than wake a body.
+  /// The same for those that concern a body and the ones that touch it.
   Setup& waking(BodyId body) {
     bringBackAround(setup.state, scratch, body);
     rest.forget();
@@ -267,7 +267,7 @@ void World::applyForce(BodyId body, const Vec2& at, const Vec2& force) {
 
 void World::setPose(BodyId body, const Vec2& x, double angle) {
   checkNumbers("a pose", {x.x(), x.y(), angle});
-  merge2d::setPose(impl_->changing(), impl_->scratch, impl_->unscripted(body), x, angle);
+  merge2d::setPose(impl_->waking(impl_->unscripted(body)), impl_->scratch, body, x, angle);
 }
 
 void World::setVelocity(BodyId body, const Vec2& v, double omega) {
@@ -275,22 +275,22 @@ void World::setVelocity(BodyId body, const Vec2& v, double omega) {
   if (!impl_->setup.state.responds(impl_->unscripted(body))) {
     throw InputError(fmt::format("body '{}' is pinned: it has no velocity", impl_->nameOf(body)));
   }
-  merge2d::setVelocity(impl_->changing(), impl_->scratch, body, v, omega);
+  merge2d::setVelocity(impl_->waking(body), impl_->scratch, body, v, omega);
 }
 
 void World::pin(BodyId body) {
-  merge2d::pin(impl_->changing(), impl_->scratch, impl_->unscripted(body));
+  merge2d::pin(impl_->waking(impl_->unscripted(body)), impl_->scratch, body);
 }
 void World::unpin(BodyId body) {
-  merge2d::unpin(impl_->changing(), impl_->scratch, impl_->unscripted(body));
+  merge2d::unpin(impl_->waking(impl_->unscripted(body)), impl_->scratch, body);
 }
 void World::release(BodyId body) {
-  merge2d::release(impl_->changing(), impl_->scratch, impl_->checked(body));
+  merge2d::release(impl_->waking(impl_->checked(body)), impl_->scratch, body);
 }
 void World::setFriction(BodyId body, double friction) {
   checkNumbers("friction", {friction});
   if (friction < 0.0) throw InputError("friction must be 0 or more");
-  merge2d::setFriction(impl_->changing(), impl_->checked(body), friction);
+  merge2d::setFriction(impl_->waking(impl_->checked(body)), body, friction);
 }
 void World::wake(BodyId body) { merge2d::wake(impl_->waking(impl_->checked(body)), body); }
 
@@ -306,7 +306,7 @@ BodyId World::addBody(const BodyDesc& desc) {
 }
 
 void World::removeBody(BodyId body) {
-  merge2d::removeBody(impl_->changing(), impl_->scratch, impl_->checked(body));
+  merge2d::removeBody(impl_->waking(impl_->checked(body)), impl_->scratch, body);
   countBodies(impl_->setup.state, impl_->scratch);
 }
 

@@ -71,6 +71,7 @@ Scene manyAsleep() {
 }
 
 TEST(Parking, WhatActsOnASleeperWakesAllThatItMoves) {
+  const BodyId kGround{0};
   const BodyId box{2};  // in the middle of the first stack
   const std::vector<std::function<void(World&)>> changes = {
       [&](World& w) {
@@ -84,6 +85,19 @@ TEST(Parking, WhatActsOnASleeperWakesAllThatItMoves) {
       },
       [&](World& w) { w.removeBody(BodyId{1}); },
       [&](World& w) { w.wake(box); },
+      [&](World& w) {
+        w.setVelocity(box, {0.5, 0}, 0.1);
+      },
+      [&](World& w) { w.pin(box); },
+      [&](World& w) { w.release(box); },
+      [&](World& w) { w.setFriction(box, 0.1); },
+      [&](World& w) { w.release(kGround); },
+      [&](World& w) { w.setFriction(kGround, 0.1); },
+      [&](World& w) {
+        w.setPose(kGround, {0.5, -0.5}, 0.0);
+      },
+      [&](World& w) { w.unpin(kGround); },
+      [&](World& w) { w.removeBody(kGround); },
       [&](World& w) {
         w.addBody(disc(0.3, {0.3, 7}));
       },
@@ -110,6 +124,26 @@ TEST(Parking, WhatActsOnASleeperWakesAllThatItMoves) {
       pair.run(300);
       EXPECT_TRUE(pair.one.save() == pair.watched.save());
     }
+  }
+}
+
+/// Shelves that let go one after the other, each with a stack on it, and magnets that begin to
+/// hold.
+TEST(Parking, AShelfThatFallsWakesItsOwnStackAlone) {
+  Scene scene = manyAsleep();
+  for (int i = 0; i < 3; ++i) {
+    BodyDesc shelf = box(1.5, 0.5, {30.0 + 3.0 * i, 2.75});
+    shelf.pinned_until = 6.0 - 0.5 * i;
+    add(scene, named("shelf" + std::to_string(i), shelf));
+    addColumn(scene, 2, {30.0 + 3.0 * i, 3});
+  }
+  for (const BodyIndex magnet : {BodyIndex{0}, BodyIndex{2}}) {
+    scene.magnets.push_back({.body = magnet, .on = {{7.0, 8.0}}});
+  }
+  for (const Mode mode : kSleeping) {
+    Pair pair(scene, mode);
+    pair.run(1000);
+    EXPECT_TRUE(pair.one.save() == pair.watched.save());
   }
 }
 
