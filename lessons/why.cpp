@@ -26,6 +26,9 @@ constexpr Measure kMeasures[] = {
     {"proof-motion", "motion that known impulses leave", "m/s"},
     {"residual", "residual of the rows inside", "m/s"},
     {"search-motion", "motion that a search found", "m/s"},
+    {"noise", "motion at one of the boxes", "m/s"},
+    {"bounce", "speed of the bounce that arrives", "m/s"},
+    {"stopped", "motion of the waiting pair", "m/s"},
 };
 
 const Measure* measureOf(std::string_view criterion) {
@@ -49,6 +52,7 @@ using Kind = Condition::Kind;
 
 Condition whenApart(const std::vector<Decision>& tests) {
   if (tests.back().criterion == "frames") return {.kind = Kind::OneFrame};
+  if (tests.back().criterion == "belt") return {};
   const int needed = std::max(1, tests.back().needed);
   const Decision* high = worst(tests);
   if (high == nullptr) return {.kind = Kind::PassAll, .steps = needed};
@@ -58,8 +62,9 @@ Condition whenApart(const std::vector<Decision>& tests) {
 Condition whenWaiting(const std::vector<Decision>& tests) {
   const Decision& last = tests.back();
   if (last.criterion == "cycle" || last.criterion == "freedoms") return {.kind = Kind::Hold};
-  if (tests.front().criterion == "patience") {
-    return {.kind = Kind::Wait, .steps = std::max(1, static_cast<int>(tests.front().value))};
+  const auto patience = std::ranges::find(tests, "patience", &Decision::criterion);
+  if (patience != tests.end()) {
+    return {.kind = Kind::Wait, .steps = std::max(1, static_cast<int>(patience->value))};
   }
   const Decision* nearest = nearestTest(tests);
   const int more = std::max(1, last.needed - last.count);

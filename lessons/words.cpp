@@ -94,9 +94,13 @@ std::string proof(const Decision& d) {
 
 std::string sleeping(const Decision& d) {
   if (d.criterion == "disturbed") {
-    return "a kick, another load or a moving neighbour disturbs it (Section 7)";
+    return fmt::format("a kick, another load or a moving neighbour disturbs it ({})",
+                       equationName(d.equation));
   }
-  if (d.criterion == "neighbours") return "something that it touches is awake (Section 7)";
+  if (d.criterion == "neighbours") {
+    return fmt::format("something in its island is awake, or about to merge ({})",
+                       equationName(d.equation));
+  }
   if (d.criterion == "inner-forces") {
     return fmt::format("the forces inside it still change ({})", equationName(d.equation));
   }
@@ -209,6 +213,17 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
     return fmt::format("their last weld turned slowly, or was hit for long: {} to wait",
                        counted(static_cast<std::size_t>(d.value), "step", "steps"));
   }
+  if (c == "stopped") return compared("the motion of the waiting pair", d, "/s");
+  if (c == "belt") {
+    return fmt::format("one of them drives what lies on it, at {} m/s ({})", shortNumber(d.value),
+                       equationName(d.equation));
+  }
+  if (c == "noise") return compared("the motion at one of the boxes", d, "/s");
+  if (c == "search-mover") {
+    return fmt::format("its bodies did not move in the search that opened their collection ({})",
+                       equationName(d.equation));
+  }
+  if (c == "bounce") return compared("the bounce that arrives", d, "/s");
   if (c == "frames") return "they are on two frames, which may move against each other";
   if (c == "freedoms") {
     return fmt::format("their joints take away {:.0f} of {:.0f} freedoms{}", d.value, d.threshold,

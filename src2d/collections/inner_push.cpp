@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "src2d/collections/joint_sweep.h"
-#include "src2d/collections/nodes.h"
 #include "src2d/core/memory.h"
 
 namespace merge2d {
@@ -51,11 +50,14 @@ void layOutPush(const State& state, Collection& c) {
   ends.reserve(c.members.size() + 1);
   for (std::uint32_t m = 0; m < c.members.size(); ++m) ends.push_back(endOf(state, c, m));
   ends.emplace_back();  // the frame
-  const Nodes nodes(state, c);
+  for (std::uint32_t i = 0; i < c.blocks.size(); ++i) {
+    const Weld& weld = c.weldOf(i);
+    addPush(c.blocks[i], ends[weld.node_a], ends[weld.node_b]);
+  }
   const auto at = [&](std::uint32_t b) -> const End& {
-    return b < state.bodies.size() ? ends[nodes.of(BodyId{b})] : ends.back();
+    const bool member = b < state.bodies.size() && state.bodies[b].rigid == c.rigid;
+    return member ? ends[state[rigidOf(BodyId{b})].member] : ends.back();
   };
-  for (const ContactBlock& k : c.blocks) addPush(k, at(k.a), at(k.b));
   addJointPush(c, [&](std::uint32_t b, double sign, const Vec2& impulse, double moment) {
     at(b).add(sign, impulse, moment);
   });
@@ -94,7 +96,7 @@ void extendPush(const State& state, Collection& c, std::uint32_t first) {
     return node < members ? endOf(state, c, node) : End();
   };
   for (std::uint32_t i = first; i < c.blocks.size(); ++i) {
-    const Weld& weld = c.welds[c.contacts[c.block_contact[i]].weld];
+    const Weld& weld = c.weldOf(i);
     addPush(c.blocks[i], end(weld.node_a), end(weld.node_b));
   }
   c.push.forgetUnbalanced();

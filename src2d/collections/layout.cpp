@@ -10,7 +10,6 @@
 #include "src2d/collections/collection_method.h"
 #include "src2d/collections/joint_sweep.h"
 #include "src2d/collections/joint_welds.h"
-#include "src2d/collections/nodes.h"
 #include "src2d/collections/weld_list.h"
 #include "src2d/core/memory.h"
 #include "src2d/core/regrouping.h"
@@ -83,13 +82,16 @@ void layOutWelds(const State& state, Collection& c) {
     c.welds.back().count = i + 1 - c.welds.back().first;
   }
   addJointWelds(state, c);
-  const Nodes nodes(state, c);
+  const auto nodeOf = [&](BodyId b) {
+    const auto frame = static_cast<std::uint32_t>(c.members.size());
+    return state[b].rigid == c.rigid ? state[rigidOf(b)].member : frame;
+  };
   for (std::uint32_t w = 0; w < c.welds.size(); ++w) {
     Weld& weld = c.welds[w];
     weld.expected &= weld.joints == 0;
     for (std::uint32_t i = weld.first; i < weld.first + weld.count; ++i) c.contacts[i].weld = w;
-    weld.node_a = nodes.of(weld.a);
-    weld.node_b = nodes.of(weld.b);
+    weld.node_a = nodeOf(weld.a);
+    weld.node_b = nodeOf(weld.b);
   }
   tighten(c.welds);
   c.laid_out.sorted_welds = static_cast<std::uint32_t>(c.welds.size());

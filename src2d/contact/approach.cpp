@@ -4,13 +4,8 @@
 
 namespace merge2d {
 
-std::vector<Approaches::Motion>& Approaches::memory() {
-  thread_local std::vector<Motion> motions;
-  return motions;
-}
-
-Approaches::Approaches(const State& state, const Scratch& scratch)
-    : state_(state), motions_(memory()) {
+Approaches::Approaches(const State& state, Scratch& scratch)
+    : state_(state), motions_(scratch.start_motions) {
   motions_.resize(std::max(motions_.size(), state.rigids.size()));
   double fastest = 0.0;
   for (const RigidId id : state.present) {

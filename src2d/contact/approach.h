@@ -10,7 +10,8 @@ namespace merge2d {
 /// contacts and forces. The kicks must have been ordered.
 class Approaches {
  public:
-  Approaches(const State& state, const Scratch& scratch);
+  /// Its memory is `scratch.start_motions`.
+  Approaches(const State& state, Scratch& scratch);
 
   /// An upper bound of the way [m] that a point of the first can go against one of the second.
   double between(RigidId a, RigidId b) const;
@@ -22,21 +23,16 @@ class Approaches {
   double byTurning(RigidId id) const;
 
  private:
-  struct Motion {
-    Vec2 v = Vec2::Zero();  ///< of the centre of mass [m/s]
-    double omega = 0.0;     ///< [rad/s]
-    double turning = 0.0;  ///< speed of the fastest point against the centre of mass, at most [m/s]
-  };
+  using Motion = StartedMotion;
   double between(const Motion& a, const Motion& b) const {
     return state_.h * ((b.v - a.v).norm() + a.turning + b.turning);
   }
   Motion of(RigidId id) const;
   Motion of(BodyId body) const;
-  static std::vector<Motion>& memory();  ///< kept from step to step
 
   const State& state_;
   double farthest_ = 0.0;
-  std::vector<Motion>& motions_;  ///< per rigid thing that is there
+  std::vector<Motion>& motions_;  ///< per rigid thing that is present
 };
 
 }  // namespace merge2d

@@ -13,7 +13,7 @@
 #include "src2d/contact/parking.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
-#include "src2d/dynamics/task_pool.h"
+#include "src2d/dynamics/thread_memory.h"
 
 namespace merge2d {
 namespace {
@@ -63,7 +63,7 @@ void inherit(ContactPoint& point, std::span<const ContactPoint> old, double inv_
 }
 
 /// Keeps the points of a pair that bear; those that go are noted when somebody asks.
-void prune(State& state, const BodyPair& pair, Notes* notes) {
+void prune(State& state, const BodyPair& pair, PruneMemory& memory, Notes* notes) {
   const Pose frame = state.pose(pair.a);
   const auto points = [&] {
     std::vector<Vec2> all;
@@ -76,7 +76,7 @@ void prune(State& state, const BodyPair& pair, Notes* notes) {
     return all;
   };
   const std::vector<Vec2> found = notes ? points() : std::vector<Vec2>{};
-  prunePair(state.contacts, pair);
+  prunePair(state.contacts, pair, memory);
   if (!notes) return;
   const std::vector<Vec2> kept = points();
   for (const Vec2& x : found) {
@@ -256,8 +256,10 @@ void detectContacts(State& state, Scratch& scratch) {
   retireContacts(state.contacts);
   collectPairs(state, scratch);
   TaskPool* const tasks = scratch.notes ? nullptr : scratch.tasks;
-  forEachIndex(tasks, scratch.pairs.size(), kGrain, [&](std::size_t i, int) {
-    if (scratch.pairs[i].count > 1) prune(state, scratch.pairs[i], scratch.notes);
+  scratch.pruning.resize(static_cast<std::size_t>(threadsOf(scratch)));
+  forEachIndex(tasks, scratch.pairs.size(), kGrain, [&](std::size_t i, int thread) {
+    PruneMemory& memory = scratch.pruning[static_cast<std::size_t>(thread)];
+    if (scratch.pairs[i].count > 1) prune(state, scratch.pairs[i], memory, scratch.notes);
   });
 }
 

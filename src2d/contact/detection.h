@@ -23,6 +23,6 @@ void settleContacts(State& state, Scratch& scratch);
 /// Two well-spread points per flat region of a pair of bodies: keeps the outermost two of each
 /// group of points with one normal and in one line, over all shape contacts of the pair, and what
 /// is nearer than these would let it. Guarded by Pruning.AToothThatIsALittleLongerBears.
-void prunePair(ContactTable& table, const BodyPair& pair);
+void prunePair(ContactTable& table, const BodyPair& pair, PruneMemory& memory);
 
 }  // namespace merge2d

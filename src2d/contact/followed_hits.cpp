@@ -8,36 +8,36 @@
 namespace merge2d {
 namespace {
 
-/// The islands of all bodies in contact, by their pairs of bodies.
+/// How many pairs of bodies in contact the islands have.
 class PairIslands {
  public:
   PairIslands(const State& state, DisjointSets& sets) : state_(state), sets_(sets) {
     sets_.reset(state.rigids.size());
+    std::vector<std::uint32_t> movers;  // of each pair
     const ContactKey* last = nullptr;
     for (const ContactTable::Slot slot : state.contacts.order) {
       const Contact& contact = state.contacts[slot];
       if (contact.count == 0) continue;
       const ContactKey& key = contact.key;
-      if (!last || last->a != key.a || last->b != key.b) add(key);
+      if (!last || last->a != key.a || last->b != key.b) {
+        movers.push_back(moverOf(key));
+        unite(key);
+      }
       last = &key;
     }
+    pairs_.assign(state.rigids.size(), 0);
+    for (const std::uint32_t mover : movers) pairs_[sets_.find(mover)] += 1;
+    for (const Collection& c : state.collections) {
+      if (c.id == kNoCollection) continue;
+      pairs_[sets_.find(static_cast<std::uint32_t>(c.rigid))] += c.welds.size();
+    }
   }
 
-  /// The number of pairs in the island of a contact.
-  std::size_t sizeOf(const ContactKey& key) const {
-    const std::uint32_t island = sets_.find(moverOf(key));
-    const auto in_island = [&](std::uint32_t rigid) { return sets_.find(rigid) == island; };
-    auto count = static_cast<std::size_t>(std::ranges::count_if(pairs_, in_island));
-    for (const Collection& c : state_.collections) {
-      const bool counts = c.id != kNoCollection && in_island(static_cast<std::uint32_t>(c.rigid));
-      if (counts) count += c.welds.size();
-    }
-    return count;
-  }
+  /// Of the island of a contact.
+  std::size_t sizeOf(const ContactKey& key) const { return pairs_[sets_.find(moverOf(key))]; }
 
  private:
-  void add(const ContactKey& key) {
-    pairs_.push_back(moverOf(key));
+  void unite(const ContactKey& key) {
     if (state_.responds(key.a) && state_.responds(key.b)) sets_.unite(rigid(key.a), rigid(key.b));
   }
   std::uint32_t rigid(BodyId body) const { return static_cast<std::uint32_t>(state_[body].rigid); }
@@ -47,7 +47,7 @@ class PairIslands {
 
   const State& state_;
   DisjointSets& sets_;
-  std::vector<std::uint32_t> pairs_;  ///< of each pair, a rigid thing of its island
+  std::vector<std::size_t> pairs_;  ///< per island, at its name
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src2d/contact/detection.h"
+#include "src2d/dynamics/scratch.h"
 
 namespace merge2d {
 namespace {
@@ -18,41 +19,36 @@ constexpr double kSameLine = 0.005;
 /// The outermost two stand for what is between them, unless it is nearer than they let it [m].
 constexpr double kNearer = 1e-4;
 
-struct Region {
-  Vec2 normal;
-  double height = 0.0;          ///< of the line along the normal
-  ContactPoint* low = nullptr;  ///< outermost points along the tangent
-  ContactPoint* high = nullptr;
-  double low_at = 0.0, high_at = 0.0;
+double placeIn(const FlatRegion& region, const ContactPoint& point) {
+  return perpendicular(region.normal).dot(point.position);
+}
 
-  double placeOf(const ContactPoint& point) const {
-    return perpendicular(normal).dot(point.position);
-  }
-  /// Where the gaps of the outermost are those of a straight line.
-  double gapAt(double at) const {
-    const double part = high_at > low_at ? (at - low_at) / (high_at - low_at) : 0.0;
-    return low->gap + part * (high->gap - low->gap);
-  }
-  bool keeps(const ContactPoint& point) const {
-    return &point == low || &point == high || point.gap < gapAt(placeOf(point)) - kNearer;
-  }
-};
+/// The gap between the outermost points, as that of a straight line.
+double gapAt(const FlatRegion& r, double at) {
+  const double part = r.high_at > r.low_at ? (at - r.low_at) / (r.high_at - r.low_at) : 0.0;
+  return r.low->gap + part * (r.high->gap - r.low->gap);
+}
+
+bool keeps(const FlatRegion& region, const ContactPoint& point) {
+  if (&point == region.low || &point == region.high) return true;
+  return point.gap < gapAt(region, placeIn(region, point)) - kNearer;
+}
 
 /// Where a point belongs, or the end.
-auto regionOf(std::vector<Region>& regions, const Vec2& normal, const ContactPoint& point) {
-  return std::find_if(regions.begin(), regions.end(), [&](const Region& r) {
+auto regionOf(std::vector<FlatRegion>& regions, const Vec2& normal, const ContactPoint& point) {
+  return std::find_if(regions.begin(), regions.end(), [&](const FlatRegion& r) {
     return std::abs(cross(r.normal, normal)) < kSameNormal && r.normal.dot(normal) > 0.0 &&
            std::abs(r.normal.dot(point.position) - r.height) < kSameLine;
   });
 }
 
-void addTo(std::vector<Region>& regions, const Vec2& normal, ContactPoint& point) {
+void addTo(std::vector<FlatRegion>& regions, const Vec2& normal, const ContactPoint& point) {
   auto region = regionOf(regions, normal, point);
   if (region == regions.end()) {
-    regions.push_back({normal, normal.dot(point.position)});
+    regions.push_back({.normal = normal, .height = normal.dot(point.position)});
     region = regions.end() - 1;
   }
-  const double at = region->placeOf(point);
+  const double at = placeIn(*region, point);
   if (!region->low || at < region->low_at) region->low = &point, region->low_at = at;
   if (!region->high || at > region->high_at) region->high = &point, region->high_at = at;
 }
@@ -71,18 +67,18 @@ void forEachPoint(ContactTable& table, const BodyPair& pair, Visit&& visit) {
 
 }  // namespace
 
-void prunePair(ContactTable& table, const BodyPair& pair) {
-  thread_local std::vector<Region> regions;
-  thread_local std::vector<std::uint8_t> keeps;  // per point, in order
+void prunePair(ContactTable& table, const BodyPair& pair, PruneMemory& memory) {
+  auto& regions = memory.regions;
   regions.clear();
-  keeps.clear();
+  memory.keeps.clear();
   forEachPoint(table, pair, [&](Contact& contact, ContactPoint& point) {
     addTo(regions, contact.normal, point);
   });
   forEachPoint(table, pair, [&](Contact& contact, ContactPoint& point) {
-    keeps.push_back(regionOf(regions, contact.normal, point)->keeps(point) ? 1 : 0);
+    const auto region = regionOf(regions, contact.normal, point);
+    memory.keeps.push_back(keeps(*region, point) ? 1 : 0);
   });
-  auto kept = keeps.begin();
+  auto kept = memory.keeps.begin();
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
     Contact& contact = table[table.order[i]];
     const auto count = std::exchange(contact.count, std::int16_t{0});

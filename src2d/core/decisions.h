@@ -15,6 +15,7 @@ namespace merge2d {
 inline constexpr std::string_view kOwnMerging = "docs/decisions/cures.md#when-to-merge",
                                   kOwnSleeping = "docs/decisions/cures.md#when-to-sleep",
                                   kOwnDecided = "docs/decisions/decided.md#decision",
+                                  kOwnHits = "docs/decisions/hits.md#decision",
                                   kOwnCycles = "docs/cycles.md";
 
 /// One criterion, asked once: a value. The caller acts on it and records it.

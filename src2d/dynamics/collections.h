@@ -265,6 +265,7 @@ struct Collection {
     }
     return blocks.empty() ? contacts[block_contact[block]].impulses() : blocks[block].lambda;
   }
+  const Weld& weldOf(std::size_t block) const { return welds[contacts[block_contact[block]].weld]; }
 };
 
 /// Its blocks were put away (collection.h).

@@ -32,10 +32,6 @@ void warmStartJoints(std::span<const JointBlock> joints, std::vector<SolverVeloc
 bool allowForBends(const State& state, std::span<JointBlock> joints,
                    const std::vector<SolverVelocity>& u, std::vector<JointErrors>& bends);
 
-/// The velocities of the two bodies of a joint.
-struct JointMotion {
-  SolverVelocity a, b;
-};
 void rememberMotion(std::span<const JointBlock> joints, const std::vector<SolverVelocity>& u,
                     std::vector<JointMotion>& motion);
 

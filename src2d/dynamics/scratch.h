@@ -15,6 +15,7 @@
 #include "src2d/core/stats.h"
 #include "src2d/core/sweep_path.h"
 #include "src2d/dynamics/collections.h"
+#include "src2d/dynamics/joint_corrections.h"
 #include "src2d/dynamics/joint_solver.h"
 #include "src2d/dynamics/newton_workspace.h"
 #include "src2d/dynamics/wide_blocks.h"
@@ -198,11 +199,34 @@ struct OpenRegion {
   bool passes = false;           ///< its hits may be passed on to the frame (load_path.h)
 };
 
+/// The motion with which a rigid thing begins a step (contact/approach.h).
+struct StartedMotion {
+  Vec2 v = Vec2::Zero();  ///< of the centre of mass [m/s]
+  double omega = 0.0;     ///< [rad/s]
+  double turning = 0.0;   ///< speed of the fastest point against the centre of mass, at most [m/s]
+};
+
 /// The findings of one task of the contact detection, where several threads search.
 struct FoundByTask {
   std::vector<ContactKey> candidates;
   std::vector<NearPair> near;
   std::vector<std::pair<std::uint32_t, Contact>> touching;  ///< with the index of the idle pair
+};
+
+/// A flat region of the contact of two bodies, and its outermost points along the tangent
+/// (contact/pruning.cpp).
+struct FlatRegion {
+  Vec2 normal;
+  double height = 0.0;  ///< of the line along the normal [m]
+  const ContactPoint* low = nullptr;
+  const ContactPoint* high = nullptr;
+  double low_at = 0.0, high_at = 0.0;
+};
+
+/// Memory of a thread that prunes the contacts of pairs.
+struct PruneMemory {
+  std::vector<FlatRegion> regions;
+  std::vector<std::uint8_t> keeps;  ///< per point, in order
 };
 
 /// The forces on a rigid thing beside gravity.
@@ -247,6 +271,7 @@ struct Scratch {
   Stats stats;
 
   // ContactDetection
+  std::vector<StartedMotion> start_motions;  ///< per rigid that is present
   std::vector<RigidId> moved;
   std::vector<std::uint8_t> moved_flag;
   std::vector<ContactKey> candidates;
@@ -256,6 +281,7 @@ struct Scratch {
   std::vector<SeamContact> seams;
   std::vector<std::uint8_t> touchers;  ///< per shape, where seams are listed; else all 0
   std::vector<Cast> casts;             ///< ascending by key
+  std::vector<PruneMemory> pruning;    ///< per thread
   std::vector<ActionOrder> kick_order, load_order;  ///< ascending; loads only where one is asked
   std::vector<NearPair> near_candidates;
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step
@@ -320,6 +346,7 @@ struct Scratch {
   std::vector<JointOrder> joint_order;
   std::vector<JointBlock> joint_blocks;  ///< by island
   JointMemory joint_memory;
+  CorrectionMemory corrections;      ///< of joints
   std::vector<TautLink> taut_links;  ///< per rigid
   std::vector<BlockOrder> block_order;
   std::vector<BlockOrder> by_colour;        ///< as an intermediate order

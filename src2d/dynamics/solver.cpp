@@ -29,30 +29,6 @@ void warmStart(std::span<const ContactBlock> blocks, std::vector<SolverVelocity>
 /// bend by the first one.
 constexpr int kSweepsForBends = 2, kTimesForBends = 2;
 
-/// The solution of an island, to go back to.
-class IslandSolution {
- public:
-  void keep(std::span<const ContactBlock> blocks, std::span<const JointBlock> joints,
-            std::span<const std::uint32_t> bodies, const std::vector<SolverVelocity>& u) {
-    u_.clear();
-    impulses_.clear();
-    for (const std::uint32_t b : bodies) u_.push_back(u[b]);
-    for (const ContactBlock& k : blocks) impulses_.push_back(k.lambda);
-    joints_.assign(joints.begin(), joints.end());
-  }
-  void restore(std::span<ContactBlock> blocks, std::span<JointBlock> joints,
-               std::span<const std::uint32_t> bodies, std::vector<SolverVelocity>& u) const {
-    for (std::size_t i = 0; i < bodies.size(); ++i) u[bodies[i]] = u_[i];
-    for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].lambda = impulses_[i];
-    std::ranges::copy(joints_, joints.begin());
-  }
-
- private:
-  std::vector<SolverVelocity> u_;
-  std::vector<Impulses> impulses_;
-  std::vector<JointBlock> joints_;
-};
-
 /// The bodies, contacts and joints of one island.
 struct IslandParts {
   std::span<ContactBlock> blocks;
@@ -60,22 +36,10 @@ struct IslandParts {
   std::span<const std::uint32_t> bodies;
 };
 
-/// Memory of the corrections, which is kept.
-struct CorrectionMemory {
-  std::vector<JointErrors> bends;
-  std::vector<JointMotion> before;
-  IslandSolution uncorrected;
-};
-
-CorrectionMemory& correctionMemory() {
-  thread_local CorrectionMemory memory;
-  return memory;
-}
-
 /// Leaves the errors of joints that no small motion takes back (joint_rows.h).
 void dropFutileCorrections(const State& state, const IslandParts& island,
-                           std::vector<SolverVelocity>& u, JointSolver& together) {
-  CorrectionMemory& m = correctionMemory();
+                           std::vector<SolverVelocity>& u, JointSolver& together,
+                           CorrectionMemory& m) {
   double error = 0.0;
   for (const JointBlock& k : island.joints) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(k.coupled); ++i) {
@@ -96,8 +60,7 @@ void dropFutileCorrections(const State& state, const IslandParts& island,
 /// Calls `solve` with the bends of the joints allowed for, where that is a correction.
 template <class Solve>
 void solveBends(const State& state, const IslandParts& island, std::vector<SolverVelocity>& u,
-                Solve&& solve) {
-  CorrectionMemory& m = correctionMemory();
+                CorrectionMemory& m, Solve&& solve) {
   m.bends.assign(island.joints.size(), {});
   rememberMotion(island.joints, u, m.before);
   m.uncorrected.keep(island.blocks, island.joints, island.bodies, u);
@@ -141,7 +104,7 @@ SweepChange solveOneByOne(const State& state, Scratch& scratch, const Island& is
   }
   JointSolver together(joints, u, scratch.joint_memory);
   const IslandParts parts{blocks, joints, bodies};
-  dropFutileCorrections(state, parts, u, together);
+  dropFutileCorrections(state, parts, u, together, scratch.corrections);
   Nncg iteration(
       blocks.size() + joints.size(),
       [&](std::size_t i) -> Impulses& {
@@ -155,7 +118,8 @@ SweepChange solveOneByOne(const State& state, Scratch& scratch, const Island& is
       buffers);
   const auto done = [&] { return blocks.empty() && together.isExact(); };
   SweepChange change = iteration.run(settings.iterations, accelerate, done);
-  solveBends(state, parts, u, [&] { change = iteration.run(kSweepsForBends, false, done); });
+  solveBends(state, parts, u, scratch.corrections,
+             [&] { change = iteration.run(kSweepsForBends, false, done); });
   return change;
 }
 

@@ -188,12 +188,26 @@ double partUntil(const Step& step, RigidId id, RigidId other) {
   return part;
 }
 
+/// The things whose way is followed.
+struct FarMovers {
+  std::vector<RigidId> launched;
+  bool turns = false;  ///< some go far by turning, too
+};
+
+FarMovers findFarMovers(const State& state, const Scratch& scratch) {
+  FarMovers found;
+  for (const RigidId id : state.present) {
+    if (isLaunched(state, scratch, id) && !isJoined(state, id)) found.launched.push_back(id);
+    found.turns = found.turns || goesFar(state, id);
+  }
+  return found;
+}
+
 /// True when some body has to stop, or to stop earlier.
-bool stopLaunched(const Step& step) {
+bool stopLaunched(const Step& step, const std::vector<RigidId>& launched) {
   const State& state = step.state;
   bool any = false;
-  for (const RigidId id : state.present) {
-    if (!isLaunched(state, step.scratch, id) || isJoined(state, id)) continue;
+  for (const RigidId id : launched) {
     const Rigid& r = state[id];
     const Vec2 end = r.x + step.motionOf(id).way;
     const Vec2 around = Vec2::Constant(state.extent(r).bounds.extent().norm());
@@ -240,9 +254,9 @@ void findStoppedTurns(const State& state, const Scratch& scratch,
   constexpr int kRounds = 4;  // one that stops may stand in another's way
   stopped.clear();
   const Step step{state, scratch, stopped};
-  for (int i = 0; i < kRounds && stopLaunched(step); ++i) continue;
-  const auto& present = state.present.ids();
-  if (std::ranges::none_of(present, [&](RigidId id) { return goesFar(state, id); })) return;
+  const FarMovers movers = findFarMovers(state, scratch);
+  for (int i = 0; i < kRounds && stopLaunched(step, movers.launched); ++i) continue;
+  if (!movers.turns) return;
   for (const ContactTable::Slot slot : state.contacts.order) {
     stopTurning(step, state.contacts[slot].key);
   }

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "src2d/collections/cuts.h"
 #include "src2d/collections/joint_welds.h"
 #include "src2d/dynamics/contact_limits.h"
-#include "src2d/merging/metric.h"
+#include "src2d/merging/weld_motion.h"
 #include "src2d/proofs/load_certificate.h"
 #include "src2d/proofs/proof_impulses.h"
 #include "src2d/relaxation/open_region.h"
@@ -19,70 +19,6 @@
 
 namespace merge2d {
 namespace {
-
-/// How fast the two bodies of a weld move against each other at the corners of their boxes: of the
-/// box where this is most, and of the one where it is least [m/s].
-struct WeldMotion {
-  double most = 0.0, least = 0.0;
-};
-
-class WeldMotions {
- public:
-  WeldMotions(const State& state, const Collection& c, const std::vector<SolverVelocity>& u)
-      : state_(state), c_(c), u_(u) {}
-
-  /// The speed at which the bodies of a weld part [m/s].
-  double limitOf(const Weld& weld) const { return cutSpeed(state_, c_, weld); }
-
-  /// Zero where a bound tells that nothing is faster than `ignored`.
-  WeldMotion of(const Weld& weld, double ignored) const {
-    const Vec2 origin = state_[isMember(weld.a) ? weld.a : weld.b].local;
-    const VelocityField a = field(weld.a, origin), b = field(weld.b, origin);
-    const double linear = (b.v - a.at(b.x)).norm(), turning = std::abs(b.omega - a.omega);
-    if (linear + turning * reachFrom(origin + b.x, weld) <= ignored) return {};
-    WeldMotion motion{0.0, std::numeric_limits<double>::infinity()};
-    for (const BodyId id : {weld.a, weld.b}) {
-      if (!isMember(id)) continue;
-      const double speed = fastestCorner(boxOf(id, origin), a, b);
-      motion = {std::max(motion.most, speed), std::min(motion.least, speed)};
-    }
-    return motion;
-  }
-
- private:
-  bool isMember(BodyId b) const { return state_[b].rigid == c_.rigid; }
-
-  /// Seen from an origin near by, so that the rounding does not depend on where the frame's is. The
-  /// bodies of the frame are at rest.
-  VelocityField field(BodyId b, const Vec2& origin) const {
-    if (!isMember(b)) return {};
-    const SolverVelocity& u = u_[index(b)];
-    return {state_[b].local - origin, {u.vx, u.vy}, u.omega};
-  }
-
-  /// The box of a member.
-  OrientedBox boxOf(BodyId b, const Vec2& origin) const {
-    OrientedBox box = state_.extent(rigidOf(b)).box;
-    box.frame = Pose{state_[b].local - origin, state_[b].local_rotation} * box.frame;
-    return box;
-  }
-
-  /// No corner of a member is farther away than this [m].
-  double reachFrom(const Vec2& x, const Weld& weld) const {
-    double reach = 0.0;
-    for (const BodyId id : {weld.a, weld.b}) {
-      if (!isMember(id)) continue;
-      const OrientedBox& box = state_.extent(rigidOf(id)).box;
-      const double radius = box.frame.position.norm() + box.half.norm();
-      reach = std::max(reach, (state_[id].local - x).norm() + radius);
-    }
-    return reach;
-  }
-
-  const State& state_;
-  const Collection& c_;
-  const std::vector<SolverVelocity>& u_;
-};
 
 /// Why a weld ends: broken where nothing presses, sliding where a contact is on the edge of its
 /// cone.
@@ -100,8 +36,29 @@ EventReason reasonOfCut(const Collection& c, const Weld& weld) {
 }
 
 /// The bodies of a weld do not part.
-Criterion staysTogether(double speed, double limit) {
-  return {"motion", kOwnDecided, speed, limit, speed <= limit};
+Criterion staysTogether(const WeldMotion& motion, double limit) {
+  return {"motion", kOwnDecided, motion.most, limit, motion.most <= limit};
+}
+
+/// Motion may be an error of the solve where it is no faster than `noise` at one of the two boxes.
+Criterion mayBeNoise(const WeldMotion& motion, double noise) {
+  return {"noise", kOwnDecided, motion.least, noise, motion.least <= noise};
+}
+
+/// The bodies of a weld do not move in the search that opened their collection, of which the
+/// residual is small: that of the full solve may not be.
+Criterion restsInSearch(bool moves) {
+  return {"search-mover", kOwnDecided, moves ? 1.0 : 0.0, 1.0, !moves};
+}
+
+/// Why a weld stays: the first of these that holds; or that its bodies part.
+Criterion whyItStays(const WeldMotion& motion, double limit, double noise, bool moves_in_search) {
+  const Criterion slow = staysTogether(motion, limit);
+  if (slow.holds) return slow;
+  const Criterion noisy = mayBeNoise(motion, noise);
+  if (noisy.holds) return noisy;
+  const Criterion rests = restsInSearch(moves_in_search);
+  return rests.holds ? rests : slow;
 }
 
 void recordWeld(const Scratch& scratch, const Weld& weld, const Criterion& test) {
@@ -111,25 +68,22 @@ void recordWeld(const Scratch& scratch, const Weld& weld, const Criterion& test)
       record(test, "Unmerge", weld.a, weld.b, verdict, {.count = test.holds ? 0 : 1}));
 }
 
-/// The bodies of a weld move against each other, at their corners, by more than `noise`: a beam
-/// that begins to tip about its pivot hardly moves there.
-bool turns(const Weld& weld, const WeldMotions& motions, double noise) {
-  const double limit = motions.limitOf(weld);
-  const WeldMotion motion = motions.of(weld, limit);
-  return !weld.expected && motion.most > limit && motion.least > noise;
+/// Below this motion is an error of the solve [m/s]: its residual, but for a hit. While a search
+/// goes on some weld must move by more than a few residuals.
+double noiseOf(const State& state, const Collection& c, std::span<const std::uint32_t> welds,
+               const WeldMotions& motions, const ProofSearch& search) {
+  const double residual = c.hits.blow == state.step ? 0.0 : c.residual;
+  const double sure = residual / kDecided.tolerance;
+  const auto surelyMoves = [&](std::uint32_t i) { return motions.turns(c.welds[i], sure); };
+  return search.isUnderWay() && std::ranges::none_of(welds, surelyMoves) ? sure : residual;
 }
 
-/// Cuts the welds whose bodies move. Motion slower than the residual may be an error of the solve.
-/// Where a search has found motion, so may the motion of welds that did not move in it. While one
-/// goes on, some weld must move by more than a few residuals. True where some are cut.
+/// Cuts the welds whose bodies move. True where some are cut.
 bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRegion& region,
                const ProofSearch& search) {
   const WeldMotions motions(state, c, scratch.sweeps.front().trial_u);
-  const double residual = c.hits.blow == state.step ? 0.0 : c.residual;
   const std::vector<std::uint32_t> welds = weldsAt(c, region.members);
-  const bool moves = !search.isUnderWay() || std::ranges::any_of(welds, [&](std::uint32_t i) {
-    return turns(c.welds[i], motions, residual / kDecided.tolerance);
-  });
+  const double noise = noiseOf(state, c, welds, motions, search);
   bool any = false;
   for (const std::uint32_t i : welds) {
     Weld& weld = c.welds[i];
@@ -138,15 +92,13 @@ bool cutMovers(const State& state, Scratch& scratch, Collection& c, const OpenRe
     if (weld.expected) continue;
     const double limit = motions.limitOf(weld);
     const WeldMotion motion = motions.of(weld, scratch.notes ? 0.0 : limit);
-    const double speed = moves && motion.least > residual ? motion.most : 0.0;
-    const Criterion stays = staysTogether(speed, limit);
+    const bool moves_in_search = !search.hasFoundMotion() || search.movers[i] != 0;
+    const Criterion stays = whyItStays(motion, limit, noise, moves_in_search);
     recordWeld(scratch, weld, stays);
     if (stays.holds) continue;
-    if (search.hasFoundMotion() && search.movers[i] == 0) continue;
-    weld.cut = true;
-    weld.motion = static_cast<float>(speed);
+    weld.cut = any = true;
+    weld.motion = static_cast<float>(motion.most);
     weld.reason = reasonOfCut(c, weld);
-    any = true;
   }
   return any;
 }
@@ -200,19 +152,6 @@ void prove(const State& state, Collection& c, Witness&& witness) {
   double way = 0.0;
   Witness next = beyond(proof, load, kDecided.overshoot, way);
   beginSearchAhead(state, c, std::move(next), way);
-}
-
-/// How fast the members of the trial move, at contacts and at the corners of welds; turning about a
-/// contact of a body beside which the other hardly moves is left to the residual [m/s].
-double fastestOf(const State& state, const SweepMemory& memory, const Collection& c) {
-  const WeldMotions motions(state, c, memory.trial_u);
-  double most = fastestContact(memory, c);
-  for (const Weld& weld : c.welds) {
-    if (weld.expected) continue;
-    const WeldMotion motion = motions.of(weld, 0.0);
-    if (motion.least > toleratedResidual(state)) most = std::max(most, motion.most);
-  }
-  return most;
 }
 
 /// The rows inside are solved so far that less than a tenth of the slowest motion that cuts is
@@ -294,7 +233,7 @@ bool restsIn(const State& state, const SearchTools& tools, Collection& c) {
   if (fastestContact(memory, c) > std::max(cutSpeed(state), sure())) return false;
   const WeldMotions motions(state, c, memory.trial_u);
   const auto turnsBy = [&](double noise) {
-    return std::ranges::any_of(c.welds, [&](const Weld& w) { return turns(w, motions, noise); });
+    return std::ranges::any_of(c.welds, [&](const Weld& w) { return motions.turns(w, noise); });
   };
   if (c.residual > tolerance || !turnsBy(c.residual)) return true;
   continueSearch(state, tools, c, kDecided.tolerance * tolerance);
@@ -313,19 +252,6 @@ void recordSearch(const State& state, Notes* notes, const Collection& c, const P
   const BodyId first = state.firstBody(c.rigid);
   notes->decisions.push_back(
       record(test, "SingleIterationPGS", first, first, verdict, {.count = search.steps}));
-}
-
-/// Per weld: whether its bodies move in a search.
-std::vector<std::uint8_t> moversOf(const State& state, const SweepMemory& memory,
-                                   const Collection& c) {
-  const WeldMotions motions(state, c, memory.trial_u);
-  std::vector<std::uint8_t> movers;
-  movers.reserve(c.welds.size());
-  for (const Weld& weld : c.welds) {
-    const double limit = motions.limitOf(weld);
-    movers.push_back(motions.of(weld, limit).most > limit ? 1 : 0);
-  }
-  return movers;
 }
 
 }  // namespace

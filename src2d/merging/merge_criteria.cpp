@@ -61,10 +61,15 @@ double changeOfLoad(const State& state, const BodyPair& pair) {
 
 }  // namespace
 
-bool canMerge(const State& state, BodyId one, BodyId other) {
+bool isWatched(const State& state, BodyId one, BodyId other) {
   const Rigid &a = state.rigid(one), &b = state.rigid(other);
-  if (a.asleep || b.asleep || !(a.floating() || b.floating() || a.anchor == b.anchor)) return false;
-  return !hasBelt(state, one, other);  // a carried body moves, however slowly
+  return !a.asleep && !b.asleep && !areOnTwoFrames(a, b);
+}
+
+Criterion isNotCarried(const State& state, BodyId one, BodyId other) {
+  const double speed =
+      std::max(std::abs(state[one].surface_velocity), std::abs(state[other].surface_velocity));
+  return {"belt", kOwnMerging, speed, 0.0, !hasBelt(state, one, other)};
 }
 
 Vec2 impulseOf(const Contact& contact) {
@@ -126,7 +131,8 @@ Criterion hasSettledLoad(const PairInContact& pair) {
 
 Criterion movesAsOne(const PairInContact& pair) {
   const double most = pair.scale * pair.state.settings.merging.velocity;
-  return below("relative-motion", "(17)", relativeMotion(pair.state, pair.pair), most);
+  const std::string_view source = isNaive(pair.state, pair.pair) ? kOwnMerging : "(17)";
+  return below("relative-motion", source, relativeMotion(pair.state, pair.pair), most);
 }
 
 }  // namespace merge2d

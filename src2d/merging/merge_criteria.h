@@ -19,9 +19,11 @@ struct PairInContact {
 
 PairInContact lookAt(const State& state, const BodyPair& pair);
 
-/// Criteria are asked about two bodies that are awake, not on two frames, and carry each other by
-/// no belt.
-bool canMerge(const State& state, BodyId one, BodyId other);
+/// Criteria are asked about two bodies that are awake, and not on two frames.
+bool isWatched(const State& state, BodyId one, BodyId other);
+
+/// A body on a belt moves, however slowly [m/s].
+Criterion isNotCarried(const State& state, BodyId one, BodyId other);
 
 /// The impulse of a contact in this step, along its normal and tangent [N s].
 Vec2 impulseOf(const Contact& contact);

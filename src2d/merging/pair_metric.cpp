@@ -10,13 +10,11 @@ OrientedBox worldBox(const State& state, const Rigid& r) {
   return box;
 }
 
-namespace {
-
-/// With "naive" the contacts of a pair are looked at instead of boxes; it may be held by joints
-/// alone.
 bool isNaive(const State& state, const BodyPair& pair) {
   return pair.count > 0 && state.settings.merging.metric == Metric::Naive;
 }
+
+namespace {
 
 /// Calls `f` with the box of each floating thing of a pair.
 template <class F>

@@ -20,6 +20,10 @@ inline double thresholdScale(double size) {
 VelocityField motionField(const Rigid& r);
 OrientedBox worldBox(const State& state, const Rigid& r);
 
+/// With `merging.metric = "naive"` the contacts of a pair are looked at instead of boxes; a pair
+/// may be held by joints alone.
+bool isNaive(const State& state, const BodyPair& pair);
+
 /// Eq. (15); only the boxes of floating things are looked at [m/s]. With `merging.metric = "naive"`
 /// only the contacts of a pair are.
 double relativeMotion(const State& state, const BodyPair& pair);

@@ -48,7 +48,9 @@ void countQuietJoint(State& state, Joint& joint, Notes* notes) {
 void countQuietJoints(State& state, Scratch& scratch) {
   for (Joint& joint : state.joints) {
     if (joint.to_world || !holds(state, joint) || isInside(state, joint)) continue;
-    if (canMerge(state, joint.a, joint.b)) countQuietJoint(state, joint, scratch.notes);
+    if (!isWatched(state, joint.a, joint.b)) continue;
+    if (!isNotCarried(state, joint.a, joint.b).holds) continue;
+    countQuietJoint(state, joint, scratch.notes);
   }
 }
 

@@ -25,12 +25,29 @@ Criterion hasWaited(int count) {
 /// the gain of that step, after a tenth of the longest wait: a load that swings, or was
 /// near the edge of what its contacts carry, has gone back. Guarded by
 /// Merge.APairThatPartedSlowlyAndStoppedWaitsNoLonger.
-bool hasStopped(const State& state, const BodyPair& pair, const Contact& contact) {
+Criterion hasStopped(const State& state, const BodyPair& pair, const Contact& contact) {
+  const auto gain = static_cast<double>(contact.parting);
+  const double steps = stepsUntilSeen(state, gain) + contact.quiet_steps;
+  return below("stopped", kOwnMerging, relativeMotion(state, pair), 0.5 * steps * gain);
+}
+
+/// It has waited for long enough to be asked for that.
+bool isAskedWhetherItStopped(const State& state, const Contact& contact) {
   if (contact.parting <= 0.0F || contact.quiet_steps >= -1) return false;
   const auto gain = static_cast<double>(contact.parting);
   const double steps = stepsUntilSeen(state, gain) + contact.quiet_steps;
-  return steps >= kDecided.tolerance * kDecided.patience &&
-         relativeMotion(state, pair) < 0.5 * steps * gain;
+  return steps >= kDecided.tolerance * kDecided.patience;
+}
+
+/// A pair that has stopped waits no longer.
+void endWait(const State& state, const BodyPair& pair, Contact& first, Notes* notes) {
+  if (!isAskedWhetherItStopped(state, first)) return;
+  const Criterion stopped = hasStopped(state, pair, first);
+  if (notes) {
+    notes->decisions.push_back(
+        record(stopped, kStage, pair.a, pair.b, stopped.holds ? "below" : "wait"));
+  }
+  if (stopped.holds) first.quiet_steps = -1;
 }
 
 /// The criteria of one pair in one step.
@@ -80,7 +97,7 @@ constexpr int kMostSteps = std::numeric_limits<std::int16_t>::max();  ///< that 
 
 void countQuietPair(State& state, const BodyPair& pair, Notes* notes) {
   Contact& first = state.contacts[state.contacts.order[pair.first]];
-  if (hasStopped(state, pair, first)) first.quiet_steps = -1;
+  endWait(state, pair, first, notes);
   const int count = first.quiet_steps;
   const Readiness r = readinessOf(state, pair, notes != nullptr);
   // The last step of a wait counts: at 0 a pair would seem not to wait for anything, and sleep.
@@ -97,7 +114,11 @@ void countQuietPair(State& state, const BodyPair& pair, Notes* notes) {
 
 void countQuietPairs(State& state, Scratch& scratch) {
   for (const BodyPair& pair : scratch.pairs) {
-    if (canMerge(state, pair.a, pair.b)) countQuietPair(state, pair, scratch.notes);
+    if (!isWatched(state, pair.a, pair.b)) continue;
+    const Criterion free = isNotCarried(state, pair.a, pair.b);
+    if (free.holds) countQuietPair(state, pair, scratch.notes);
+    if (free.holds || !scratch.notes) continue;
+    scratch.notes->decisions.push_back(record(free, kStage, pair.a, pair.b, "apart"));
   }
 }
 

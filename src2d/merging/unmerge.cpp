@@ -70,22 +70,41 @@ std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch) {
   return arrives;
 }
 
-/// A bouncing body that was hit is followed hit by hit (dynamics/hits.h), on its own.
+/// No bounce arrives at the bodies of a weld: bodies that bounce are followed hit by hit, each on
+/// its own (dynamics/hits.h).
+Criterion bouncesNot(const State& state, const Weld& weld, const std::vector<double>& arrives) {
+  const double speed = std::max(arrives[index(weld.a)], arrives[index(weld.b)]);
+  return {"bounce", kOwnHits, speed, state.settings.unmerging.velocity,
+          !isFollowed(state, weld.a, weld.b, speed)};
+}
+
+/// Cuts the welds of a collection at which bounces arrive.
+bool cutBouncing(const State& state, const Scratch& scratch, Collection& c,
+                 const std::vector<double>& arrives) {
+  bool any = false;
+  for (Weld& weld : c.welds) {
+    if (weld.joints > 0) continue;
+    const Criterion stays = bouncesNot(state, weld, arrives);
+    if (stays.holds) continue;
+    weld.cut = any = true;
+    weld.reason = EventReason::RelativeMotion;
+    if (!scratch.notes) continue;
+    scratch.notes->decisions.push_back(
+        record(stays, "Unmerge", weld.a, weld.b, "unmerge", {.count = 1}));
+  }
+  return any;
+}
+
 void releaseBouncing(State& state, Scratch& scratch, const std::vector<double>& arrives) {
   if (arrives.empty()) return;
-  const auto fastestOf = [&](const Weld& weld) {
-    return std::max(arrives[index(weld.a)], arrives[index(weld.b)]);
-  };
   for (std::size_t slot = 0, slots = state.collections.size(); slot < slots; ++slot) {
     Collection& c = state.collections[slot];
-    bool any = false;
-    for (Weld& weld : c.welds) {
-      if (c.id == kNoCollection || weld.joints > 0) continue;
-      if (!isFollowed(state, weld.a, weld.b, fastestOf(weld))) continue;
-      weld.cut = any = true;
-      weld.reason = EventReason::RelativeMotion;
-    }
-    if (any) splitAtCuts(state, scratch, c.rigid, collectionMethod(state).parts(state, scratch, c));
+    if (c.id == kNoCollection) continue;
+    Noted noted(scratch.notes);
+    if (!cutBouncing(state, scratch, c, arrives)) continue;
+    noted.close();
+    splitAtCuts(state, scratch, c.rigid, collectionMethod(state).parts(state, scratch, c));
+    restate(state, noted, "cut");
   }
 }
 

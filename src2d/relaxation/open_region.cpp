@@ -143,7 +143,7 @@ void listRegion(State& state, Scratch& scratch, OpenRegion& region) {
   startMembers(state, scratch, c, region);
   pushFromOutside(state, scratch, c, region);
   for (const std::uint32_t block : blocksAt(c, region.members)) {
-    const Weld& weld = c.welds[c.contacts[c.block_contact[block]].weld];
+    const Weld& weld = c.weldOf(block);
     if (!isInside(scratch, c, weld.node_a) || !isInside(scratch, c, weld.node_b)) continue;
     scratch.open_rows.push_back(RowSource::inside(region.slot, block));
   }
@@ -193,7 +193,7 @@ void restoreImpulses(const State& state, Collection& c, const OpenRegion& region
   IndexSet ends(c.members.size());
   for (const auto& [block, impulses] : region.before) {
     c.blocks[block].lambda = impulses;
-    const Weld& weld = c.welds[c.contacts[c.block_contact[block]].weld];
+    const Weld& weld = c.weldOf(block);
     for (const std::uint32_t node : {weld.node_a, weld.node_b}) {
       if (!isFrame(c, node)) ends.add(node);
     }

@@ -9,7 +9,7 @@ namespace merge2d {
 
 template <class Visit>
 void ReachedRows::forEachMember(std::uint32_t block, Visit&& visit) const {
-  const Weld& weld = c_.welds[c_.contacts[c_.block_contact[block]].weld];
+  const Weld& weld = c_.weldOf(block);
   for (const std::uint32_t m : {weld.node_a, weld.node_b}) {
     if (m < c_.members.size()) visit(m);
   }

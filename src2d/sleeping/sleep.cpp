@@ -77,15 +77,14 @@ namespace {
 Criterion sleepCriterion(const State& state, const Scratch& scratch, RigidId id, bool stays_awake) {
   const Rigid& r = state[id];
   const int needed = state.settings.sleeping.steps;
-  const auto keepsAwake = [](std::string_view criterion, std::string_view source) {
-    return Criterion{criterion, source, 1.0, 0.0, false};
+  const auto keepsAwake = [](std::string_view criterion) {
+    return Criterion{criterion, kOwnSleeping, 1.0, 0.0, false};
   };
-  if (scratch.restless[index(id)] != 0) return keepsAwake("disturbed", "Section 7");
-  if (r.asleep) return keepsAwake("neighbours", "Section 7");
+  if (scratch.restless[index(id)] != 0) return keepsAwake("disturbed");
+  if (r.asleep) return keepsAwake("neighbours");
   if (r.quiet_steps >= needed && stays_awake) {
     const bool settles = state.isCollection(id) && !state.collection(id).settled;
-    return settles ? keepsAwake("inner-forces", kOwnSleeping)
-                   : keepsAwake("neighbours", "Section 7");
+    return keepsAwake(settles ? "inner-forces" : "neighbours");
   }
   return {"rest", "Section 7", static_cast<double>(r.quiet_steps), static_cast<double>(needed),
           r.quiet_steps >= needed};

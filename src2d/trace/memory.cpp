@@ -71,7 +71,7 @@ std::size_t bytesOfScratch(const Scratch& s) {
                  s.joint_order, s.joint_blocks, s.taut_links, s.block_order, s.by_colour,
                  s.hit_ways) +
          bytesOfSweeps(s) + s.sets.memoryBytes() +
-         bytesOf(s.ahead, s.found, s.island_changes, s.island_roots);
+         bytesOf(s.ahead, s.found, s.island_changes, s.island_roots, s.start_motions);
 }
 
 }  // namespace
