@@ -130,7 +130,13 @@ test('reasons have sentences in every language, by the names that the engine giv
     assert.deepEqual(Object.keys(words.condition).sort(), [...conditions].sort(), language);
     assert.deepEqual(Object.keys(words.clause), Object.keys(reasons.de.clause), language);
   }
-  // Every criterion that is seen in runs has a clause of its own.
+  // Every criterion that docs/records.md lists has words of its own, also those that few runs show.
+  const records = readFileSync(join(project, 'docs/records.md'), 'utf8');
+  const criteria = [...records.matchAll(/^\| [A-Z]\w+ \| `([a-z-]+)` \|/gm)].map(([, name]) => name);
+  assert.ok(criteria.length > 30, `${criteria.length} criteria`);
+  for (const words of Object.values(reasons)) {
+    for (const criterion of criteria) assert.ok(words.measure[criterion] ?? words.clause[criterion], criterion);
+  }
   for (const scene of ['tower-platform', 'books', 'slope']) {
     const world = engine.open(tomlOf(scene), 'merge+sleep');
     for (let k = 1; k <= 400; k += 3) {

@@ -1,0 +1,131 @@
+#include "src2d/merging/bounces.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "src2d/collections/collection.h"
+#include "src2d/collections/cuts.h"
+#include "src2d/core/index_runs.h"
+#include "src2d/dynamics/hit_rows.h"
+
+namespace merge2d {
+namespace {
+
+/// Whether hits of two bodies are followed (dynamics/hits.h) of which one is as fast as this [m/s]:
+/// bounces, and later hits in their chain that are too slow to bounce.
+bool isFollowed(const State& state, BodyId a, BodyId b, double speed) {
+  return restitutionOf(state, a, b) > 0.0 && speed > state.settings.unmerging.velocity;
+}
+
+/// The speed that a body at rest gets from one that hits it, by Newton's law, as in a row of balls
+/// [m/s].
+double passedOn(const State& state, BodyId from, BodyId to, double speed) {
+  if (!state.responds(to) || !isFollowed(state, from, to, speed)) return 0.0;
+  const ContactKey key{from, to, state[from].first_shape, state[to].first_shape};
+  const double e = speed > leastBounce(state, key) ? restitutionOf(state, from, to) : 0.0;
+  return (1.0 + e) * speed * state[from].mass / (state[from].mass + state[to].mass);
+}
+
+/// Passes speeds on from body to body until none gets more.
+class BounceSpread {
+ public:
+  /// Of speeds per body, which it changes.
+  BounceSpread(const State& state, const Scratch& scratch, std::vector<double>& arrives)
+      : state_(state), arrives_(arrives) {
+    for (const BodyPair& pair : scratch.pairs) touching_.emplace_back(pair.a, pair.b);
+    for (const Collection& c : state.collections) {
+      if (c.id == kNoCollection) continue;
+      for (const Weld& weld : c.welds) touching_.emplace_back(weld.a, weld.b);
+    }
+    touching_of_.build(state.bodies.size(), [&](auto&& visit) {
+      for (std::uint32_t i = 0; i < touching_.size(); ++i) {
+        visit(index(touching_[i].first), i);
+        visit(index(touching_[i].second), i);
+      }
+    });
+  }
+
+  void spread() {
+    for (std::uint32_t i = 0; i < arrives_.size(); ++i) {
+      if (arrives_[i] > 0.0) queue_.push_back(BodyId{i});
+    }
+    for (std::size_t next = 0; next < queue_.size(); ++next) passFrom(queue_[next]);
+  }
+
+ private:
+  void passFrom(BodyId from) {
+    constexpr double kMore = 1.0 + 1e-9;  // or equal balls would pass on rounding errors for ever
+    for (const std::uint32_t i : touching_of_[index(from)]) {
+      const auto [a, b] = touching_[i];
+      const BodyId to = a == from ? b : a;
+      const double speed = passedOn(state_, from, to, arrives_[index(from)]);
+      if (speed <= kMore * arrives_[index(to)]) continue;
+      arrives_[index(to)] = speed;
+      queue_.push_back(to);
+    }
+  }
+
+  const State& state_;
+  std::vector<double>& arrives_;
+  std::vector<std::pair<BodyId, BodyId>> touching_;
+  IndexRuns touching_of_;      ///< per body
+  std::vector<BodyId> queue_;  ///< bodies at which more has arrived
+};
+
+/// No bounce arrives at the bodies of a weld: bodies that bounce are followed hit by hit, each on
+/// its own (dynamics/hits.h).
+Criterion bouncesNot(const State& state, const Weld& weld, const std::vector<double>& arrives) {
+  const double speed = std::max(arrives[index(weld.a)], arrives[index(weld.b)]);
+  return {"bounce", kOwnHits, speed, state.settings.unmerging.velocity,
+          !isFollowed(state, weld.a, weld.b, speed)};
+}
+
+/// Cuts the welds of a collection at which bounces arrive.
+bool cutBouncing(const State& state, const Scratch& scratch, Collection& c,
+                 const std::vector<double>& arrives) {
+  bool any = false;
+  for (Weld& weld : c.welds) {
+    if (weld.joints > 0) continue;
+    const Criterion stays = bouncesNot(state, weld, arrives);
+    if (stays.holds) continue;
+    weld.cut = any = true;
+    weld.reason = EventReason::RelativeMotion;
+    if (!scratch.notes) continue;
+    scratch.notes->decisions.push_back(
+        record(stays, "Unmerge", weld.a, weld.b, "unmerge", {.count = 1}));
+  }
+  return any;
+}
+
+}  // namespace
+
+std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch) {
+  std::vector<double> arrives;
+  if (state.collections.empty()) return arrives;
+  for (const Meeting& meeting : scratch.meetings) {
+    const BodyPair& pair = scratch.pairs[meeting.pair];
+    if (restitutionOf(state, pair.a, pair.b) == 0.0) continue;
+    if (arrives.empty()) arrives.assign(state.bodies.size(), 0.0);
+    for (const BodyId b : {pair.a, pair.b}) {
+      if (state.responds(b)) arrives[index(b)] = std::max(arrives[index(b)], meeting.speed);
+    }
+  }
+  if (!arrives.empty()) BounceSpread(state, scratch, arrives).spread();
+  return arrives;
+}
+
+void releaseBouncing(State& state, Scratch& scratch, const std::vector<double>& arrives) {
+  if (arrives.empty()) return;
+  for (std::size_t slot = 0, slots = state.collections.size(); slot < slots; ++slot) {
+    Collection& c = state.collections[slot];
+    if (c.id == kNoCollection) continue;
+    Noted noted(scratch.notes);
+    if (!cutBouncing(state, scratch, c, arrives)) continue;
+    noted.close();
+    splitAtCuts(state, scratch, c.rigid, collectionMethod(state).parts(state, scratch, c));
+    restate(state, noted, "cut");
+  }
+}
+
+}  // namespace merge2d
