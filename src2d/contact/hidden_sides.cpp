@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <optional>
 #include <span>
+#include <tuple>
 
 #include "src2d/contact/cast.h"
 #include "src2d/contact/internal_edges.h"
@@ -193,13 +193,18 @@ struct Ground {
   double heightOf(const Vec2& p) const { return up.dot(p - at); }
 };
 
+/// True for a side, with this normal, that lies in a ground: it is none to run into.
+bool liesAlong(const Vec2& normal, const Vec2& up) {
+  constexpr double kAlong = 1e-9;
+  return normal.dot(up) > 1.0 - kAlong;
+}
+
 /// True when the toucher comes against a side at `p`, with this normal out of it, as it slides
 /// along the ground and not as it sinks in.
 bool isMetBySliding(const State& state, BodyId toucher, BodyId of_side, const Ground& ground,
                     const Vec2& p, const Vec2& normal) {
-  constexpr double kAlong = 1e-9;  // a side that lies in the ground is none to run into
+  if (liesAlong(normal, ground.up)) return false;
   const double upward = normal.dot(ground.up);
-  if (upward > 1.0 - kAlong) return false;
   const double nears = normal.dot(velocitySeenFrom(state, of_side, toucher, p));
   const double sinks = upward * ground.up.dot(velocitySeenFrom(state, of_side, toucher, ground.at));
   return nears - sinks < -std::abs(sinks);
@@ -237,34 +242,165 @@ bool hides(const State& state, const Scratch& scratch, const SeamContact& t, con
   return liesBelow(state.collider(shape), pose, ground, may_part ? scale.ahead : scale.skin);
 }
 
-/// True when one of the shapes that the toucher of `s` touches hides the sides at `s`.
-bool isHiddenByAny(const State& state, const Scratch& scratch, std::span<const SeamContact> all,
-                   const SeamContact& s) {
-  std::optional<Side> side;
-  return std::ranges::any_of(all, [&](const SeamContact& t) {
-    if (t.place() == s.place() || contactOf(state, t).count == 0) return false;
-    const bool may_part = SeamBodies(state, t, s).mayPart(state);
-    if (!mayHide(state, t, s, may_part, SeamScale{})) return false;
-    if (!side) side.emplace(state, scratch, s);
-    return hides(state, scratch, t, s, *side);
-  });
+/// True when the shape of `t` hides the sides at `s`.
+bool isHiddenBy(const State& state, const Scratch& scratch, const SeamContact& t,
+                const SeamContact& s) {
+  if (t.place() == s.place() || contactOf(state, t).count == 0) return false;
+  const bool may_part = SeamBodies(state, t, s).mayPart(state);
+  if (!mayHide(state, t, s, may_part, SeamScale{})) return false;
+  return hides(state, scratch, t, s, Side(state, scratch, s));
+}
+
+BodyId bodyOf(const State& state, const SeamContact& seam) {
+  return state.shape_body[shapeOf(contactOf(state, seam), seam)];
+}
+
+/// Seams of bodies that cannot part have the same number: that of the body, or one for all bodies
+/// that do not respond to forces.
+std::uint32_t fixedTo(const State& state, const SeamContact& seam) {
+  const BodyId body = bodyOf(state, seam);
+  return state.responds(body) ? static_cast<std::uint32_t>(body) : kNone;
+}
+
+/// Lists the loose sides among the seams of one toucher.
+void listLooseSides(const State& state, Scratch& scratch, std::span<const SeamContact> seams) {
+  const Pose toucher = state.pose(state.shape_body[seams.front().toucher]);
+  scratch.loose_sides.clear();
+  for (std::uint32_t i = 0; i < seams.size(); ++i) {
+    const Contact& contact = contactOf(state, seams[i]);
+    const std::uint32_t shape = shapeOf(contact, seams[i]);
+    if (contact.count == 0 || !isLoose(state, contact, shape)) continue;
+    const Vec2 met = state.pose(state.shape_body[shape]) * Side(state, scratch, seams[i]).points[0];
+    scratch.loose_sides.push_back({i, fixedTo(state, seams[i]), toucher.toLocal(met)});
+  }
+}
+
+/// A box, in the frame `toucher`, around all points from which the shape of `t` is no farther than
+/// `ahead` as `signedDistance` has it: that far outside each face at most. A face at the distance
+/// r_i from an inner point moves out to r_i + ahead ≤ r_i (1 + ahead / r), where r is the least of
+/// these distances. So the points lie in the image of the shape that is enlarged by this factor
+/// about the inner point. Twice the way leaves room for rounding. For a shape that is too thin to
+/// have an inner point the box is infinite, or of no numbers.
+Aabb surroundings(const State& state, const SeamContact& t, const Pose& toucher, double ahead) {
+  const std::uint32_t shape = shapeOf(contactOf(state, t), t);
+  const Collider& cover = state.collider(shape);
+  const double r = std::max(0.0, -signedDistance(cover, cover.origin()));
+  const double factor = 1.0 + 2.0 * ahead / r;
+  const auto enlarged = [&](const Vec2& corner) -> Vec2 {
+    return cover.origin() + factor * (corner - cover.origin());
+  };
+  const Aabb& box = state.bounds(shape);
+  return placed(toucher.toLocal(state.pose(state.shape_body[shape])),
+                {enlarged(box.lower), enlarged(box.upper)});
+}
+
+/// Marks the loose sides that are hidden by a cover of another body, where the two bodies may part.
+///
+/// There `hides` asks that the toucher rests on the cover and meets the side no farther than
+/// `ahead` from it, so in its surroundings. The sides are sorted along the toucher: those in the
+/// surroundings of a cover are a run of the sorted list, and the cover is compared with the whole
+/// run, so no pair is missed. Where N boxes stand on one floor each run has a few sides, and the
+/// cost is N log N. The order of the pairs does not matter: `hides` reads no other contact, and a
+/// contact that bears is never emptied here.
+void markBesideCovers(const State& state, Scratch& scratch, std::span<const SeamContact> seams) {
+  const std::uint32_t shape = seams.front().toucher;
+  const Pose toucher = state.pose(state.shape_body[shape]);
+  const Vec2 extent = state.bounds(shape).extent();
+  const int along = extent.x() >= extent.y() ? 0 : 1, across = 1 - along;
+  const auto place = [&](const LooseSide& side) { return side.met[along]; };
+  std::vector<LooseSide>& sides = scratch.loose_sides;
+  std::ranges::sort(sides, {}, place);
+  for (const SeamContact& t : seams) {
+    const Contact& contact = contactOf(state, t);
+    if (contact.count == 0 || !bears(contact) || bouncesOff(state, contact)) continue;
+    const Aabb near = surroundings(state, t, toucher, SeamScale{}.ahead);
+    // These comparisons keep every side where the box is of no numbers.
+    auto side = std::ranges::lower_bound(sides, near.lower[along], {}, place);
+    for (; side != sides.end() && !(place(*side) > near.upper[along]); ++side) {
+      const double beside = side->met[across];
+      if (side->hidden || beside < near.lower[across] || beside > near.upper[across]) continue;
+      side->hidden = isHiddenBy(state, scratch, t, seams[side->seam]);
+    }
+  }
+}
+
+/// Contacts are in the order of their bodies: the seams of one body are a run.
+std::span<const SeamContact> seamsOfBody(const State& state, std::span<const SeamContact> seams,
+                                         BodyId body) {
+  const auto of = [&](const SeamContact& t) { return bodyOf(state, t); };
+  const auto first = std::ranges::lower_bound(seams, body, {}, of);
+  const auto last =
+      std::find_if(first, seams.end(), [&](const SeamContact& t) { return of(t) != body; });
+  return {first, last};
+}
+
+/// Lists the covers that are fixed to the sides at `s`, those with the same direction up one behind
+/// the other.
+void listFixedCovers(const State& state, Scratch& scratch, std::span<const SeamContact> seams,
+                     const SeamContact& s) {
+  std::vector<FixedCover>& covers = scratch.fixed_covers;
+  covers.clear();
+  const std::uint32_t fixed = fixedTo(state, s);
+  const auto run = fixed == kNone ? seams : seamsOfBody(state, seams, bodyOf(state, s));
+  if (run.size() < 2) return;
+  for (const SeamContact& t : run) {
+    if (contactOf(state, t).count == 0 || fixedTo(state, t) != fixed) continue;
+    const auto seam = static_cast<std::uint32_t>(&t - seams.data());
+    covers.push_back({Ground(state, scratch, t).up, seam});
+  }
+  std::ranges::sort(covers, {},
+                    [](const FixedCover& t) { return std::tuple(t.up.x(), t.up.y(), t.seam); });
+  for (std::size_t i = covers.size(); i-- > 0;) {
+    const bool last = i + 1 == covers.size() || covers[i].up != covers[i + 1].up;
+    covers[i].end = last ? static_cast<std::uint32_t>(i + 1) : covers[i + 1].end;
+  }
+}
+
+/// True when one of the listed covers hides the sides at `s`. Such a cover may be anywhere along
+/// the toucher. But a side that lies along the ground of a cover is not hidden by it:
+/// isMetBySliding compares the same numbers. Where a plank lies on N tiles, all have one direction.
+bool isHiddenByFixed(const State& state, const Scratch& scratch, std::span<const SeamContact> seams,
+                     const SeamContact& s) {
+  const std::vector<FixedCover>& covers = scratch.fixed_covers;
+  if (covers.size() < 2) return false;
+  const Vec2 normal = Ground(state, scratch, s).up;
+  for (std::size_t i = 0; i < covers.size(); i = covers[i].end) {
+    if (liesAlong(normal, covers[i].up)) continue;
+    const std::span alike(&covers[i], covers[i].end - i);
+    const bool hidden = std::ranges::any_of(
+        alike, [&](const FixedCover& t) { return isHiddenBy(state, scratch, seams[t.seam], s); });
+    if (hidden) return true;
+  }
+  return false;
+}
+
+/// Empties the contacts with hidden sides of one toucher. A contact that was emptied hides no side
+/// that is fixed to it: among these sides the order counts, and it is that of the contacts.
+void dropHiddenSidesOf(State& state, Scratch& scratch, std::span<const SeamContact> seams) {
+  listLooseSides(state, scratch, seams);
+  markBesideCovers(state, scratch, seams);
+  std::vector<LooseSide>& sides = scratch.loose_sides;
+  std::ranges::sort(sides, {}, [](const LooseSide& side) { return packed(side.fixed, side.seam); });
+  for (auto side = sides.begin(); side != sides.end(); ++side) {
+    if (side == sides.begin() || side->fixed != std::prev(side)->fixed) {
+      listFixedCovers(state, scratch, seams, seams[side->seam]);
+    }
+    const SeamContact& s = seams[side->seam];
+    if (!side->hidden && !isHiddenByFixed(state, scratch, seams, s)) continue;
+    Contact& contact = contactOf(state, s);
+    contact.count = 0, contact.quiet_steps = 0;
+  }
 }
 
 }  // namespace
 
 void dropHiddenSides(State& state, Scratch& scratch) {
-  std::vector<SeamContact>& seams = scratch.seams;
+  const std::vector<SeamContact>& seams = scratch.seams;
   listSeams(state, scratch);
   for (auto first = seams.begin(); first != seams.end();) {
     const auto last = std::find_if(
         first, seams.end(), [&](const SeamContact& s) { return s.toucher != first->toucher; });
-    for (auto s = first; s != last; ++s) {
-      Contact& contact = contactOf(state, *s);
-      if (contact.count == 0 || !isLoose(state, contact, shapeOf(contact, *s))) continue;
-      const std::span all(&*first, static_cast<std::size_t>(last - first));
-      const bool hidden = isHiddenByAny(state, scratch, all, *s);
-      if (hidden) contact.count = 0, contact.quiet_steps = 0;
-    }
+    dropHiddenSidesOf(state, scratch, {first, last});
     first = last;
   }
 }

@@ -75,6 +75,21 @@ struct SeamContact {
   bool ofA() const { return side % 2 == 1; }
 };
 
+/// A side that one toucher meets and that bears nothing yet.
+struct LooseSide {
+  std::uint32_t seam = 0;   ///< its place among the seams of the toucher
+  std::uint32_t fixed = 0;  ///< the same for sides that cannot part
+  Vec2 met = Vec2::Zero();  ///< where it is met, in the frame of the toucher's body [m]
+  bool hidden = false;
+};
+
+/// What one toucher meets of things that cannot part, for each other's sides.
+struct FixedCover {
+  Vec2 up = Vec2::Zero();  ///< normal out of it, in the world
+  std::uint32_t seam = 0;  ///< its place among the seams of the toucher
+  std::uint32_t end = 0;   ///< of the run of those with the same `up`
+};
+
 /// A point of a contact that was predicted ahead, at the meeting.
 struct CastEnd {
   std::uint32_t feature = 0;
@@ -279,9 +294,11 @@ struct Scratch {
   std::vector<double> ahead;       ///< per contact in order, where several threads follow them [m]
   std::vector<FoundByTask> found;  ///< per task
   std::vector<SeamContact> seams;
-  std::vector<std::uint8_t> touchers;  ///< per shape, where seams are listed; else all 0
-  std::vector<Cast> casts;             ///< ascending by key
-  std::vector<PruneMemory> pruning;    ///< per thread
+  std::vector<LooseSide> loose_sides;    ///< of one toucher after the other
+  std::vector<FixedCover> fixed_covers;  ///< of sides that cannot part, of one after the other
+  std::vector<std::uint8_t> touchers;    ///< per shape, where seams are listed; else all 0
+  std::vector<Cast> casts;               ///< ascending by key
+  std::vector<PruneMemory> pruning;      ///< per thread
   std::vector<ActionOrder> kick_order, load_order;  ///< ascending; loads only where one is asked
   std::vector<NearPair> near_candidates;
   std::vector<std::uint8_t> near_refined;  ///< per near pair: paired anew in this step

@@ -35,7 +35,6 @@ class BounceSpread {
       : state_(state), arrives_(arrives) {
     for (const BodyPair& pair : scratch.pairs) touching_.emplace_back(pair.a, pair.b);
     for (const Collection& c : state.collections) {
-      if (c.id == kNoCollection) continue;
       for (const Weld& weld : c.welds) touching_.emplace_back(weld.a, weld.b);
     }
     touching_of_.build(state.bodies.size(), [&](auto&& visit) {
@@ -117,9 +116,9 @@ std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch) {
 
 void releaseBouncing(State& state, Scratch& scratch, const std::vector<double>& arrives) {
   if (arrives.empty()) return;
-  for (std::size_t slot = 0, slots = state.collections.size(); slot < slots; ++slot) {
+  const std::vector<std::uint32_t> slots = state.collections.active();  // splits make more
+  for (const std::uint32_t slot : slots) {
     Collection& c = state.collections[slot];
-    if (c.id == kNoCollection) continue;
     Noted noted(scratch.notes);
     if (!cutBouncing(state, scratch, c, arrives)) continue;
     noted.close();

@@ -267,6 +267,30 @@ void joinTiles(Scene& scene) {
   }
 }
 
+/// A plank of 20 m slides over tiles that stand loose and 1 mm apart, and so touches twenty at
+/// once; upright, its long side is along the y axis of its frame. The tile that hides the next one
+/// is its neighbour in the world, but not in the list: tile i is body 17 i modulo 31. Without
+/// friction nothing changes the speed of the plank.
+TEST(Seams, ALongPlankFindsTheTileThatHidesTheNextOne) {
+  constexpr int kTiles = 31, kStride = 17;
+  constexpr double kApart = 1.001;  // m
+  for (const bool upright : {false, true}) {
+    Scene scene = frictionless();
+    addSmooth(scene, pinned(box(200, 1, {0, -1.5})));
+    for (int body = 0; body < kTiles; ++body) {
+      int tile = 0;
+      while (tile * kStride % kTiles != body) ++tile;
+      addSmooth(scene, box(1, 1, {0.5 + kApart * tile, -0.5}));
+    }
+    BodyDesc plank = upright ? box(0.6, 20, {11, 0.3}) : box(20, 0.6, {11, 0.3});
+    if (upright) plank.angle = 90.0 * kDegree;
+    plank.density = 1.0 / 12.0;
+    addSmooth(scene, named("slider", moving(plank, {5, 0})));
+    SCOPED_TRACE(upright ? "upright" : "flat");
+    inAllModesAndSteps(scene, [](World& world) { expectKeepsItsSpeed(world, 1.5, 5.0, 0.3); });
+  }
+}
+
 /// v²/(2μg) = 4.247 m, of which the discrete friction takes up to v·h/2.
 TEST(Seams, ABoxSlidesOverLooseTilesAsFarAsCoulombSays) {
   for (const double mass : {1.0, 10.0, 1000.0}) {
