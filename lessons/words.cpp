@@ -239,7 +239,9 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
         "hits have gone on for {:.3g} s (bodies are simulated one by one after {} s; {})", d.value,
         d.threshold, equationName(d.equation));
   }
-  if (c == "pressed") return "no contact between them carries a force (Section 5.3)";
+  if (c == "pressed") {
+    return fmt::format("no contact between them carries a force ({})", equationName(d.equation));
+  }
   if (c == "broken") return "a contact of the weld carries no force any more (Section 6.3)";
   return fmt::format("{} of {} steps passed (Section 5.1)", d.count, d.needed);  // "count"
 }

@@ -7,12 +7,19 @@
 namespace merge2d {
 namespace {
 
+/// A weld that was not cut ends because no contact of it is in the contact graph: only the others
+/// held its bodies together.
+constexpr Criterion kNothingPresses{"pressed", "Section 6.3", 0.0, 1.0, false};
+
 /// One event per weld that ends.
 void reportCuts(const State& state, const Collection& before, Scratch& scratch) {
   for (const Weld& weld : before.welds) {
     if (stillTogether(state, weld.a, weld.b)) continue;
     scratch.events.push_back({EventType::Unmerge, weld.a, weld.b, before.id,
                               weld.cut ? weld.reason : EventReason::Broken});
+    if (weld.cut || !scratch.notes) continue;
+    scratch.notes->decisions.push_back(
+        record(kNothingPresses, "Unmerge", weld.a, weld.b, "unmerge"));
   }
 }
 

@@ -275,12 +275,11 @@ void listLooseSides(const State& state, Scratch& scratch, std::span<const SeamCo
   }
 }
 
-/// A box, in the frame `toucher`, around all points from which the shape of `t` is no farther than
-/// `ahead` as `signedDistance` has it: that far outside each face at most. A face at the distance
-/// r_i from an inner point moves out to r_i + ahead ≤ r_i (1 + ahead / r), where r is the least of
-/// these distances. So the points lie in the image of the shape that is enlarged by this factor
-/// about the inner point. Twice the way leaves room for rounding. For a shape that is too thin to
-/// have an inner point the box is infinite, or of no numbers.
+/// A box, in the frame `toucher`, around all points that are no farther than `ahead` outside each
+/// face of the shape of `t`. A face at the distance r_i from an inner point moves out to
+/// r_i + ahead ≤ r_i (1 + ahead / r), where r is the least r_i: the points lie in the shape
+/// enlarged by this factor about the inner point. Twice the way leaves room for rounding. For a
+/// shape too thin to have an inner point the box is infinite, or of no numbers.
 Aabb surroundings(const State& state, const SeamContact& t, const Pose& toucher, double ahead) {
   const std::uint32_t shape = shapeOf(contactOf(state, t), t);
   const Collider& cover = state.collider(shape);
@@ -297,11 +296,10 @@ Aabb surroundings(const State& state, const SeamContact& t, const Pose& toucher,
 /// Marks the loose sides that are hidden by a cover of another body, where the two bodies may part.
 ///
 /// There `hides` asks that the toucher rests on the cover and meets the side no farther than
-/// `ahead` from it, so in its surroundings. The sides are sorted along the toucher: those in the
-/// surroundings of a cover are a run of the sorted list, and the cover is compared with the whole
-/// run, so no pair is missed. Where N boxes stand on one floor each run has a few sides, and the
-/// cost is N log N. The order of the pairs does not matter: `hides` reads no other contact, and a
-/// contact that bears is never emptied here.
+/// `ahead` from it. The sides are sorted along the toucher: those in the surroundings of a cover
+/// are a run of the list, and the cover is compared with all of them. Where N boxes stand on one
+/// floor a run has a few sides. The order of the pairs does not matter: `hides` reads no other
+/// contact, and a contact that bears is never emptied here.
 void markBesideCovers(const State& state, Scratch& scratch, std::span<const SeamContact> seams) {
   const std::uint32_t shape = seams.front().toucher;
   const Pose toucher = state.pose(state.shape_body[shape]);
@@ -329,9 +327,8 @@ std::span<const SeamContact> seamsOfBody(const State& state, std::span<const Sea
                                          BodyId body) {
   const auto of = [&](const SeamContact& t) { return bodyOf(state, t); };
   const auto first = std::ranges::lower_bound(seams, body, {}, of);
-  const auto last =
-      std::find_if(first, seams.end(), [&](const SeamContact& t) { return of(t) != body; });
-  return {first, last};
+  return {first, std::ranges::find_if(
+                     first, seams.end(), [&](BodyId b) { return b != body; }, of)};
 }
 
 /// Lists the covers that are fixed to the sides at `s`, those with the same direction up one behind
@@ -356,9 +353,9 @@ void listFixedCovers(const State& state, Scratch& scratch, std::span<const SeamC
   }
 }
 
-/// True when one of the listed covers hides the sides at `s`. Such a cover may be anywhere along
-/// the toucher. But a side that lies along the ground of a cover is not hidden by it:
-/// isMetBySliding compares the same numbers. Where a plank lies on N tiles, all have one direction.
+/// True when one of the listed covers hides the sides at `s`: it may be anywhere along the toucher,
+/// but a side that lies along its ground is not hidden (isMetBySliding). Where a plank lies on N
+/// tiles, all have one direction.
 bool isHiddenByFixed(const State& state, const Scratch& scratch, std::span<const SeamContact> seams,
                      const SeamContact& s) {
   const std::vector<FixedCover>& covers = scratch.fixed_covers;

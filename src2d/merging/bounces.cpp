@@ -8,6 +8,7 @@
 #include "src2d/collections/cuts.h"
 #include "src2d/core/index_runs.h"
 #include "src2d/dynamics/hit_rows.h"
+#include "src2d/merging/rule.h"
 
 namespace merge2d {
 namespace {

@@ -93,7 +93,7 @@ class PairSearch {
  private:
   /// All pairs that can become contacts are found. A manifold has points only where two shapes are
   /// no farther apart than the margin and the ways of both bodies: then the box of the one, grown
-  /// by that, meets the other one, and so its box in any frame; what the rounding of boxes costs is
+  /// by that, meets the other one, and so its box in any frame; the rounding of boxes is
   /// less than the room of the trees' leaves (geometry/tree.h). Of two members that are struck the
   /// one with the longer way finds the pair, so that twice its own way is far enough; bodies that
   /// are no members search for nobody.
