@@ -327,8 +327,8 @@ std::span<const SeamContact> seamsOfBody(const State& state, std::span<const Sea
                                          BodyId body) {
   const auto of = [&](const SeamContact& t) { return bodyOf(state, t); };
   const auto first = std::ranges::lower_bound(seams, body, {}, of);
-  return {first, std::ranges::find_if(
-                     first, seams.end(), [&](BodyId b) { return b != body; }, of)};
+  const auto isOther = [&](const SeamContact& t) { return of(t) != body; };
+  return {first, std::find_if(first, seams.end(), isOther)};
 }
 
 /// Lists the covers that are fixed to the sides at `s`, those with the same direction up one behind
@@ -397,7 +397,7 @@ void dropHiddenSides(State& state, Scratch& scratch) {
   for (auto first = seams.begin(); first != seams.end();) {
     const auto last = std::find_if(
         first, seams.end(), [&](const SeamContact& s) { return s.toucher != first->toucher; });
-    dropHiddenSidesOf(state, scratch, {first, last});
+    dropHiddenSidesOf(state, scratch, {&*first, static_cast<std::size_t>(last - first)});
     first = last;
   }
 }

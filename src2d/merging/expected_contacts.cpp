@@ -27,8 +27,8 @@ StruckBodies struckBodies(const State& state, const Scratch& scratch) {
   StruckBodies struck;
   for (const Kick& kick : scratch.kicks) struck.push_back({kick.body});
   std::ranges::sort(struck, {}, &StruckBody::body);
-  const auto same = std::ranges::unique(struck, {}, &StruckBody::body);
-  struck.erase(same.begin(), same.end());
+  const auto isSame = [](const StruckBody& a, const StruckBody& b) { return a.body == b.body; };
+  struck.erase(std::unique(struck.begin(), struck.end(), isSame), struck.end());
   for (const Kick& kick : scratch.kicks) {
     const Aabb& bounds = state.extent(rigidOf(kick.body)).bounds;
     const double radius = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).norm();
