@@ -2,16 +2,19 @@
 
 #include <algorithm>
 
+#include "src2d/core/memory.h"
+
 namespace merge2d {
 
 Approaches::Approaches(const State& state, Scratch& scratch)
-    : state_(state), motions_(scratch.start_motions) {
-  motions_.resize(std::max(motions_.size(), state.rigids.size()));
+    : state_(state), present_(state.present.ids()), motions_(scratch.start_motions) {
+  motions_.clear();
+  reserveTightly(motions_, present_.size());
   double fastest = 0.0;
-  for (const RigidId id : state.present) {
+  for (const RigidId id : present_) {
     const Rigid& r = state[id];
     const StartMotion start = startMotion(state, scratch, id);
-    Motion& motion = motions_[index(id)];
+    Motion& motion = motions_.emplace_back();
     motion = {start.v, start.omega, 0.0};
     if (start.omega != 0.0) {
       motion.turning = std::abs(start.omega) * farthestFrom(state.extent(r).bounds, r.center);
@@ -21,9 +24,16 @@ Approaches::Approaches(const State& state, Scratch& scratch)
   farthest_ = 2.0 * state.h * fastest;
 }
 
+/// Where nothing has merged, its number is its place.
+std::size_t Approaches::placeOf(RigidId id) const {
+  const std::size_t place = index(id);
+  if (place < present_.size() && present_[place] == id) return place;
+  return static_cast<std::size_t>(std::ranges::lower_bound(present_, id) - present_.begin());
+}
+
 /// Things that are parked are in no list, and stand still.
 Approaches::Motion Approaches::of(RigidId id) const {
-  return state_.parked.count > 0 && state_.parked.holds(id) ? Motion{} : motions_[index(id)];
+  return state_.parked.count > 0 && state_.parked.holds(id) ? Motion{} : motions_[placeOf(id)];
 }
 
 double Approaches::between(RigidId a, RigidId b) const { return between(of(a), of(b)); }

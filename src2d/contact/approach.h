@@ -27,12 +27,14 @@ class Approaches {
   double between(const Motion& a, const Motion& b) const {
     return state_.h * ((b.v - a.v).norm() + a.turning + b.turning);
   }
+  std::size_t placeOf(RigidId id) const;
   Motion of(RigidId id) const;
   Motion of(BodyId body) const;
 
   const State& state_;
   double farthest_ = 0.0;
-  std::vector<Motion>& motions_;  ///< per rigid thing that is present
+  const std::vector<RigidId>& present_;  ///< ascending; nothing comes or goes while they are asked
+  std::vector<Motion>& motions_;         ///< of each of these
 };
 
 }  // namespace merge2d

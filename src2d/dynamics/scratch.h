@@ -286,7 +286,7 @@ struct Scratch {
   Stats stats;
 
   // ContactDetection
-  std::vector<StartedMotion> start_motions;  ///< per rigid that is present
+  std::vector<StartedMotion> start_motions;  ///< of each rigid that is present
   std::vector<RigidId> moved;
   std::vector<std::uint8_t> moved_flag;
   std::vector<ContactKey> candidates;

@@ -109,8 +109,8 @@ void releaseRows(State& state, Scratch& scratch) {
   scratch.open_start.clear();
   trim(scratch.blocks, scratch.row_sources, scratch.block_order, scratch.sweep_contacts,
        scratch.candidates, scratch.near_candidates, nncg.before, nncg.direction, nncg.u_before,
-       nncg.u_direction, scratch.pairs, scratch.ready, scratch.u, scratch.island_bodies,
-       scratch.moved, scratch.open_start, state.broadphase.near);
+       nncg.u_direction, scratch.pairs, scratch.ready, scratch.u, scratch.start_motions,
+       scratch.island_bodies, scratch.moved, scratch.open_start, state.broadphase.near);
 }
 
 bool releaseOpenRows(const State& state, Scratch& scratch, int kept) {
