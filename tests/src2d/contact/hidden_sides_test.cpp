@@ -267,10 +267,8 @@ void joinTiles(Scene& scene) {
   }
 }
 
-/// A plank of 20 m slides over tiles that stand loose and 1 mm apart, and so touches twenty at
-/// once; upright, its long side is along the y axis of its frame. The tile that hides the next one
-/// is its neighbour in the world, but not in the list: tile i is body 17 i modulo 31. Without
-/// friction nothing changes the speed of the plank.
+/// A plank of 20 m slides without friction over twenty loose tiles that stand 1 mm apart; upright,
+/// its long side is along its own y axis. Neighbours are not next to each other in the list.
 TEST(Seams, ALongPlankFindsTheTileThatHidesTheNextOne) {
   constexpr int kTiles = 31, kStride = 17;
   constexpr double kApart = 1.001;  // m
