@@ -89,6 +89,13 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
   }
 }
 
+/// What rests on a body that moves again by its script.
+void bringBackMoved(State& state, const Actions& actions, Scratch& scratch) {
+  for (const Actions::Scripted& scripted : actions.scripts) {
+    if (!state.rigid(scripted.body).still()) bringBackAround(state, scratch, scripted.body);
+  }
+}
+
 }  // namespace
 
 void listAround(const State& state, BodyId body, std::vector<BodyId>& out) {
@@ -104,7 +111,8 @@ void listAround(const State& state, BodyId body, std::vector<BodyId>& out) {
   for (const Collection& c : state.collections) {
     for (const Weld& weld : c.welds) addOther(weld.a, weld.b);
   }
-  for (const Joint& joint : state.joints) {
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
     if (!joint.to_world && holds(state, joint)) addOther(joint.a, joint.b);
   }
 }
@@ -117,6 +125,7 @@ void beginStep(State& state, Actions& actions, Scratch& scratch) {
   letGo(state, actions, scratch);
   switchMagnets(state, actions, scratch);
   moveScripted(state, actions);
+  bringBackMoved(state, actions, scratch);
   listLoads(state, actions, scratch);
   listKicks(state, actions, scratch);
   // Bodies that are about to be struck look ahead for contacts already in this step.

@@ -80,11 +80,8 @@ void removeBody(Setup& setup, Scratch& scratch, BodyId body) {
   stirAround(setup, body);
   detach(setup, scratch, body);
   forgetContacts(state, scratch, body);
-  for (std::uint32_t j = 0; j < state.joints.size(); ++j) {
-    const Joint& joint = state.joints[j];
-    const bool concerned = joint.a == body || (!joint.to_world && joint.b == body);
-    if (concerned) removeJoint(setup, scratch, j);
-  }
+  state.joint_lists.of_body.forEach(body,
+                                    [&](std::uint32_t j) { removeJoint(setup, scratch, j); });
   for (std::uint32_t s = 0; s < setup.actions.springs.size(); ++s) {
     const TimedSpring& spring = setup.actions.springs[s];
     const auto i = static_cast<std::int64_t>(index(body));
@@ -198,7 +195,7 @@ std::uint32_t addJoint(Setup& setup, Scratch& scratch, const JointDesc& desc) {
   release(setup, scratch, a);
   if (desc.b) release(setup, scratch, BodyId{static_cast<std::uint32_t>(*desc.b)});
   appendJoint(state, desc);
-  listJoinedPairs(state);
+  listNewJoint(state);
   if (!desc.collide && desc.b) {
     const BodyId b{static_cast<std::uint32_t>(*desc.b)};
     const auto between = [&](const ContactKey& key) {

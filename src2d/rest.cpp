@@ -36,13 +36,11 @@ std::uint64_t sumOf(const State& state) {
   return walk.sum;
 }
 
-bool isStill(const Rigid& r) { return r.v == Vec2::Zero() && r.omega == 0.0; }
-
 /// True when nothing is new in this step.
 bool nothingActs(const Setup& setup, const Scratch& scratch) {
   if (!scratch.events.empty() || !scratch.stirred.empty() || !scratch.kicks.empty()) return false;
   return std::ranges::all_of(setup.actions.scripts, [&](const Actions::Scripted& scripted) {
-    return isStill(setup.state.rigid(scripted.body));
+    return setup.state.rigid(scripted.body).still();
   });
 }
 

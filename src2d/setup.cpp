@@ -164,7 +164,7 @@ class Builder {
 
   void enterWorld() {
     State& s = setup_.state;
-    listJoinedPairs(s);
+    listJoints(s);
     s.broadphase.shape_trees.resize(s.rigids.size());
     s.present.ids().reserve(s.rigids.size());
     s.broadphase.shape_leaves.assign(s.shape_body.size(), -1);

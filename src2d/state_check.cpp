@@ -129,7 +129,7 @@ class StateCheck {
     const auto& pairs = state_.joined_pairs;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       require(isBody(pairs[i].first) && isBody(pairs[i].second), "joints");
-      require(i == 0 || pairs[i - 1] < pairs[i], "joints");
+      require(i == 0 || pairs[i - 1] <= pairs[i], "joints");
     }
   }
 

@@ -236,7 +236,7 @@ void fields(Ar& ar, Some<State> auto& state) {
   auto& [settings, mode, h, gravity, colliders, collider_bounds, shape_collider, shape_body,
          first_sibling, siblings, step, time, paced_step, paced_time, bodies, rigids, present,
          extents, collections, next_collection, used_slots, contacts, joints, joined_pairs,
-         broadphase, moved, ready_before, parked] = state;
+         joint_lists, broadphase, moved, ready_before, parked] = state;
   ar(h, step, time, paced_step, paced_time, bodies, rigids, present.ids(), extents,
      collections.all(), next_collection, contacts, joints, joined_pairs, broadphase.near, moved,
      ready_before);

@@ -175,6 +175,7 @@ void readSetup(StateReader& read, const std::string& source, const Scene& scene,
   setup.state.collections.relist();
   checkRestored({setup, bodies, extents, launches, boxes}, source);
   buildTrees(setup.state, boxes);
+  listJoints(setup.state);
 }
 
 }  // namespace

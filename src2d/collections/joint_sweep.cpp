@@ -36,11 +36,18 @@ SolverVelocity memberMasses(const State& state, const Collection& c, std::uint32
   return u;
 }
 
-/// The collection that a joint acts in belongs to one of its ends.
-bool isInside(const State& state, const Joint& joint, const Collection& c) {
-  const bool at =
-      state[joint.a].rigid == c.rigid || (!joint.to_world && state[joint.b].rigid == c.rigid);
-  return at && holds(state, joint) && isInside(state, joint);
+/// Joints that act in a collection, ascending: one of their ends at least is a member.
+std::vector<std::uint32_t> jointsInside(const State& state, const Collection& c) {
+  std::vector<std::uint32_t> inside;
+  if (state.joints.empty()) return inside;
+  for (const BodyId member : c.members) {
+    state.joint_lists.of_body.forEach(member, [&](std::uint32_t i) {
+      if (holds(state, state.joints[i]) && isInside(state, state.joints[i])) inside.push_back(i);
+    });
+  }
+  std::ranges::sort(inside);
+  inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
+  return inside;
 }
 
 bool floats(const State& state, std::uint32_t body) {
@@ -51,9 +58,8 @@ bool floats(const State& state, std::uint32_t body) {
 
 void layOutJoints(const State& state, Collection& c) {
   c.joints.clear();
-  for (std::uint32_t i = 0; i < state.joints.size(); ++i) {
+  for (const std::uint32_t i : jointsInside(state, c)) {
     const Joint& joint = state.joints[i];
-    if (!isInside(state, joint, c)) continue;
     c.joints.push_back(makeBlock(state, i, state[c.rigid].frame(), JointRows::Rigid,
                                  memberMasses(state, c, bodyIndexA(joint)),
                                  memberMasses(state, c, bodyIndexB(state, joint))));
@@ -63,7 +69,7 @@ void layOutJoints(const State& state, Collection& c) {
 void listSweepJoints(const State& state, Scratch& scratch) {
   scratch.sweep_joints.clear();
   const auto& u = scratch.sweep_u;
-  for (std::uint32_t i = 0; i < state.joints.size(); ++i) {
+  for (const std::uint32_t i : state.joint_lists.present) {
     const Joint& joint = state.joints[i];
     if (!holds(state, joint) || isInside(state, joint)) continue;
     const bool swept =
@@ -80,7 +86,7 @@ void listSweepJoints(const State& state, Scratch& scratch) {
 void warmStartSweepJoints(const State& state, Scratch& scratch) {
   auto& u = scratch.sweep_u;
   std::size_t row = 0;
-  for (std::uint32_t i = 0; i < state.joints.size(); ++i) {
+  for (const std::uint32_t i : state.joint_lists.present) {
     const Joint& joint = state.joints[i];
     const auto& rows = scratch.sweep_joints;
     const std::uint32_t a = bodyIndexA(joint), b = bodyIndexB(state, joint);

@@ -6,17 +6,11 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
-
-/// The two bodies of a joint, ascending.
-inline std::pair<BodyId, BodyId> pairOf(const Joint& joint) {
-  return std::minmax(joint.a, joint.b);
-}
 
 inline constexpr int kFreedoms = 3;  ///< of one body against another
 

@@ -5,6 +5,7 @@
 #include "src2d/contact/detection.h"
 #include "src2d/contact/table.h"
 #include "src2d/core/memory.h"
+#include "src2d/core/sorted_tail.h"
 
 namespace merge2d {
 namespace {
@@ -12,13 +13,14 @@ namespace {
 constexpr std::uint8_t kSteps = 4;      ///< for which it must have slept
 constexpr std::int64_t kInterval = 64;  ///< steps until what could not become parked is tried anew
 
-/// A pinned body: it never sleeps, and does not hold together the bodies that touch it.
-bool isPinned(const State& state, RigidId id) {
-  return !state.isCollection(id) && state[id].anchor == kWorldFrame;
+/// A body that stands still by itself, pinned or at rest in its script: it never sleeps, and does
+/// not hold together the bodies that touch it.
+bool isFixed(const State& state, RigidId id) {
+  return !state.isCollection(id) && !state[id].floating() && state[id].still();
 }
 
-/// Parked itself, or never in the way of it.
-bool rests(const State& state, RigidId id) { return state.parked.holds(id) || isPinned(state, id); }
+/// Parked itself, or fixed.
+bool rests(const State& state, RigidId id) { return state.parked.holds(id) || isFixed(state, id); }
 
 /// Counts the steps for which everything sleeps. True when it is time to look who may become
 /// parked.
@@ -40,47 +42,57 @@ bool countSteps(State& state) {
   return ripe;
 }
 
-/// A collection that no stage changes any more.
-bool isQuiet(const Collection& c) { return !c.stale; }
-
 /// True for a rigid thing that may become parked if all that touch it may.
 bool mayRest(const State& state, RigidId id) {
   const Rigid& r = state[id];
   if (!r.asleep || r.resized || state.parked.slept[index(id)] < kSteps) return false;
-  if (r.anchor > kWorldFrame) return false;  // its frame may move again
-  return !state.isCollection(id) || isQuiet(state.collection(id));
+  if (!state.isCollection(id)) return true;
+  const Collection& c = state.collection(id);
+  return !c.stale && (r.floating() || r.anchor == kWorldFrame || isFixed(state, rigidOf(c.anchor)));
 }
 
-/// A body with a joint, a load or another tie that the lists of contacts do not tell must rest
-/// anew.
-void refuseHeld(State& state, const Scratch& scratch) {
-  const auto refuse = [&](BodyId body) {
-    std::uint8_t& steps = state.parked.slept[index(state[body].rigid)];
+/// A body with a load, which is summed in each step, must sleep anew.
+void refuseLoaded(State& state, const Scratch& scratch) {
+  for (const Load& load : scratch.loads) {
+    std::uint8_t& steps = state.parked.slept[index(state[load.body].rigid)];
     if (steps != Parked::kHeld) steps = 0;
-  };
-  for (const Load& load : scratch.loads) refuse(load.body);
-  for (const Joint& joint : state.joints) {
-    if (joint.broken) continue;
-    refuse(joint.a);
-    if (!joint.to_world) refuse(joint.b);
   }
 }
 
-/// Whole sets of things that touch, of which each has slept for long enough.
-std::vector<RigidId> chosen(State& state, Scratch& scratch) {
-  refuseHeld(state, scratch);
-  auto& sets = scratch.sets;
+std::pair<RigidId, RigidId> endsOf(const State& state, const ContactKey& key) {
+  return {state[key.a].rigid, state[key.b].rigid};
+}
+
+/// The world is no rigid thing: the first body stands for it, too.
+std::pair<RigidId, RigidId> endsOf(const State& state, const Joint& joint) {
+  const RigidId a = state[joint.a].rigid;
+  return {a, joint.to_world ? a : state[joint.b].rigid};
+}
+
+/// Sets of things that touch, or that a joint holds together.
+void uniteWhatIsTied(const State& state, DisjointSets& sets) {
   sets.reset(state.rigids.size());
+  const auto unite = [&](const std::pair<RigidId, RigidId>& ends) {
+    const auto [a, b] = ends;
+    if (isFixed(state, a) || isFixed(state, b)) return;
+    sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+  };
   for (const ContactTable::Slot slot : state.contacts.order) {
     const Contact& contact = state.contacts[slot];
-    const RigidId a = state[contact.key.a].rigid, b = state[contact.key.b].rigid;
-    if (contact.count == 0 || isPinned(state, a) || isPinned(state, b)) continue;
-    sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    if (contact.count > 0) unite(endsOf(state, contact.key));
   }
+  for (const std::uint32_t i : state.joint_lists.present) unite(endsOf(state, state.joints[i]));
+}
+
+/// Whole sets of which each thing has slept for long enough.
+std::vector<RigidId> chosen(State& state, Scratch& scratch) {
+  refuseLoaded(state, scratch);
+  auto& sets = scratch.sets;
+  uniteWhatIsTied(state, sets);
   std::vector<RigidId> all;
   std::vector<std::uint32_t> refused;  // sets
   for (const RigidId id : state.present) {
-    if (isPinned(state, id)) continue;
+    if (isFixed(state, id)) continue;
     if (mayRest(state, id)) {
       all.push_back(id);
     } else {
@@ -99,18 +111,14 @@ template <class Pair, class EndsOf>
 void setPairsAside(const State& state, std::vector<Pair>& list, ParkedPairs<Pair>& aside,
                    EndsOf&& endsOf) {
   std::erase_if(list, [&](const Pair& pair) {
+    constexpr RigidId kNobody = ParkedPairs<Pair>::kNobody;
     const auto [a, b] = endsOf(pair);
-    const bool goes = rests(state, a) && rests(state, b);
-    const auto end = [&](RigidId id) {
-      return state.parked.holds(id) ? id : ParkedPairs<Pair>::kNobody;
-    };
+    const auto end = [&](RigidId id) { return state.parked.holds(id) ? id : kNobody; };
+    const bool any = end(a) != kNobody || end(b) != kNobody;
+    const bool goes = any && rests(state, a) && rests(state, b);
     if (goes) aside.add(pair, end(a), end(b));
     return goes;
   });
-}
-
-std::pair<RigidId, RigidId> endsOf(const State& state, const ContactKey& key) {
-  return {state[key.a].rigid, state[key.b].rigid};
 }
 
 /// How many floating bodies a rigid thing counts for.
@@ -141,19 +149,11 @@ void takeBack(State& state, RigidId id) {
   state.collections.bringBack(index(id) - state.bodies.size());
 }
 
-/// Puts the entries that were added to the end of a list in their places.
-template <class T, class KeyOf>
-void sortTail(std::vector<T>& list, std::size_t known, KeyOf&& keyOf) {
-  const auto middle = list.begin() + static_cast<std::ptrdiff_t>(known);
-  std::ranges::sort(middle, list.end(), {}, keyOf);
-  std::ranges::inplace_merge(list, middle, {}, keyOf);
-}
-
-/// Brings back those in `queue`, and all that touch them.
+/// Brings back those in `queue`, and all that touch them or hang together with them by joints.
 void bringBackSets(State& state, std::vector<RigidId>& queue) {
   ContactTable& table = state.contacts;
+  JointLists& joints = state.joint_lists;
   auto& near = state.broadphase.near;
-  const std::size_t contacts = table.order.size(), idle = table.idle.size(), known = near.size();
   while (!queue.empty()) {
     const RigidId id = queue.back();
     queue.pop_back();
@@ -167,10 +167,17 @@ void bringBackSets(State& state, std::vector<RigidId>& queue) {
     table.parked_idle.take(id, [&](const IdlePair& pair, RigidId) { table.idle.push_back(pair); });
     state.broadphase.parked_near.take(id,
                                       [&](const NearPair& pair, RigidId) { near.push_back(pair); });
+    joints.parked.take(id, [&](std::uint32_t joint, RigidId other) {
+      joints.present.push_back(joint);
+      if (other != ParkedPairs<std::uint32_t>::kNobody) queue.push_back(other);
+    });
   }
-  sortTail(table.order, contacts, [&](ContactTable::Slot slot) { return table[slot].key; });
-  sortTail(table.idle, idle, &IdlePair::key);
-  sortTail(near, known, [](const NearPair& pair) { return packed(index(pair.a), index(pair.b)); });
+  sortTail(table.order, [&](ContactTable::Slot x, ContactTable::Slot y) {
+    return table[x].key < table[y].key;
+  });
+  sortTail(table.idle, [](const IdlePair& x, const IdlePair& y) { return x.key < y.key; });
+  sortTail(near);
+  sortTail(joints.present);
 }
 
 }  // namespace
@@ -187,6 +194,8 @@ void parkSleepers(State& state, Scratch& scratch) {
                 [&](const IdlePair& pair) { return endsOf(state, pair.key); });
   setPairsAside(state, state.broadphase.near, state.broadphase.parked_near,
                 [](const NearPair& pair) { return std::pair(pair.a, pair.b); });
+  setPairsAside(state, state.joint_lists.present, state.joint_lists.parked,
+                [&](std::uint32_t joint) { return endsOf(state, state.joints[joint]); });
   collectPairs(state, scratch);
 }
 
@@ -204,6 +213,11 @@ void bringBackAround(State& state, Scratch& scratch, BodyId body) {
   if (!is_tie && state[id].present()) {
     state.broadphase.tree.queryLeaf(state[id].leaf,
                                     [&](std::uint32_t other) { add(RigidId{other}); });
+    state.joint_lists.of_body.forEach(body, [&](std::uint32_t joint) {
+      const auto [a, b] = endsOf(state, state.joints[joint]);
+      add(a);
+      add(b);
+    });
   }
   if (queue.empty()) return;
   bringBackSets(state, queue);

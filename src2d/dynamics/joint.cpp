@@ -1,12 +1,34 @@
 #include "src2d/dynamics/joint.h"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <optional>
 
+#include "src2d/core/sorted_tail.h"
 #include "src2d/dynamics/stabilise.h"
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {
 namespace {
+
+/// Its bodies do not touch while it holds.
+bool partsBodies(const Joint& joint) { return !joint.to_world && !joint.collide; }
+
+/// Lists a joint, and its bodies behind the pairs that are in order.
+void list(State& state, std::uint32_t i) {
+  const Joint& joint = state.joints[i];
+  state.joint_lists.of_body.add(i, joint.a, joint.to_world ? std::nullopt : std::optional(joint.b));
+  if (joint.broken) return;
+  state.joint_lists.present.push_back(i);
+  if (partsBodies(joint)) state.joined_pairs.push_back(pairOf(joint));
+}
+
+/// One such element of a list that is in order, if there is any.
+template <class T>
+void eraseFrom(std::vector<T>& list, const T& element) {
+  const auto at = std::ranges::lower_bound(list, element);
+  if (at != list.end() && *at == element) list.erase(at);
+}
 
 bool postStabilised(const State& state) {
   return state.settings.solver.stabilisation == Stabilisation::Post;
@@ -268,7 +290,8 @@ void breakJoint(State& state, Scratch& scratch, Joint& joint) {
   joint.lambda = {};
   state.rigid(joint.a).resized = true;  // the broadphase is to look again
   if (!joint.to_world) state.rigid(joint.b).resized = true;
-  listJoinedPairs(state);
+  eraseFrom(state.joint_lists.present, static_cast<std::uint32_t>(&joint - state.joints.data()));
+  if (partsBodies(joint)) eraseFrom(state.joined_pairs, pairOf(joint));
 }
 
 int freedomsTaken(const State& state, const Joint& joint) {
@@ -289,14 +312,16 @@ bool joined(const State& state, BodyId a, BodyId b) {
          std::binary_search(pairs.begin(), pairs.end(), std::pair(std::min(a, b), std::max(a, b)));
 }
 
-void listJoinedPairs(State& state) {
-  auto& pairs = state.joined_pairs;
-  pairs.clear();
-  for (const Joint& joint : state.joints) {
-    if (joint.broken || joint.to_world || joint.collide) continue;
-    pairs.emplace_back(std::min(joint.a, joint.b), std::max(joint.a, joint.b));
-  }
-  std::sort(pairs.begin(), pairs.end());
+void listNewJoint(State& state) {
+  list(state, static_cast<std::uint32_t>(state.joints.size() - 1));
+  sortTail(state.joined_pairs);
+}
+
+void listJoints(State& state) {
+  state.joint_lists = {};
+  state.joined_pairs.clear();
+  for (std::uint32_t i = 0; i < state.joints.size(); ++i) list(state, i);
+  std::ranges::sort(state.joined_pairs);
 }
 
 }  // namespace merge2d

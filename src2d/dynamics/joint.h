@@ -5,10 +5,12 @@
 /// that joints keep momentum and angular momentum. Directions belong to the first body and turn
 /// with it; so do the impulses that are remembered.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "src2d/core/ids.h"
 #include "src2d/dynamics/joint_block.h"
@@ -45,6 +47,11 @@ struct Joint {
   std::array<float, 2> yielded{};  ///< way of motor and limit, in consecutive steps at a bound,
                                    ///< inside a collection [m/s, rad/s]
 };
+
+/// The two bodies of a joint, ascending.
+inline std::pair<BodyId, BodyId> pairOf(const Joint& joint) {
+  return std::minmax(joint.a, joint.b);
+}
 
 /// Where the two ends are, in any one frame.
 struct JointPlace {
@@ -115,7 +122,9 @@ int freedomsTaken(const State& state, const Joint& joint);
 /// True for bodies that do not touch since they are joined.
 bool joined(const State& state, BodyId a, BodyId b);
 
-/// Pairs of bodies for `joined`, anew.
-void listJoinedPairs(State& state);
+/// Lists the last joint of State::joints.
+void listNewJoint(State& state);
+/// Lists all of them anew, where nothing is parked.
+void listJoints(State& state);
 
 }  // namespace merge2d

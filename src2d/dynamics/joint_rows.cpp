@@ -126,7 +126,7 @@ void insertIslands(Scratch& scratch) {
 
 void uniteJoints(const State& state, Scratch& scratch) {
   scratch.joint_order.clear();
-  for (std::uint32_t i = 0; i < state.joints.size(); ++i) {
+  for (const std::uint32_t i : state.joint_lists.present) {
     const Joint& joint = state.joints[i];
     if (!holds(state, joint) || isHidden(state, scratch, joint)) continue;
     const std::uint32_t a = moverA(state, scratch, joint), b = moverB(state, scratch, joint);
@@ -139,8 +139,10 @@ void uniteJoints(const State& state, Scratch& scratch) {
 
 void slowTautLinks(const State& state, Scratch& scratch) {
   std::vector<TautLink>& taut = scratch.taut_links;
-  taut.assign(state.rigids.size(), {});
-  for (const Joint& joint : state.joints) {
+  resizeTightly(taut, state.rigids.size());
+  for (const RigidId id : state.present) taut[index(id)] = {};
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
     if (!holds(state, joint) || isHidden(state, scratch, joint)) continue;
     const JointPull pull = pullOf(state, joint);
     const auto add = [&](std::uint32_t rigid, double sign) {

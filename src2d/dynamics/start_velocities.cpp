@@ -73,7 +73,7 @@ void addActions(const State& state, Scratch& scratch) {
 }  // namespace
 
 void startVelocities(const State& state, Scratch& scratch) {
-  const bool linked = !state.joints.empty();
+  const bool linked = !state.joint_lists.present.empty();
   takeVelocities(state, scratch, !linked);
   if (linked) {
     slowTautLinks(state, scratch);

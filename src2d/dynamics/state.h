@@ -9,6 +9,7 @@
 
 #include "src2d/dynamics/collection_table.h"
 #include "src2d/dynamics/contact_table.h"
+#include "src2d/dynamics/joint_lists.h"
 #include "src2d/dynamics/parked.h"
 #include "src2d/dynamics/rigid.h"
 #include "src2d/dynamics/scratch.h"
@@ -64,6 +65,7 @@ struct State {
   ContactTable contacts;
   std::vector<Joint> joints;
   std::vector<std::pair<BodyId, BodyId>> joined_pairs;  ///< do not collide; ascending
+  JointLists joint_lists;                               ///< follow from `joints`, and from `parked`
   Broadphase broadphase;
   double moved = 0.0;  ///< by the fastest point of all in the last step, at most [m]
   std::vector<ReadyPair> ready_before;  ///< in the last step; those still there were not welded

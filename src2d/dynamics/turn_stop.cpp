@@ -133,10 +133,13 @@ bool goesFar(const State& state, RigidId id) {
   return state.h * r.v.norm() > 0.5 * kFarWay * thin;
 }
 
+/// Something holds a free body.
 bool isJoined(const State& state, RigidId id) {
-  return std::ranges::any_of(state.joints, [&](const Joint& joint) {
-    return state[joint.a].rigid == id || (!joint.to_world && state[joint.b].rigid == id);
+  bool any = false;
+  state.joint_lists.of_body.forEach(BodyId{static_cast<std::uint32_t>(id)}, [&](std::uint32_t i) {
+    any |= !state.joints[i].broken;
   });
+  return any;
 }
 
 double thicknessOf(const State& state, const ContactKey& key) {

@@ -218,11 +218,14 @@ bool decideOne(State& state, Scratch& scratch, const OpenRegion& region) {
 }
 
 bool hasJointsOutside(const State& state, const Collection& c) {
-  return std::ranges::any_of(state.joints, [&](const Joint& joint) {
-    const bool at =
-        state[joint.a].rigid == c.rigid || (!joint.to_world && state[joint.b].rigid == c.rigid);
-    return at && holds(state, joint) && !isInside(state, joint);
-  });
+  if (state.joints.empty()) return false;
+  bool any = false;
+  for (const BodyId member : c.members) {
+    state.joint_lists.of_body.forEach(member, [&](std::uint32_t i) {
+      any |= holds(state, state.joints[i]) && !isInside(state, state.joints[i]);
+    });
+  }
+  return any;
 }
 
 /// Whether nothing moves in a search. What may turn is looked at more closely, for one step more.

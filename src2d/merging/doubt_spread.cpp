@@ -44,7 +44,8 @@ void spreadHits(State& state, Scratch& scratch) {
     if (p >= 0 && q >= 0) sets.unite(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(q));
   };
   for (const BodyPair& pair : scratch.pairs) unite(pair.a, pair.b);
-  for (const Joint& joint : state.joints) {
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
     if (!joint.to_world && holds(state, joint)) unite(joint.a, joint.b);
   }
   const auto setOf = [&](const Collection& c) {

@@ -26,7 +26,8 @@ const std::vector<Ties>& listTies(const State& state, Scratch& scratch) {
       if (presses) tie(pair.a).held = tie(pair.b).held = true;
     }
   }
-  for (const Joint& joint : state.joints) {
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
     if (!holds(state, joint) || isInside(state, joint)) continue;
     tie(joint.a).held = true;
     if (!joint.to_world) tie(joint.b).held = true;

@@ -46,7 +46,8 @@ void countQuietJoint(State& state, Joint& joint, Notes* notes) {
 }  // namespace
 
 void countQuietJoints(State& state, Scratch& scratch) {
-  for (Joint& joint : state.joints) {
+  for (const std::uint32_t i : state.joint_lists.present) {
+    Joint& joint = state.joints[i];
     if (joint.to_world || !holds(state, joint) || isInside(state, joint)) continue;
     if (!isWatched(state, joint.a, joint.b)) continue;
     if (!isNotCarried(state, joint.a, joint.b).holds) continue;
@@ -56,7 +57,8 @@ void countQuietJoints(State& state, Scratch& scratch) {
 
 std::vector<JointEdge> pairsOfQuietJoints(const State& state) {
   std::vector<const Joint*> ready;
-  for (const Joint& joint : state.joints) {
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
     const bool quiet = joint.quiet_steps >= state.settings.merging.steps && !joint.to_world;
     if (quiet && holds(state, joint) && !isInside(state, joint)) ready.push_back(&joint);
   }

@@ -74,7 +74,7 @@ void addContacts(const State& state, const Scratch& scratch, OuterLoads& loads) 
 
 /// On a body of mass and inertia 1 an impulse is a change of velocity.
 void addJoints(const State& state, OuterLoads& loads) {
-  for (std::uint32_t i = 0; i < state.joints.size(); ++i) {
+  for (const std::uint32_t i : state.joint_lists.present) {
     const Joint& joint = state.joints[i];
     if (!holds(state, joint) || isInside(state, joint)) continue;
     if (!isAwake(state, joint.a) && (joint.to_world || !isAwake(state, joint.b))) continue;
@@ -102,7 +102,7 @@ void listOuterLoads(const State& state, Scratch& scratch) {
               cross(kick.at - state.pose(kick.body).position, kick.impulse));
   }
   addContacts(state, scratch, loads);
-  if (!state.joints.empty()) addJoints(state, loads);
+  addJoints(state, loads);
   loads.finish();
 }
 

@@ -41,7 +41,7 @@ void markRestless(State& state, Scratch& scratch) {
   for (const BodyId b : scratch.stirred) mark(b);
   sumLoads(state, scratch, mark);
   const auto stirs = [](const Rigid& r) {
-    return r.anchor > kWorldFrame && (r.v.squaredNorm() > 0.0 || r.omega != 0.0);
+    return r.anchor > kWorldFrame && !r.still();
   };
   for (const Collection& c : state.collections) {
     if (c.id == kNoCollection || state[c.rigid].floating()) continue;
@@ -52,7 +52,8 @@ void markRestless(State& state, Scratch& scratch) {
     if (stirs(a)) mark(pair.b);
     if (stirs(b)) mark(pair.a);
   }
-  for (const Joint& joint : state.joints) {
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
     if (joint.to_world || !holds(state, joint)) continue;
     if (stirs(state.rigid(joint.a))) mark(joint.b);
     if (stirs(state.rigid(joint.b))) mark(joint.a);
@@ -154,7 +155,8 @@ void uniteIslands(const State& state, Scratch& scratch) {
     sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
   };
   for (const BodyPair& pair : scratch.pairs) unite(pair.a, pair.b);
-  for (const Joint& joint : state.joints) {
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
     if (!joint.to_world && holds(state, joint)) unite(joint.a, joint.b);
   }
 }

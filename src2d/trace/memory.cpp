@@ -35,7 +35,8 @@ std::size_t bytesOfState(const State& s) {
               s.siblings, s.bodies, s.rigids, s.extents, s.joints, s.joined_pairs, s.ready_before,
               s.parked.slept) +
       s.present.memoryBytes() + s.collections.memoryBytes() + s.contacts.parked.memoryBytes() +
-      s.contacts.parked_idle.memoryBytes() +
+      s.contacts.parked_idle.memoryBytes() + s.joint_lists.of_body.memoryBytes() +
+      bytesOf(s.joint_lists.present) + s.joint_lists.parked.memoryBytes() +
       bytesOf(s.contacts.slots, s.contacts.free_slots, s.contacts.order, s.contacts.idle) +
       bytesOfBroadphase(s.broadphase);
   for (const Collection& c : s.collections.all()) {
