@@ -99,6 +99,30 @@ double allSleep(int n) {
   return meanStep(world, kMany);
 }
 
+/// A floor, or pinned tiles side by side, with the surface at y = 0.
+BenchScene groundOf(int pieces, double width) {
+  BenchScene of;
+  of.scene.step = 0.01;
+  of.scene.settings.solver.iterations = 10;
+  for (int i = 0; i < pieces; ++i) {
+    BodyDesc piece;
+    piece.name = fmt::format("ground[{}]", i);
+    piece.at = {width * (i - 0.5 * (pieces - 1)), -0.5};
+    piece.shapes = {makeBox(width, 1.0)};
+    piece.motion = Motion::Pinned;
+    of.scene.bodies.push_back(piece);
+  }
+  return of;
+}
+
+void addFalling(BenchScene& of, const Vec2& at, double width) {
+  BodyDesc body;
+  body.name = fmt::format("box[{}]", of.scene.bodies.size());
+  body.at = at;
+  body.shapes = {makeBox(width, 1.0)};
+  of.scene.bodies.push_back(body);
+}
+
 /// Stacks that sleep, and beside them a box that swings on a spring for ever: the last body.
 World sleepersAndOneAwake(int n) {
   BenchScene of = stacks(n / 5);
@@ -118,6 +142,36 @@ World sleepersAndOneAwake(int n) {
 
 double allButOneSleep(int n) {
   World world = sleepersAndOneAwake(n);
+  return meanStep(world, kMany);
+}
+
+/// Pairs of boxes on the ground that a rod joins, one pair beside the other. The first of all boxes
+/// swings on a spring, and all others sleep.
+World joinedSleepersAndOneAwake(int n) {
+  BenchScene of = groundOf(1, 3.0 * n);
+  addFalling(of, {-3.0, 10.0}, 1.0);
+  SpringDesc spring;
+  spring.body = 1;
+  spring.to = {-1.0, 14.0};
+  spring.stiffness = 1e4;
+  of.scene.springs.push_back(spring);
+  for (int i = 0; i < n; ++i) addFalling(of, {1.25 * i, 0.5}, 1.0);
+  for (std::size_t a = 2; a + 1 < of.scene.bodies.size(); a += 2) {
+    JointDesc rod;
+    rod.kind = JointKind::Distance;
+    rod.a = a;
+    rod.b = a + 1;
+    rod.at = of.scene.bodies[a].at;
+    rod.to = of.scene.bodies[a + 1].at;
+    of.scene.joints.push_back(rod);
+  }
+  World world = worldOf(of, Mode::MergeSleep);
+  run(world, 200);
+  return world;
+}
+
+double joinedPairsSleep(int n) {
+  World world = joinedSleepersAndOneAwake(n);
   return meanStep(world, kMany);
 }
 
@@ -174,30 +228,6 @@ double allFall(int n) {
   World world = worldOf(freeFall(n), Mode::Merge);
   run(world, 20);
   return meanStep(world, 20);
-}
-
-/// A floor, or `n` pinned tiles side by side, with the surface at y = 0.
-BenchScene groundOf(int pieces, double width) {
-  BenchScene of;
-  of.scene.step = 0.01;
-  of.scene.settings.solver.iterations = 10;
-  for (int i = 0; i < pieces; ++i) {
-    BodyDesc piece;
-    piece.name = fmt::format("ground[{}]", i);
-    piece.at = {width * (i - 0.5 * (pieces - 1)), -0.5};
-    piece.shapes = {makeBox(width, 1.0)};
-    piece.motion = Motion::Pinned;
-    of.scene.bodies.push_back(piece);
-  }
-  return of;
-}
-
-void addFalling(BenchScene& of, const Vec2& at, double width) {
-  BodyDesc body;
-  body.name = fmt::format("box[{}]", of.scene.bodies.size());
-  body.at = at;
-  body.shapes = {makeBox(width, 1.0)};
-  of.scene.bodies.push_back(body);
 }
 
 /// Boxes side by side fall by 5 cm; where told, every other one stands on the floor already.
@@ -275,6 +305,10 @@ const std::vector<Situation> kSituations = {
      noneIsKicked},
     {"stacks of 5 sleep: mean step", kFlat, {5000, 10'000, 20'000, 50'000}, allSleep},
     {"all but one sleep: mean step", kFlat, {5000, 10'000, 20'000, 40'000}, allButOneSleep},
+    {"all but one sleep, in pairs on a rod: mean step",
+     kFlat,
+     {1000, 2000, 4000, 8000},
+     joinedPairsSleep},
     {"the one awake beside so many asleep is kicked: mean step",
      kFlat,
      {5000, 10'000, 20'000, 40'000},

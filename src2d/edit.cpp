@@ -80,8 +80,7 @@ void removeBody(Setup& setup, Scratch& scratch, BodyId body) {
   stirAround(setup, body);
   detach(setup, scratch, body);
   forgetContacts(state, scratch, body);
-  state.joint_lists.of_body.forEach(body,
-                                    [&](std::uint32_t j) { removeJoint(setup, scratch, j); });
+  state.joint_lists.of_body.forEach(body, [&](std::uint32_t j) { removeJoint(setup, scratch, j); });
   for (std::uint32_t s = 0; s < setup.actions.springs.size(); ++s) {
     const TimedSpring& spring = setup.actions.springs[s];
     const auto i = static_cast<std::int64_t>(index(body));

@@ -10,8 +10,8 @@
 namespace merge2d {
 namespace {
 
-constexpr std::uint8_t kSteps = 4;      ///< for which it must have slept
-constexpr std::int64_t kInterval = 64;  ///< steps until what could not become parked is tried anew
+constexpr std::uint8_t kSteps = 4;      ///< for which a rigid thing must have slept
+constexpr std::int64_t kInterval = 64;  ///< steps until the others are looked at anew
 
 /// A body that stands still by itself, pinned or at rest in its script: it never sleeps, and does
 /// not hold together the bodies that touch it.
@@ -22,8 +22,8 @@ bool isFixed(const State& state, RigidId id) {
 /// Parked itself, or fixed.
 bool rests(const State& state, RigidId id) { return state.parked.holds(id) || isFixed(state, id); }
 
-/// Counts the steps for which everything sleeps. True when it is time to look who may become
-/// parked.
+/// Counts the steps for which each rigid thing has slept. True when some may have become ready to
+/// be parked.
 bool countSteps(State& state) {
   auto& slept = state.parked.slept;
   resizeTightly(slept, std::max(slept.size(), state.rigids.size()));
@@ -51,14 +51,6 @@ bool mayRest(const State& state, RigidId id) {
   return !c.stale && (r.floating() || r.anchor == kWorldFrame || isFixed(state, rigidOf(c.anchor)));
 }
 
-/// A body with a load, which is summed in each step, must sleep anew.
-void refuseLoaded(State& state, const Scratch& scratch) {
-  for (const Load& load : scratch.loads) {
-    std::uint8_t& steps = state.parked.slept[index(state[load.body].rigid)];
-    if (steps != Parked::kHeld) steps = 0;
-  }
-}
-
 std::pair<RigidId, RigidId> endsOf(const State& state, const ContactKey& key) {
   return {state[key.a].rigid, state[key.b].rigid};
 }
@@ -84,21 +76,25 @@ void uniteWhatIsTied(const State& state, DisjointSets& sets) {
   for (const std::uint32_t i : state.joint_lists.present) unite(endsOf(state, state.joints[i]));
 }
 
-/// Whole sets of which each thing has slept for long enough.
-std::vector<RigidId> chosen(State& state, Scratch& scratch) {
-  refuseLoaded(state, scratch);
+/// Whole sets of which each thing has slept for long enough, and carries no load: those are summed
+/// in each step.
+std::vector<RigidId> chosen(const State& state, Scratch& scratch) {
   auto& sets = scratch.sets;
   uniteWhatIsTied(state, sets);
   std::vector<RigidId> all;
   std::vector<std::uint32_t> refused;  // sets
+  const auto refuse = [&](RigidId id) {
+    refused.push_back(sets.find(static_cast<std::uint32_t>(id)));
+  };
   for (const RigidId id : state.present) {
     if (isFixed(state, id)) continue;
     if (mayRest(state, id)) {
       all.push_back(id);
     } else {
-      refused.push_back(sets.find(static_cast<std::uint32_t>(id)));
+      refuse(id);
     }
   }
+  for (const Load& load : scratch.loads) refuse(state[load.body].rigid);
   std::ranges::sort(refused);
   std::erase_if(all, [&](RigidId id) {
     return std::ranges::binary_search(refused, sets.find(static_cast<std::uint32_t>(id)));
@@ -172,9 +168,8 @@ void bringBackSets(State& state, std::vector<RigidId>& queue) {
       if (other != ParkedPairs<std::uint32_t>::kNobody) queue.push_back(other);
     });
   }
-  sortTail(table.order, [&](ContactTable::Slot x, ContactTable::Slot y) {
-    return table[x].key < table[y].key;
-  });
+  sortTail(table.order,
+           [&](ContactTable::Slot x, ContactTable::Slot y) { return table[x].key < table[y].key; });
   sortTail(table.idle, [](const IdlePair& x, const IdlePair& y) { return x.key < y.key; });
   sortTail(near);
   sortTail(joints.present);

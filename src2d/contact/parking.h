@@ -2,10 +2,10 @@
 /// A body that has slept for a few steps is parked: it leaves all lists that the stages go through,
 /// so that the cost of a step does not depend on how many sleep.
 ///
-/// Nothing that a stage does depends on it. A set of rigid things that touch is parked as a
-/// whole, and comes back as a whole before something acts on one of them; nothing in such a set is
-/// awake, moves by a script, carries a load or hangs on a joint. Parked things keep their leaves
-/// in the broadphase, where those that move find them.
+/// No result depends on it. A set of rigid things that touch, or that joints hold together, is
+/// parked as a whole, and comes back as a whole before something acts on one of them. Nothing in
+/// such a set is awake, carries a load, or is held by a body that moves. Parked things keep their
+/// leaves in the broadphase, where those that move find them.
 
 #include "src2d/dynamics/state.h"
 

@@ -136,9 +136,8 @@ bool goesFar(const State& state, RigidId id) {
 /// Something holds a free body.
 bool isJoined(const State& state, RigidId id) {
   bool any = false;
-  state.joint_lists.of_body.forEach(BodyId{static_cast<std::uint32_t>(id)}, [&](std::uint32_t i) {
-    any |= !state.joints[i].broken;
-  });
+  state.joint_lists.of_body.forEach(BodyId{static_cast<std::uint32_t>(id)},
+                                    [&](std::uint32_t i) { any |= !state.joints[i].broken; });
   return any;
 }
 

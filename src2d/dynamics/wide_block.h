@@ -50,7 +50,7 @@ struct RowSettings {
   double erp = 0.0;
   double max_correction = 0.0;  ///< [m/s]
   double margin = 0.0;          ///< [m]
-  double compliance = 0.0;      ///< [s²]
+  double compliance = 0.0;      ///< [1]
   double fall = 0.0;            ///< in a step [m]
 };
 

@@ -147,6 +147,88 @@ TEST(Parking, AShelfThatFallsWakesItsOwnStackAlone) {
   }
 }
 
+JointDesc rodBetween(BodyIndex a, std::optional<BodyIndex> b, const Vec2& at, const Vec2& to) {
+  JointDesc rod = jointOf(JointKind::Distance, a, b, at);
+  rod.to = to;
+  return rod;
+}
+
+/// Boxes that rods hold together: a row on the ground, a pair that hangs down from the world, boxes
+/// on the ground that hang together with a post and with a cart far away, and a stack on the cart,
+/// which goes after ten seconds. The lamp swings for ever.
+Scene joinedAsleep() {
+  Scene scene = onGround();
+  for (int i = 0; i < 4; ++i) add(scene, box(1, 1, {2.0 * i, 0.5}));  // 1 to 4
+  add(scene, box(0.4, 1, {-4, 6}));                                   // 5
+  add(scene, box(0.4, 1, {-4, 4.5}));                                 // 6
+  add(scene, pinned(box(0.5, 0.5, {-7, 8})));                         // 7
+  add(scene, box(1, 1, {-7, 0.5}));                                   // 8
+  add(scene, box(1, 1, {14, 0.5}));                                   // 9
+  Keyframes way;
+  way.keys = {{10.0, {22, 0.5}, 0.0}, {12.0, {24, 0.5}, 0.0}};
+  add(scene, named("cart", scripted(box(2, 1, {22, 0.5}), way)));  // 10
+  addColumn(scene, 2, {22, 1});                                    // 11, 12
+  add(scene, named("lamp", disc(0.3, {-20, 6})));                  // 13
+  scene.springs.push_back(springOf(scene.bodies.size() - 1, {-19, 9}, 200, 0));
+  for (BodyIndex i = 1; i < 4; ++i) {
+    const double x = 2.0 * static_cast<double>(i - 1);
+    scene.joints.push_back(rodBetween(i, i + 1, {x, 0.5}, {x + 2, 0.5}));
+  }
+  scene.joints.push_back(jointOf(JointKind::Weld, 5, std::nullopt, {-4, 6.5}));
+  scene.joints.push_back(jointOf(JointKind::Weld, 5, 6, {-4, 5.25}));
+  scene.joints.push_back(rodBetween(7, 8, {-7, 8}, {-7, 0.5}));
+  scene.joints.push_back(rodBetween(9, 10, {14, 0.5}, {22, 0.5}));
+  return scene;
+}
+
+TEST(Parking, WhatActsOnOneWakesAllThatJointsHoldTogether) {
+  const BodyId kFirst{1}, kLower{6}, kPost{7}, kTied{9};
+  const std::vector<std::function<void(World&)>> changes = {
+      [&](World& w) {
+        w.applyImpulse(kFirst, {0, 0.5}, {-900, 0});
+      },
+      [&](World& w) {
+        w.applyImpulse(kLower, {-4, 4.5}, {100, 0});
+      },
+      [&](World& w) {
+        w.setPose(kPost, {-7, 8.5}, 0.0);
+      },
+      [&](World& w) { w.unpin(kPost); },
+      [&](World& w) { w.removeBody(kPost); },
+      [&](World& w) { w.removeBody(BodyId{2}); },
+      [&](World& w) { w.removeJoint(1); },
+      [&](World& w) { w.removeJoint(3); },
+      [&](World& w) { w.removeJoint(6); },
+      [&](World& w) {
+        w.setVelocity(kTied, {-1, 0}, 0.0);
+      },
+      [&](World& w) {
+        w.addJoint(rodBetween(4, 9, {6, 0.5}, {14, 0.5}));
+        w.applyImpulse(kFirst, {0, 0.5}, {-900, 0});
+      },
+  };
+  for (const Mode mode : kSleeping) {
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      SCOPED_TRACE("change " + std::to_string(i));
+      Pair pair(joinedAsleep(), mode);
+      pair.run(300);
+      ASSERT_EQ(pair.one.stats().asleep, 10) << "all but the lamp";
+      pair.change(changes[i]);
+      pair.run(300);
+      EXPECT_TRUE(pair.one.save() == pair.watched.save());
+    }
+  }
+}
+
+TEST(Parking, ACartThatGoesPullsWhatARodTiesToIt) {
+  for (const Mode mode : kSleeping) {
+    Pair pair(joinedAsleep(), mode);
+    pair.run(1300);
+    EXPECT_NEAR(pair.one.capture().bodies[9].pose.position.x(), 16.0, 0.02) << "it began at 14";
+    EXPECT_TRUE(pair.one.save() == pair.watched.save());
+  }
+}
+
 /// The paper's rule unites all that is welded to one floor: also with stacks that have slept there
 /// for seconds.
 TEST(Parking, BoxesThatFallBesideSleepersMergeWithThemByWayOfTheFloor) {
