@@ -3,6 +3,7 @@
 #include "src2d/collections/collection.h"
 #include "src2d/collections/collection_method.h"
 #include "src2d/collections/joint_welds.h"
+#include "src2d/core/assert.h"
 
 namespace merge2d {
 namespace {
@@ -31,6 +32,9 @@ bool stillTogether(const State& state, BodyId a, BodyId b) {
 }
 
 void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts) {
+  const std::size_t members = state.collection(id).members.size();
+  const std::size_t laid_out = state.collection(id).laid_out.members;
+  MERGE2D_ASSERT(members == laid_out, "{} members, parts of {}", members, laid_out);
   Collection before;
   before.id = state.collection(id).id;
   before.welds = state.collection(id).welds;

@@ -28,14 +28,6 @@ JointBlock makeBlock(const State& state, std::uint32_t i, const Pose& frame, Joi
   return k;
 }
 
-SolverVelocity memberMasses(const State& state, const Collection& c, std::uint32_t body) {
-  SolverVelocity u;
-  if (body >= state.bodies.size() || state.bodies[body].rigid != c.rigid) return u;
-  u.inv_mass = 1.0 / state.bodies[body].mass;
-  u.inv_inertia = 1.0 / state.bodies[body].inertia;
-  return u;
-}
-
 /// Joints that act in a collection, ascending: one of their ends at least is a member.
 std::vector<std::uint32_t> jointsInside(const State& state, const Collection& c) {
   std::vector<std::uint32_t> inside;

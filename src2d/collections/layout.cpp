@@ -104,24 +104,14 @@ void layOutWelds(const State& state, Collection& c) {
   }
 }
 
-/// A body's masses as its collection's sweep sees them; its frame's bodies do not respond.
-SolverVelocity memberMasses(const State& state, const Collection& c, BodyId b) {
-  SolverVelocity u;
-  if (state[b].rigid == c.rigid) {
-    u.inv_mass = 1.0 / state[b].mass;
-    u.inv_inertia = 1.0 / state[b].inertia;
-  }
-  return u;
-}
-
 }  // namespace
 
 ContactBlock makeBlock(const State& state, const Collection& c, const InternalContact& contact) {
   const auto origin = [&](BodyId b) {
     return state[b].rigid == c.rigid ? state[b].local : Vec2(Vec2::Zero());
   };
-  const SolverVelocity ua = memberMasses(state, c, contact.key.a);
-  const SolverVelocity ub = memberMasses(state, c, contact.key.b);
+  const SolverVelocity ua = memberMasses(state, c, static_cast<std::uint32_t>(contact.key.a));
+  const SolverVelocity ub = memberMasses(state, c, static_cast<std::uint32_t>(contact.key.b));
   BlockGeometry g;
   g.normal = contact.normal;
   g.count = contact.count;

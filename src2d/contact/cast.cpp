@@ -267,11 +267,7 @@ void castContact(const State& state, Scratch& scratch, Contact& contact, double 
       advance(f, state.h, kFine * touchingGap(state, key), {smallestGap(contact), contact.normal});
   const double margin = std::max(state.settings.solver.margin, ahead);
   Contact then = contactAt(state, f, at, margin, contact);
-  if (then.count == 0) {
-    contact.count = 0;
-    contact.quiet_steps = 0;
-    return;
-  }
+  if (then.count == 0) return contact.loseTouch();
   const Cast cast = carryBack(state, f, at, then);
   // Without restitution a hit that comes about where and as it seems now is as good as it is; and
   // inside a collection it is solved as the sweep sees it.

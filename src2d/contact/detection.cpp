@@ -41,11 +41,6 @@ bool staysApart(const State& state, const Approaches& approaches, const ContactK
   return apart > near;
 }
 
-void loseTouch(Contact& contact) {
-  contact.count = 0;
-  contact.quiet_steps = 0;
-}
-
 /// Hands on what is remembered of a point, or marks it as new. `inv_mass` is the larger of the two.
 void inherit(ContactPoint& point, std::span<const ContactPoint> old, double inv_mass) {
   constexpr double kRounding = 1e-9;  // m/s: the body came as near as this in its last free step
@@ -195,7 +190,7 @@ bool isHeldAtOneEnd(const State& state, const ContactKey& key, const Manifold& m
 void updateManifold(const State& state, Contact& contact, double ahead) {
   const Pose b_in_a = state.pose(contact.key.a).toLocal(state.pose(contact.key.b));
   const double margin = reach(state, ahead);
-  if (boxDistance(state, contact.key, b_in_a) > margin) return loseTouch(contact);
+  if (boxDistance(state, contact.key, b_in_a) > margin) return contact.loseTouch();
   const Collider& a = state.collider(contact.key.shape_a);
   const Collider& b = state.collider(contact.key.shape_b);
   Manifold manifold = collide(a, b, b_in_a, margin, &contact.faces);

@@ -4,8 +4,7 @@ namespace merge2d {
 
 double touchingGap(const State& state, const ContactKey& key) {
   constexpr double kTouching = 1e-4, kPart = 1e-3;  // m, of the smaller shape
-  const double size = std::min(state.bounds(key.shape_a).extent().minCoeff(),
-                               state.bounds(key.shape_b).extent().minCoeff());
+  const double size = state.thickness(key.shape_a, key.shape_b);
   return std::min(kTouching, kPart * size);
 }
 

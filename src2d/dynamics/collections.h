@@ -21,6 +21,17 @@ struct Twist {
   double omega = 0.0;         ///< [rad/s]
 };
 
+inline double dot(const Twist& x, const Twist& y) {
+  return x.vx * y.vx + x.vy * y.vy + x.omega * y.omega;
+}
+
+/// x += s y
+inline void addTo(Twist& x, const Twist& y, double s) {
+  x.vx += s * y.vx;
+  x.vy += s * y.vy;
+  x.omega += s * y.omega;
+}
+
 /// Normal and tangential impulses of a block's two points.
 using Impulses = std::array<double, 4>;
 

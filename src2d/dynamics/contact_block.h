@@ -104,6 +104,14 @@ inline void applyRolling(double p, SolverVelocity& a, SolverVelocity& b) {
   if (b.responds()) b.omega += b.inv_inertia * p;
 }
 
+/// A block of a collection with this rotation, in the world.
+inline ContactBlock turned(const Rotation& rotation, ContactBlock k) {
+  const Vec2 n = rotation * Vec2(k.nx, k.ny);
+  k.nx = n.x();
+  k.ny = n.y();
+  return k;
+}
+
 /// All impulses of a block at once: its warm start.
 inline void applyImpulses(const ContactBlock& k, SolverVelocity& a, SolverVelocity& b) {
   for (int i = 0; i < k.count; ++i) {

@@ -55,6 +55,8 @@ struct Contact {
   /// Of a single point, the second's lambda_t holds the impulse against rolling (contact_block.h).
   std::array<ContactPoint, 2> points;
   FaceMemory faces;  ///< no result depends on it
+
+  void loseTouch() { count = quiet_steps = 0; }
 };
 
 /// Two shapes near each other that do not touch: all that is kept of most pairs of a heap.

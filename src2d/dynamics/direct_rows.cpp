@@ -3,14 +3,6 @@
 namespace merge2d {
 namespace {
 
-double dot(const Twist& x, const Twist& y) { return x.vx * y.vx + x.vy * y.vy + x.omega * y.omega; }
-
-void addTo(Twist& x, const Twist& y, double s) {
-  x.vx += s * y.vx;
-  x.vy += s * y.vy;
-  x.omega += s * y.omega;
-}
-
 BodyMatrix::Vec asVector(const Twist& j) { return {j.vx, j.vy, j.omega}; }
 
 }  // namespace

@@ -9,8 +9,7 @@ namespace merge2d {
 
 double leastBounce(const State& state, const ContactKey& key) {
   constexpr double kPart = 0.02, kLeast = 1e-6;  // of the size; m/s
-  const double size = std::min(state.bounds(key.shape_a).extent().minCoeff(),
-                               state.bounds(key.shape_b).extent().minCoeff());
+  const double size = state.thickness(key.shape_a, key.shape_b);
   const double fall = std::sqrt(2.0 * state.gravity.norm() * kPart * size);
   return std::max(kLeast, std::min(state.settings.solver.restitution_velocity, fall));
 }

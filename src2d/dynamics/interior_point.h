@@ -183,7 +183,7 @@ class InteriorPoint {
     exact_ = std::max(tolerance, kExact * fastest);
     u_now_ = free;
     for (std::size_t i = 0; i < u_now_.size(); ++i)
-      add(u_now_[i], rows_.velocity(i, momenta_[i]), 1.0);
+      addTo(u_now_[i], rows_.velocity(i, momenta_[i]), 1.0);
     double off = 0.0;
     forEachUnknown([&](const RowGroup& g, std::uint32_t i, BoundedImpulse& x) {
       off = std::max(off, residualOf(g, x, along(g, u_now_)[i] + bias(g)[i]));
@@ -250,8 +250,8 @@ class InteriorPoint {
     }
     for (std::size_t i = 0; i < momenta_.size(); ++i) {
       Twist v = rows_.freeVelocities()[i];
-      add(v, rows_.velocity(i, momenta_[i]), 1.0);
-      add(v, u_now_[i], -1.0);
+      addTo(v, rows_.velocity(i, momenta_[i]), 1.0);
+      addTo(v, u_now_[i], -1.0);
       momenta_[i] = rows_.momentum(i, v);
       most = std::max({most, std::abs(v.vx), std::abs(v.vy)});
     }
@@ -350,7 +350,7 @@ class InteriorPoint {
         b.slack += s * b.d_slack;
       });
     });
-    for (std::size_t i = 0; i < u_now_.size(); ++i) add(u_now_[i], direction_[i], s);
+    for (std::size_t i = 0; i < u_now_.size(); ++i) addTo(u_now_[i], direction_[i], s);
   }
 
   /// Puts an impulse on its bound where it is nearer to that, in velocities, than the slack to
@@ -361,12 +361,6 @@ class InteriorPoint {
       if (x.low.exists && k * x.low.gap < x.low.slack) x.x = g.lower;
       if (x.high.exists && k * x.high.gap < x.high.slack) x.x = g.upper;
     });
-  }
-
-  static void add(Twist& x, const Twist& y, double s) {
-    x.vx += s * y.vx;
-    x.vy += s * y.vy;
-    x.omega += s * y.omega;
   }
 
   const std::vector<SolverVelocity>& u_;

@@ -39,6 +39,11 @@ struct JointBlock {
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  ///< (K + C)⁻¹ of the coupled rows
   std::array<double, 4> lambda{};
 
+  /// Away from its bounds a row holds in both directions.
+  bool isWithinBounds(std::size_t i) const {
+    return lambda[i] > rows[i].lower && lambda[i] < rows[i].upper;
+  }
+
   /// The rows that there are, one after the other.
   template <class F>
   void forEachRow(F&& f) const {

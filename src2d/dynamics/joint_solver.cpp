@@ -14,16 +14,12 @@ constexpr double kWeak = 1e-3;
 /// More weak rows than these are solved in their order: their matrix is dense.
 constexpr std::size_t kMostWeakRows = 64;
 
-bool isInsideBounds(const JointBlock& k, std::size_t i) {
-  return k.lambda[i] > k.rows[i].lower && k.lambda[i] < k.rows[i].upper;
-}
-
 /// Motor or limit, where one of them is inside its bounds. A motor that presses against a limit
 /// wants a motion that the limit forbids: the limit holds.
 int boundRowOf(const JointBlock& k) {
   if (k.coupled > 2) return -1;
-  if (k.limit && isInsideBounds(k, kLimitRow)) return kLimitRow;
-  if (k.motor && isInsideBounds(k, kMotorRow)) return kMotorRow;
+  if (k.limit && k.isWithinBounds(kLimitRow)) return kLimitRow;
+  if (k.motor && k.isWithinBounds(kMotorRow)) return kMotorRow;
   return -1;
 }
 

@@ -15,14 +15,9 @@ struct RowOf {
   double& lambda() const { return joint->lambda[row]; }
 };
 
-/// Away from its bounds a row holds in both directions.
-bool isWithinBounds(const JointBlock& k, std::size_t i) {
-  return k.lambda[i] > k.rows[i].lower && k.lambda[i] < k.rows[i].upper;
-}
-
 /// A motor that presses against a limit is overruled: the limit holds.
 bool isOverruled(const JointBlock& k, std::size_t i) {
-  return i == kMotorRow && k.motor && k.limit && isWithinBounds(k, kLimitRow);
+  return i == kMotorRow && k.motor && k.limit && k.isWithinBounds(kLimitRow);
 }
 
 std::vector<RowOf> rowsOf(Collection& c) {
@@ -30,7 +25,7 @@ std::vector<RowOf> rowsOf(Collection& c) {
   for (JointBlock& k : c.joints) {
     k.forEachRow([&](std::size_t i) {
       const bool coupled = static_cast<int>(i) < k.coupled;
-      if (coupled || (isWithinBounds(k, i) && !isOverruled(k, i))) rows.push_back({&k, i});
+      if (coupled || (k.isWithinBounds(i) && !isOverruled(k, i))) rows.push_back({&k, i});
     });
   }
   return rows;

@@ -76,15 +76,6 @@ bool aimRow(const State& state, const Scratch& scratch, const Contact& contact, 
   return k.bilateral || gap <= 0.0;
 }
 
-/// A block of a collection, turned into the world.
-void makeInnerBlock(const State& state, const RowSource& source, ContactBlock& k) {
-  const Collection& c = state.collections[source.slot()];
-  k = c.blocks[source.block()];
-  const Vec2 n = state[c.rigid].rotation * Vec2(k.nx, k.ny);
-  k.nx = n.x();
-  k.ny = n.y();
-}
-
 /// Lever arms of the points of a block: as they are now, or as they will be where it was `cast` to.
 void setArms(const State& state, const Scratch& scratch, const RowSource& source, const Cast* cast,
              const ContactBlock& k, BlockGeometry& g) {
@@ -120,7 +111,11 @@ bool aimBlock(State& state, const Scratch& scratch, const RowSource& source, con
 
 /// The rows of one block.
 void makeBlock(State& state, const Scratch& scratch, RowSource& source, ContactBlock& k) {
-  if (source.isInner()) return makeInnerBlock(state, source, k);
+  if (source.isInner()) {
+    const Collection& c = state.collections[source.slot()];
+    k = turned(state[c.rigid].rotation, c.blocks[source.block()]);
+    return;
+  }
   const Contact& contact = state.contacts.contactOf(source.points[0]);
   const RowEnds ends = endsOf(state, scratch, source);
   BlockGeometry g;

@@ -43,9 +43,8 @@ void takeVelocities(const State& state, Scratch& scratch, bool falling) {
 void takeOpenMembers(const State& state, Scratch& scratch) {
   for (const BodyId b : scratch.open_members) {
     const Rigid& r = state[rigidOf(b)];
-    scratch.u[index(b)] = {r.v.x() + state.h * state.gravity.x(),
-                           r.v.y() + state.h * state.gravity.y(), r.omega, 1.0 / state[b].mass,
-                           1.0 / state[b].inertia};
+    const Vec2 v = r.v + state.h * state.gravity;
+    scratch.u[index(b)] = memberVelocity(state, b, {v.x(), v.y(), r.omega});
   }
 }
 

@@ -97,6 +97,11 @@ struct State {
     return rigid(id).floating() || isCollection(bodies[index(id)].rigid);
   }
 
+  /// Of the boxes around two shapes the least extent [m].
+  double thickness(std::uint32_t shape_a, std::uint32_t shape_b) const {
+    return std::min(bounds(shape_a).extent().minCoeff(), bounds(shape_b).extent().minCoeff());
+  }
+
   Pose pose(BodyId id) const {
     const Body& body = bodies[index(id)];
     const Rigid& r = rigids[index(body.rigid)];
@@ -114,6 +119,16 @@ struct State {
 inline RigidId moverOf(const State& state, const Scratch& scratch, BodyId b) {
   const bool open = !scratch.open.empty() && scratch.open[index(b)] != 0;
   return open ? rigidOf(b) : state[b].rigid;
+}
+
+/// A body with its own masses, as the rows inside a collection see a member.
+inline SolverVelocity memberVelocity(const State& state, BodyId b, const Twist& u = {}) {
+  return {u.vx, u.vy, u.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia};
+}
+/// Without velocity; a body of the collection's frame does not respond, nor does the world.
+inline SolverVelocity memberMasses(const State& state, const Collection& c, std::uint32_t body) {
+  const bool is_member = body < state.bodies.size() && state.bodies[body].rigid == c.rigid;
+  return is_member ? memberVelocity(state, BodyId{body}) : SolverVelocity{};
 }
 
 /// The mixing rules of two bodies: friction by the geometric mean, restitution by the larger.

@@ -141,11 +141,6 @@ bool isJoined(const State& state, RigidId id) {
   return any;
 }
 
-double thicknessOf(const State& state, const ContactKey& key) {
-  return std::min(state.bounds(key.shape_a).extent().minCoeff(),
-                  state.bounds(key.shape_b).extent().minCoeff());
-}
-
 /// True when corners may end elsewhere than along straight ways from where they were seen.
 bool bendsFar(const Path& p, double thin) {
   const double turn = std::abs(p.motion.turn);
@@ -182,8 +177,7 @@ double partUntil(const Step& step, RigidId id, RigidId other) {
   forEachShape(state, id, [&](BodyId a, std::uint32_t shape_a) {
     forEachShape(state, other, [&](BodyId b, std::uint32_t shape_b) {
       const Path path_a(step, a, shape_a, origin), path_b(step, b, shape_b, origin);
-      const double thin = std::min(state.bounds(shape_a).extent().minCoeff(),
-                                   state.bounds(shape_b).extent().minCoeff());
+      const double thin = state.thickness(shape_a, shape_b);
       part = std::min(part, Passage(path_a, path_b, thin).end());
     });
   });
@@ -239,7 +233,7 @@ void stopTurning(const Step& step, const ContactKey& key) {
   if (!far_a && !far_b) return;
   const Vec2 origin = state.pose(key.a).position;
   const Path a(step, key.a, key.shape_a, origin), b(step, key.b, key.shape_b, origin);
-  const double thin = thicknessOf(state, key);
+  const double thin = state.thickness(key.shape_a, key.shape_b);
   const bool stops_a = far_a && bendsFar(a, thin) && !isJoined(state, rigid_a);
   const bool stops_b = far_b && bendsFar(b, thin) && !isJoined(state, rigid_b);
   if (!stops_a && !stops_b) return;

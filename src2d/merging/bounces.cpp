@@ -117,6 +117,7 @@ std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch) {
 
 void releaseBouncing(State& state, Scratch& scratch, const std::vector<double>& arrives) {
   if (arrives.empty()) return;
+  layOutCollections(state);  // the parts of one that was split in this step follow from its layout
   const std::vector<std::uint32_t> slots = state.collections.active();  // splits make more
   for (const std::uint32_t slot : slots) {
     Collection& c = state.collections[slot];

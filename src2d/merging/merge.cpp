@@ -43,7 +43,7 @@ bool weld(State& state, const BodyPair& pair, const OnFloor& on_floor) {
   const RigidId ra = state[pair.a].rigid, rb = state[pair.b].rigid;
   const Rigid &a = state[ra], &b = state[rb];
   if (ra == rb) return false;
-  if (!a.floating() && !b.floating() && a.anchor != b.anchor) return false;
+  if (areOnTwoFrames(a, b)) return false;
   const bool a_frame = !a.floating() && !state.isCollection(ra);
   const bool b_frame = !b.floating() && !state.isCollection(rb);
   if (a_frame) {

@@ -8,10 +8,6 @@ namespace merge2d {
 /// Of a velocity from outside, beside those of the frame.
 inline constexpr double kOuterWeight = kDecided.outer_weight;
 
-inline double dot(const Twist& x, const Twist& y) {
-  return x.vx * y.vx + x.vy * y.vy + x.omega * y.omega;
-}
-
 inline double dot(const FrameLoad& x, const FrameLoad& y) {
   double sum = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];

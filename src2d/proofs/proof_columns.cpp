@@ -14,17 +14,10 @@ bool hasColumn(const State& state, const Collection& c, std::uint32_t body) {
   return state[b].rigid == c.rigid && b != c.certificate.front().heaviest;
 }
 
-SolverVelocity atRest(const State& state, BodyId b) {
-  SolverVelocity u;
-  u.inv_mass = 1.0 / state[b].mass;
-  u.inv_inertia = 1.0 / state[b].inertia;
-  return u;
-}
-
 BlockGains gainsOf(const State& state, const ContactBlock& block, const Impulses& lambda) {
   BlockGains gains;
-  if (block.a < state.bodies.size()) gains.a = atRest(state, BodyId{block.a});
-  if (block.b < state.bodies.size()) gains.b = atRest(state, BodyId{block.b});
+  if (block.a < state.bodies.size()) gains.a = memberVelocity(state, BodyId{block.a});
+  if (block.b < state.bodies.size()) gains.b = memberVelocity(state, BodyId{block.b});
   ContactBlock k = block;
   k.lambda = lambda;
   applyImpulses(k, gains.a, gains.b);

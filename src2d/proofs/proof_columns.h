@@ -6,14 +6,12 @@
 
 namespace merge2d {
 
+/// Whether a collection has a load that its contacts are known to carry.
 bool hasProofs(const Collection& collection);
 
 /// Whether a body is a member whose load from outside counts: of a floating collection the heaviest
 /// follows from the others.
 bool hasColumn(const State& state, const Collection& collection, std::uint32_t body);
-
-/// A member as the rows inside see it, without velocity.
-SolverVelocity atRest(const State& state, BodyId body);
 
 /// The velocities that impulses of a block give its two bodies.
 struct BlockGains {

@@ -162,10 +162,7 @@ double ProofTransfer::motionOf(const Witness& witness,
     if (!hasColumn(state_, c_, body)) return;
     const BodyId b{body};
     const Twist load = loadOnMember(state_, c_, witness, state_[rigidOf(b)].member);
-    SolverVelocity& of = u.emplace(body, atRest(state_, b)).first->second;
-    of.vx = load.vx;
-    of.vy = load.vy;
-    of.omega = load.omega;
+    u.insert_or_assign(body, memberVelocity(state_, b, load));
   };
   for (const std::uint32_t i : fresh_) start(c_.blocks[i].a), start(c_.blocks[i].b);
   SolverVelocity still;

@@ -15,14 +15,6 @@
 namespace merge2d {
 namespace {
 
-ContactBlock inWorld(const State& state, const Collection& c, const ContactBlock& inner) {
-  ContactBlock k = inner;
-  const Vec2 n = state[c.rigid].rotation * Vec2(k.nx, k.ny);
-  k.nx = n.x();
-  k.ny = n.y();
-  return k;
-}
-
 /// A search has found motion, which may be that of any member.
 bool wasSearched(const Collection& c) { return c.certificate.front().search.hasFoundMotion(); }
 
@@ -107,9 +99,9 @@ void pushFromOutside(State& state, const Scratch& scratch, const Collection& c,
   forEachHeld(scratch, c, region, [&](const ContactBlock& inner, std::uint32_t in, std::uint32_t) {
     const BodyId b = c.members[in];
     Rigid& r = state[rigidOf(b)];
-    SolverVelocity u{r.v.x(), r.v.y(), r.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia}, rest;
+    SolverVelocity u = memberVelocity(state, b, {r.v.x(), r.v.y(), r.omega}), rest;
     const bool is_a = inner.a == index(b);
-    applyImpulses(inWorld(state, c, inner), is_a ? u : rest, is_a ? rest : u);
+    applyImpulses(turned(state[c.rigid].rotation, inner), is_a ? u : rest, is_a ? rest : u);
     r.v = {u.vx, u.vy};
     r.omega = u.omega;
   });
@@ -153,7 +145,7 @@ bool widen(State& state, Scratch& scratch, OpenRegion& region) {
   Collection& c = state.collections[region.slot];
   std::vector<std::uint32_t> behind;
   forEachHeld(scratch, c, region, [&](const ContactBlock& inner, std::uint32_t, std::uint32_t out) {
-    const ContactBlock k = inWorld(state, c, inner);
+    const ContactBlock k = turned(state[c.rigid].rotation, inner);
     const double residual = residualOf(k, k.nx, k.ny, solvedVelocity(state, scratch, BodyId{k.a}),
                                        solvedVelocity(state, scratch, BodyId{k.b}));
     if (residual > slowestCut(state, c, out)) behind.push_back(out);

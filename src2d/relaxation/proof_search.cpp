@@ -28,10 +28,6 @@ void startFrame(const State& state, std::vector<SolverVelocity>& u, const Collec
   for (const JointBlock& k : c.joints) u[k.a] = u[k.b] = {};
 }
 
-SolverVelocity memberAt(const State& state, BodyId b, const Twist& u) {
-  return {u.vx, u.vy, u.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia};
-}
-
 /// A search starts from the impulses that the witnesses foretell, or else from those that there
 /// are.
 ProofSearch& newSearch(Collection& c, Witness&& load) {
@@ -51,10 +47,9 @@ void startMembers(const State& state, std::vector<SolverVelocity>& u, Collection
   startFrame(state, u, c);
   for (std::uint32_t m = 0; m < c.members.size(); ++m) {
     if (proof.search.ahead && c.members[m] == proof.heaviest) continue;
-    const Twist& d = proof.search.start[m];
-    const Twist push = pushed ? c.push.of[m] : Twist{};
-    u[index(c.members[m])] =
-        memberAt(state, c.members[m], {d.vx + push.vx, d.vy + push.vy, d.omega + push.omega});
+    Twist start = proof.search.start[m];
+    if (pushed) addTo(start, c.push.of[m], 1.0);
+    u[index(c.members[m])] = memberVelocity(state, c.members[m], start);
   }
 }
 

@@ -52,7 +52,7 @@ void startRelaxed(const State& state, Scratch& scratch, const Collection& c, std
       if (scratch.open[index(end)] == 0) trial_u[index(end)] = {};
     }
   }
-  trial_u[index(b)] = {u.vx, u.vy, u.omega, 1.0 / state[b].mass, 1.0 / state[b].inertia};
+  trial_u[index(b)] = memberVelocity(state, b, u);
 }
 
 /// A tenth of the slowest motion that parts a weld of some members [m/s]: in a hit more than under

@@ -40,9 +40,7 @@ void markRestless(State& state, Scratch& scratch) {
   for (const Kick& kick : scratch.kicks) mark(kick.body);
   for (const BodyId b : scratch.stirred) mark(b);
   sumLoads(state, scratch, mark);
-  const auto stirs = [](const Rigid& r) {
-    return r.anchor > kWorldFrame && !r.still();
-  };
+  const auto stirs = [](const Rigid& r) { return r.anchor > kWorldFrame && !r.still(); };
   for (const Collection& c : state.collections) {
     if (c.id == kNoCollection || state[c.rigid].floating()) continue;
     if (stirs(state[rigidOf(c.anchor)])) restless[index(c.rigid)] = 1;
