@@ -208,7 +208,7 @@ void pairShapes(State& state, Scratch& scratch, RigidId host, RigidId guest, dou
   });
 }
 
-/// Of a set of rigid things in which one may stand for another.
+/// The bit of a rigid thing in a set of sixteen, which it shares with others.
 std::uint16_t bitOf(RigidId id) { return static_cast<std::uint16_t>(1u << (index(id) % 16)); }
 
 /// How far the corners of a near pair have gone since they were last written down [m].

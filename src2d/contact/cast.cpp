@@ -152,7 +152,7 @@ Encounter advance(const Flights& f, double h, double touching, Nearest now) {
     t = std::min(h, t + std::max((now.distance - 0.5 * touching) / closing,
                                  clear * (1.0 - 0.5 * touching / now.distance)));
   }
-  return {t, true};  // so near each other that they had better be kept apart
+  return {t, true};  // after so many rounds they all but touch
 }
 
 /// True when some shape turns so far in the step that the motion of now says little.

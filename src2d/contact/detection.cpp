@@ -28,8 +28,9 @@ double reach(const State& state, double ahead) {
   return std::max(state.settings.solver.margin, ahead);
 }
 
-/// Most of those that do not touch stay apart however fast anything is, others as the two are no
-/// faster; and many need no look at all: they were farther apart than anything has moved since.
+/// True where two shapes that do not touch cannot meet in this step. `apart` is a lower bound of
+/// their distance: it shrinks by the largest motion of all bodies, and is measured again only where
+/// it is below what the two can approach by.
 bool staysApart(const State& state, const Approaches& approaches, const ContactKey& key,
                 float& apart) {
   apart -= static_cast<float>(2.0 * state.moved);

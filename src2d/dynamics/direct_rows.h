@@ -27,6 +27,7 @@ struct RowWeights {
   double nn = 0.0, nt = 0.0, tt = 0.0;
 };
 
+/// The rows of one island, beside the masses of its bodies and their velocities without impulses.
 class DirectRows {
  public:
   /// `u` holds the velocities before any impulse, and outlives this.

@@ -8,6 +8,7 @@
 
 namespace merge2d {
 
+/// Solves the hits of an island that meet at one time, with the contacts and joints around them.
 class HitSolver {
  public:
   explicit HitSolver(const HitIsland& island) : island_(island) {}

@@ -42,7 +42,7 @@ class HitPath {
       for (std::size_t i = 1; i < points_.size(); ++i) meetTogether(points_[i - 1], points_[i]);
       solver.solve(points_);
     }
-    // So many hits that the bodies had better wait where they are.
+    // After so many hits the bodies stay where they are until the next step.
   }
 
   void keepWays(std::vector<HitWay>& ways) const {

@@ -66,6 +66,7 @@ struct JointMemory {
   std::vector<double> weak_change;  ///< per weak row
 };
 
+/// The direct solver of one island's joints, whose impulses and velocities it changes in place.
 class JointSolver {
  public:
   /// The rows of the joints may be made a little soft, where joints of a loop say the same.

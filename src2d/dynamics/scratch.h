@@ -260,7 +260,7 @@ struct SweepMemory {
   NncgBuffers nncg;
   WideBlocks wide;
   std::vector<PackedAs> kinds;  ///< per block of an island
-  /// Per body, and the world's: velocities in the collection that is solved, seen from there.
+  /// Velocities of the bodies, and of the world, in the frame of the collection that is solved.
   std::vector<SolverVelocity> trial_u;
 };
 

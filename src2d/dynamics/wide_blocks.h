@@ -32,6 +32,7 @@ inline PackedAs packedAs(const ContactBlock& k) {
   return k.count == 2 ? PackedAs::Pair : PackedAs::Single;
 }
 
+/// Blocks packed by fours, colour by colour, and their sweeps.
 class WideBlocks {
  public:
   /// Takes the blocks of an island, whose order is `order`; `idle` is the index of a velocity that

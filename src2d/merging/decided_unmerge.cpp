@@ -108,8 +108,8 @@ std::int64_t stepsOfHits(const State& state, const Collection& c) {
   return c.hits.last - c.hits.first + 2 - hitSteps(state);
 }
 
-/// It is not hit, or for less than what lasts (DecidedSettings::lasting); of one of which a hit
-/// opens but a part that does not matter.
+/// A collection is not hit, or for less time than DecidedSettings::lasting. Hits that open only a
+/// small part of it do not count.
 Criterion isHitBriefly(const State& state, const Collection& c) {
   const std::int64_t steps = stepsOfHits(state, c);
   const bool for_long = c.hits.last == state.step && lasts(state, steps) && !opensInPart(state, c);

@@ -57,7 +57,7 @@ struct Readiness {
 };
 
 /// Asks the criteria of the rule. Where nobody asks for a record the first one that does not hold
-/// ends it: the dear ones come last.
+/// ends it: the expensive ones come last.
 Readiness readinessOf(const State& state, const BodyPair& pair, bool recorded) {
   Readiness r;
   const auto ask = [&](const Criterion& test) {

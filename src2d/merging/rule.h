@@ -14,7 +14,7 @@ namespace merge2d {
 
 /// Which pairs merge (Section 5).
 struct MergingMethod {
-  /// A pair is ready in a step in which all of these hold; the dear ones come last.
+  /// A pair is ready in a step in which all of these hold; the expensive ones come last.
   std::span<const PairCriterion> criteria;
   /// The criterion for pairs with single contacts that are ready (Section 8.2).
   CycleCriterion (*cycles)(const MergingSettings& settings);

@@ -5,6 +5,7 @@
 
 namespace merge2d {
 
+/// The stage: nothing happens in a mode without sleeping.
 void sleepAndWake(State& state, Scratch& scratch);
 
 }  // namespace merge2d

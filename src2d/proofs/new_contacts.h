@@ -6,6 +6,7 @@
 
 namespace merge2d {
 
+/// Impulses at contacts that were not there when a proof was found.
 class NewContacts {
  public:
   /// The contacts are given by their blocks.

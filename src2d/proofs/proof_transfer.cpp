@@ -212,7 +212,7 @@ void ProofTransfer::finishGrowth(std::uint32_t first) {
   conclude();
 }
 
-/// Which proofs still are, once their impulses are in the new order.
+/// Drops the proofs that no longer hold, once their impulses are in the new order.
 void ProofTransfer::conclude() {
   LoadCertificate& proof = c_.certificate.front();
   dropColumns();

@@ -9,6 +9,8 @@
 
 namespace merge2d {
 
+/// Gauss-Seidel sweeps over some or all contact blocks inside a collection, with the velocities of
+/// its members in SweepMemory::trial_u.
 class BlockSweeps {
  public:
   static constexpr int kLookEvery = 5;  ///< sweeps after which the residual is looked at

@@ -9,6 +9,8 @@
 
 namespace merge2d {
 
+/// How many sweeps a solve inside a collection may still spend in this step, over any number of
+/// rows.
 class SweepBudget {
  public:
   /// As much as a step may spend over so many rows.

@@ -224,7 +224,7 @@ TEST(Parking, ACartThatGoesPullsWhatARodTiesToIt) {
   for (const Mode mode : kSleeping) {
     Pair pair(joinedAsleep(), mode);
     pair.run(1300);
-    EXPECT_NEAR(pair.one.capture().bodies[9].pose.position.x(), 16.0, 0.02) << "it began at 14";
+    EXPECT_NEAR(pair.one.capture().bodies[9].pose().position.x(), 16.0, 0.02) << "it began at 14";
     EXPECT_TRUE(pair.one.save() == pair.watched.save());
   }
 }
