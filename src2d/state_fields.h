@@ -91,8 +91,8 @@ void fields(Ar& ar, Some<ContactTable> auto& t) {
 }
 template <class Ar>
 void fields(Ar& ar, Some<NearPair> auto& p) {
-  auto& [a, b, corners, way, fresh] = p;
-  ar(a, b, corners, way, fresh);
+  auto& [a, b, corners, way, fresh] = p;  // the way is found anew
+  ar(a, b, corners, fresh);
 }
 
 template <class Ar>

@@ -4,6 +4,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "src2d/core/ids.h"
@@ -100,7 +101,8 @@ struct BodyPair {
 struct NearPair {
   RigidId a{}, b{};
   std::array<Vec2, 4> corners{};  ///< of b's bounds in a's frame
-  float way = 0.0F;               ///< that these can have gone since, at most [m]
+  /// That these can have gone since, at most [m]; no result depends on it.
+  float way = std::numeric_limits<float>::infinity();
   bool fresh = true;
   auto operator<=>(const NearPair& o) const {
     return packed(index(a), index(b)) <=> packed(index(o.a), index(o.b));

@@ -232,6 +232,12 @@ bool isInside(const State& state, const Joint& joint) {
   return a_in != state.isCollection(rb) && !a.floating() && a.anchor == state[rb].anchor;
 }
 
+bool isOnTwoFrames(const State& state, const Joint& joint) {
+  const Rigid& a = state.rigid(joint.a);
+  if (joint.to_world) return !a.floating() && a.anchor != kWorldFrame;
+  return areOnTwoFrames(a, state.rigid(joint.b));
+}
+
 std::uint32_t rigidIndexA(const State& state, const Joint& joint) {
   return static_cast<std::uint32_t>(state[joint.a].rigid);
 }

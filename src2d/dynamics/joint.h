@@ -87,6 +87,10 @@ bool holds(const State& state, const Joint& joint);
 /// A joint between members of one collection, or of one and its frame: it belongs to the sweep.
 bool isInside(const State& state, const Joint& joint);
 
+/// The ends are fixed to different frames, of which the world is one: the full solve has no row of
+/// it.
+bool isOnTwoFrames(const State& state, const Joint& joint);
+
 /// Its index among the rigid things; the world stands behind the last of them.
 std::uint32_t rigidIndexA(const State& state, const Joint& joint);
 std::uint32_t rigidIndexB(const State& state, const Joint& joint);

@@ -99,17 +99,24 @@ void noteReached(const State& state, Scratch& scratch) {
 }
 
 void openWhatFramesDrag(const State& state, Scratch& scratch) {
-  const auto moves = [](const Rigid& r) {
-    return r.anchor > kWorldFrame && (r.v.squaredNorm() > 0.0 || r.omega != 0.0);
+  const auto moves = [&](BodyId b) {
+    const Rigid& r = state.rigid(b);
+    return r.anchor > kWorldFrame && !r.still();
+  };
+  const auto open = [&](BodyId body) {
+    if (!state.isCollection(state[body].rigid)) return;
+    const Collection& c = state.collection(state[body].rigid);
+    if (isSwept(state, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
   };
   for (const BodyPair& pair : scratch.pairs) {
-    const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
-    if (!areOnTwoFrames(a, b) || !(moves(a) || moves(b))) continue;
-    for (const BodyId body : {pair.a, pair.b}) {
-      if (!state.isCollection(state[body].rigid)) continue;
-      const Collection& c = state.collection(state[body].rigid);
-      if (isSwept(state, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
-    }
+    if (!areOnTwoFrames(state.rigid(pair.a), state.rigid(pair.b))) continue;
+    if (moves(pair.a) || moves(pair.b)) open(pair.a), open(pair.b);
+  }
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
+    if (!holds(state, joint) || !isOnTwoFrames(state, joint)) continue;
+    const BodyId b = joint.to_world ? joint.a : joint.b;
+    if (moves(joint.a) || moves(b)) open(joint.a), open(b);
   }
 }
 

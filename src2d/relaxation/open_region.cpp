@@ -30,6 +30,12 @@ void addOwn(State& state, Scratch& scratch, const Collection& c, OpenRegion& reg
     touch(pair.a);
     touch(pair.b);
   }
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
+    if (!holds(state, joint) || !isOnTwoFrames(state, joint)) continue;
+    touch(joint.a);
+    if (!joint.to_world) touch(joint.b);
+  }
 }
 
 /// Rings of neighbours around members of the region.

@@ -177,6 +177,41 @@ TEST(StateFile, AWallOnWhichBoxesFallGoesOnTheSameFromAnyStep) {
   }
 }
 
+/// A pair that is listed twice was refused as damage.
+TEST(StateFile, TwoBodiesMayHaveTwoJoints) {
+  const Scene scene = parseScene(R"(
+format = 1
+[[body]]
+name = "a"
+at = [0, 0]
+box = [1, 1]
+[[body]]
+name = "b"
+at = [2, 0]
+box = [1, 1]
+[[joint]]
+kind = "distance"
+bodies = ["a", "b"]
+at = [0, 0.4]
+to = [2, 0.4]
+[[joint]]
+kind = "distance"
+bodies = ["a", "b"]
+at = [0, -0.4]
+to = [2, -0.4]
+break_force = 1
+)",
+                                 "test");
+  World world(scene, {});
+  runSteps(world, 3);
+  World other(scene, {});
+  other.restore(world.save(), "memory");
+  for (World* w : {&world, &other}) w->removeJoint(0);
+  runSteps(world, 3);
+  runSteps(other, 3);
+  EXPECT_TRUE(world.save() == other.save());
+}
+
 TEST(StateFile, GoingBackLeavesNothingOfTheStepsAfter) {
   const Scene scene = parseScene(kMixed, "mixed.toml");
   World world = start(scene, Mode::MergeSleep);

@@ -147,5 +147,85 @@ TEST(SlowLoad, AFrameBearsWhatItBoreWhenItBeginsToMove) {
   EXPECT_NEAR(borne(), before, 0.03 * before);
 }
 
+/// A box that stands on the ground, one on a cart that waits until 2 s, and a rod to each: from the
+/// cart to the first, and from the world to the second.
+constexpr const char* kRodsAndACart = R"(
+[[body]]
+name = "pulled"
+at = [-4, 0.5]
+box = [1, 1]
+[[body]]
+name = "cart"
+motion = "scripted"
+box = [3, 1]
+script = { keyframes = [[0, 2, 0.5, 0], [2, 2, 0.5, 0], [4, 3, 0.5, 0]] }
+[[body]]
+name = "held"
+at = [2, 1.25]
+box = [0.5, 0.5]
+[[joint]]
+kind = "distance"
+bodies = ["pulled", "cart"]
+at = [-4, 0.5]
+to = [1, 0.5]
+[[joint]]
+kind = "distance"
+bodies = ["held"]
+at = [2, 1.25]
+to = [-2, 1.25]
+)";
+
+/// No row of the full solve stands for a joint between two frames: the welds on one of them held
+/// against any pull of the other.
+TEST(DraggedByAJoint, ARodToAnotherFramePullsABoxOffItsOwn) {
+  for (const Overrides& rule : {Overrides{}, kPaper}) {
+    for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+      SCOPED_TRACE(name(mode));
+      Simulation run(kGround + kRodsAndACart, mode, rule);
+      Simulation reference(kGround + kRodsAndACart, Mode::Reference);
+      run.until(1.9);
+      ASSERT_TRUE(run.merged("pulled"));
+      ASSERT_TRUE(run.merged("held"));
+      run.until(5.0);
+      reference.until(5.0);
+      EXPECT_NEAR(reference.body("pulled").x.x(), -3.0, 1e-3);
+      EXPECT_NEAR(run.body("pulled").x.x(), -3.0, 2e-3);
+      EXPECT_NEAR(reference.body("held").x.x(), 2.0, 1e-3);
+      EXPECT_NEAR(run.body("held").x.x(), 2.0, 2e-3);
+    }
+  }
+}
+
+/// A wall of 1,200 bricks of which the top one is tied to a hoist that begins to lift it at 3 s.
+TEST(DraggedByAJoint, AHoistLiftsABrickOffALargeWall) {
+  constexpr int kColumns = 30, kRows = 40;
+  std::string toml = kGround;
+  for (int row = 0; row < kRows; ++row) {
+    for (int i = 0; i < kColumns; ++i) {
+      toml += fmt::format("[[body]]\nname = \"b{}_{}\"\nat = [{}, {}]\nbox = [0.4, 0.2]\n", i, row,
+                          0.41 * i + 0.2 * (row % 2), 0.1 + 0.2 * row);
+    }
+  }
+  toml += R"(
+[[body]]
+name = "hoist"
+motion = "scripted"
+box = [1, 0.2]
+script = { keyframes = [[0, 6.35, 10, 0], [3, 6.35, 10, 0], [4, 6.35, 10.5, 0]] }
+[[joint]]
+kind = "distance"
+bodies = ["b15_39", "hoist"]
+at = [6.35, 7.9]
+to = [6.35, 10]
+)";
+  Simulation run(toml, Mode::MergeSleep);
+  run.until(2.9);
+  ASSERT_TRUE(run.merged("b15_39"));
+  const double before = run.body("b15_39").x.y();
+  run.until(5.0);
+  EXPECT_NEAR(run.body("b15_39").x.y() - before, 0.5, 0.01);
+  EXPECT_TRUE(run.merged("b10_20"));
+}
+
 }  // namespace
 }  // namespace merge2d
