@@ -224,6 +224,25 @@ double aHeapIsTouched(int n) {
   return detectionOf(of);
 }
 
+/// Pillars of five boxes that stand, each on a shelf of its own that is let go after half a second:
+/// all at once.
+double allShelvesAreLetGo(int n) {
+  BenchScene of;
+  of.scene.step = 0.01;
+  for (int i = 0; i < n / 5; ++i) {
+    BodyDesc shelf;
+    shelf.name = fmt::format("shelf[{}]", i);
+    shelf.at = {2.0 * i, -0.5};
+    shelf.shapes = {makeBox(1.5, 1.0)};
+    shelf.pinned_until = 0.5;
+    of.scene.bodies.push_back(shelf);
+    for (int k = 0; k < 5; ++k) addFalling(of, {2.0 * i, 0.5 + k}, 1.0);
+  }
+  World world = worldOf(of, Mode::Merge);
+  run(world, 45);
+  return slowestStep(world, 10);
+}
+
 double allFall(int n) {
   World world = worldOf(freeFall(n), Mode::Merge);
   run(world, 20);
@@ -315,6 +334,10 @@ const std::vector<Situation> kSituations = {
      theOneAwakeIsKicked},
     {"a merged heap rides: its detection", kSurface, {500, 1000, 2000, 4000}, aHeapRides},
     {"a merged heap is touched: its detection", kSurface, {500, 1000, 2000, 4000}, aHeapIsTouched},
+    {"so many bodies on shelves, which are let go at once: slowest step",
+     kWork,
+     {2500, 5000, 10'000, 20'000},
+     allShelvesAreLetGo},
     {"boxes fall freely: mean step", kWork, {2500, 5000, 10'000, 20'000}, allFall},
     {"boxes land at once on one floor: slowest step",
      kWork,

@@ -26,11 +26,6 @@ void emitBodies(State& state, Actions& actions, Scratch& scratch) {
   }
 }
 
-/// A body, and all that it touches, must not sleep through this step.
-void wakeAround(const State& state, Scratch& scratch, BodyId body) {
-  listAround(state, body, scratch.stirred);
-}
-
 /// Bodies that the user has changed since the last step are awake from its start on.
 void takeOverStirred(State& state, Actions& actions, Scratch& scratch) {
   for (const BodyId body : actions.stirred) {
@@ -43,21 +38,23 @@ void takeOverStirred(State& state, Actions& actions, Scratch& scratch) {
 
 void letGo(State& state, Actions& actions, Scratch& scratch) {
   auto& launches = actions.launches;
-  const std::vector<std::uint32_t> due = actions.timetable.launches.begun(
+  std::vector<std::uint32_t> due = actions.timetable.launches.begun(
       launches.size(), [&](std::uint32_t i) { return launches[i].time; },
       [&](double time) { return reached(state, time); });
+  std::erase_if(due, [&](std::uint32_t i) { return std::exchange(launches[i].done, true); });
+  if (due.empty()) return;
+  std::vector<BodyId> bodies;
+  for (const std::uint32_t i : due) bodies.push_back(launches[i].body);
+  bringBackAround(state, scratch, bodies);
+  listAround(state, bodies, scratch.stirred);  // none of these may sleep through this step
+  for (const BodyId body : bodies) state[rigidOf(body)].anchor = kFloating;
+  releaseBodies(state, scratch, bodies);
   for (const std::uint32_t i : due) {
-    Actions::Launch& launch = launches[i];
-    if (std::exchange(launch.done, true)) continue;
-    bringBackAround(state, scratch, launch.body);
-    wakeAround(state, scratch, launch.body);
-    state[rigidOf(launch.body)].anchor = kFloating;
-    releaseBody(state, scratch, launch.body);
-    Rigid& r = state[rigidOf(launch.body)];
+    Rigid& r = state[rigidOf(launches[i].body)];
     r.inv_mass = 1.0 / r.mass;
     r.inv_inertia = 1.0 / r.inertia;
-    r.v = launch.v;
-    r.omega = launch.omega;
+    r.v = launches[i].v;
+    r.omega = launches[i].omega;
     r.resized = true;
   }
 }
@@ -71,8 +68,8 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
     Body& body = state[id];
     if (body.magnet_on == on) continue;
     body.magnet_on = on;
-    bringBackAround(state, scratch, id);
-    wakeAround(state, scratch, id);
+    bringBackAround(state, scratch, {id});
+    listAround(state, {id}, scratch.stirred);
     // Contacts inside collections turn bilateral, or back.
     for (Collection& c : state.collections) {
       const bool concerned = std::any_of(c.welds.begin(), c.welds.end(),
@@ -91,18 +88,22 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
 
 /// What rests on a body that moves again by its script.
 void bringBackMoved(State& state, const Actions& actions, Scratch& scratch) {
+  if (state.parked.count == 0) return;
+  std::vector<BodyId> moving;
   for (const Actions::Scripted& scripted : actions.scripts) {
-    if (!state.rigid(scripted.body).still()) bringBackAround(state, scratch, scripted.body);
+    if (!state.rigid(scripted.body).still()) moving.push_back(scripted.body);
   }
+  bringBackAround(state, scratch, moving);
 }
 
 }  // namespace
 
-void listAround(const State& state, BodyId body, std::vector<BodyId>& out) {
-  out.push_back(body);
+void listAround(const State& state, const std::vector<BodyId>& bodies, std::vector<BodyId>& out) {
+  const std::vector<std::uint8_t> is_named = namedAmong(state, bodies);
+  out.insert(out.end(), bodies.begin(), bodies.end());
   const auto addOther = [&](BodyId a, BodyId b) {
-    if (a == body) out.push_back(b);
-    if (b == body) out.push_back(a);
+    if (is_named[index(a)] != 0) out.push_back(b);
+    if (is_named[index(b)] != 0) out.push_back(a);
   };
   for (const ContactTable::Slot slot : state.contacts.order) {
     const Contact& contact = state.contacts[slot];

@@ -10,7 +10,7 @@ namespace merge2d {
 /// that happens at a time happens in the step that begins nearest to it.
 void beginStep(State& state, Actions& actions, Scratch& scratch);
 
-/// Appends a body and all that it touches or is joined to.
-void listAround(const State& state, BodyId body, std::vector<BodyId>& out);
+/// Appends bodies, and all that they touch or are joined to.
+void listAround(const State& state, const std::vector<BodyId>& bodies, std::vector<BodyId>& out);
 
 }  // namespace merge2d

@@ -17,14 +17,16 @@ namespace merge2d {
 namespace {
 
 /// A body and what touches it must not sleep through the next step, also when they part now.
-void stirAround(Setup& setup, BodyId body) { listAround(setup.state, body, setup.actions.stirred); }
+void stirAround(Setup& setup, BodyId body) {
+  listAround(setup.state, {body}, setup.actions.stirred);
+}
 
 /// Takes a body out of its collection, or all that is merged with a pinned one away from it. While
 /// that happens it belongs to no frame, so that its contacts come free too.
 void detach(Setup& setup, Scratch& scratch, BodyId body) {
   State& state = setup.state;
   const FrameId frame = std::exchange(state[rigidOf(body)].anchor, kFloating);
-  releaseBody(state, scratch, body);
+  releaseBodies(state, scratch, {body});
   state[rigidOf(body)].anchor = frame;
 }
 

@@ -70,7 +70,7 @@ struct World::Impl {
   }
   /// The same for those that concern a body and the ones that touch it.
   Setup& waking(BodyId body) {
-    bringBackAround(setup.state, scratch, body);
+    bringBackAround(setup.state, scratch, {body});
     rest.forget();
     return setup;
   }

@@ -145,6 +145,25 @@ void takeBack(State& state, RigidId id) {
   state.collections.bringBack(index(id) - state.bodies.size());
 }
 
+/// Appends the rigid thing of a body, if it is parked. A body that is never parked ties nothing
+/// together, but its pairs went with those that rest on it: these, then. The boxes of a pair meet:
+/// the broadphase drops it where they do not.
+void addAround(const State& state, BodyId body, std::vector<RigidId>& queue) {
+  const auto add = [&](RigidId id) {
+    if (state.parked.holds(id)) queue.push_back(id);
+  };
+  const RigidId id = state[body].rigid;
+  add(id);
+  if (state[id].floating() || state.isCollection(id) || !state[id].present()) return;
+  state.broadphase.tree.queryLeaf(state[id].leaf,
+                                  [&](std::uint32_t other) { add(RigidId{other}); });
+  state.joint_lists.of_body.forEach(body, [&](std::uint32_t joint) {
+    const auto [a, b] = endsOf(state, state.joints[joint]);
+    add(a);
+    add(b);
+  });
+}
+
 /// Brings back those in `queue`, and all that touch them or hang together with them by joints.
 void bringBackSets(State& state, std::vector<RigidId>& queue) {
   ContactTable& table = state.contacts;
@@ -194,26 +213,10 @@ void parkSleepers(State& state, Scratch& scratch) {
   collectPairs(state, scratch);
 }
 
-void bringBackAround(State& state, Scratch& scratch, BodyId body) {
+void bringBackAround(State& state, Scratch& scratch, const std::vector<BodyId>& bodies) {
   if (state.parked.count == 0) return;
-  const RigidId id = state[body].rigid;
   std::vector<RigidId> queue;
-  const auto add = [&](RigidId other) {
-    if (state.parked.holds(other)) queue.push_back(other);
-  };
-  add(id);
-  // A body that is never parked ties nothing together, but its pairs went with those that rest on
-  // it. The boxes of a pair meet: the broadphase drops it where they do not.
-  const bool is_tie = state[id].floating() || state.isCollection(id);
-  if (!is_tie && state[id].present()) {
-    state.broadphase.tree.queryLeaf(state[id].leaf,
-                                    [&](std::uint32_t other) { add(RigidId{other}); });
-    state.joint_lists.of_body.forEach(body, [&](std::uint32_t joint) {
-      const auto [a, b] = endsOf(state, state.joints[joint]);
-      add(a);
-      add(b);
-    });
-  }
+  for (const BodyId body : bodies) addAround(state, body, queue);
   if (queue.empty()) return;
   bringBackSets(state, queue);
   collectPairs(state, scratch);

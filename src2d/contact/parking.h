@@ -14,9 +14,9 @@ namespace merge2d {
 /// Parks the bodies that have slept for long enough. To be called between two steps.
 void parkSleepers(State& state, Scratch& scratch);
 
-/// Brings back, still asleep, the rigid thing of a body and all that touches it: around a body that
-/// is never parked those that are near it.
-void bringBackAround(State& state, Scratch& scratch, BodyId body);
+/// Brings back, still asleep, the rigid things of some bodies and all that touches them: around a
+/// body that is never parked those that are near it.
+void bringBackAround(State& state, Scratch& scratch, const std::vector<BodyId>& bodies);
 
 /// Brings back all of them, for whoever looks at the lists.
 void bringAllBack(State& state, Scratch& scratch);

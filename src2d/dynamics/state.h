@@ -131,6 +131,13 @@ inline SolverVelocity memberMasses(const State& state, const Collection& c, std:
   return is_member ? memberVelocity(state, BodyId{body}) : SolverVelocity{};
 }
 
+/// Per body 1 where it is one of these, else 0.
+inline std::vector<std::uint8_t> namedAmong(const State& state, const std::vector<BodyId>& bodies) {
+  std::vector<std::uint8_t> is_named(state.bodies.size(), 0);
+  for (const BodyId b : bodies) is_named[index(b)] = 1;
+  return is_named;
+}
+
 /// The mixing rules of two bodies: friction by the geometric mean, restitution by the larger.
 inline double frictionOf(const State& state, BodyId a, BodyId b) {
   return std::sqrt(state[a].friction * state[b].friction);

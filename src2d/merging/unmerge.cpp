@@ -27,14 +27,16 @@ void unmerge(State& state, Scratch& scratch) {
   if (scratch.sweeping) forgetExpectedContacts(state, scratch);
 }
 
-void releaseBody(State& state, Scratch& scratch, BodyId body) {
+void releaseBodies(State& state, Scratch& scratch, const std::vector<BodyId>& bodies) {
+  const std::vector<std::uint8_t> is_named = namedAmong(state, bodies);
   const std::size_t slots = state.collections.size();
   for (std::size_t slot = 0; slot < slots; ++slot) {
     Collection& c = state.collections[slot];
     if (c.id == kNoCollection) continue;
     bool any = false;
     for (Weld& weld : c.welds) {
-      weld.cut = weld.a == body || weld.b == body;  // marks of an earlier step parted nothing
+      weld.cut = (is_named[index(weld.a)] | is_named[index(weld.b)]) !=
+                 0;  // marks of an earlier step parted nothing
       if (!weld.cut) continue;
       weld.reason = EventReason::User;
       any = true;

@@ -198,7 +198,7 @@ void releaseTheRightBlock(const Overrides& rule) {
   ASSERT_NE(weld, c.welds.end());
   weld->cut = true;
   weld->reason = EventReason::Sliding;
-  releaseBody(state, scratch, right);
+  releaseBodies(state, scratch, {right});
   EXPECT_FALSE(stillTogether(state, plank, right));
   EXPECT_TRUE(stillTogether(state, left, plank));
   EXPECT_EQ(state[left].rigid, state[plank].rigid);
