@@ -86,7 +86,7 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
   }
 }
 
-/// What rests on a body that moves again by its script.
+/// Brings back all that rests on bodies that move by their script in this step.
 void bringBackMoved(State& state, const Actions& actions, Scratch& scratch) {
   if (state.parked.count == 0) return;
   std::vector<BodyId> moving;

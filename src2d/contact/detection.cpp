@@ -30,7 +30,7 @@ double reach(const State& state, double ahead) {
 
 /// True where two shapes that do not touch cannot meet in this step. `apart` is a lower bound of
 /// their distance: it shrinks by the largest motion of all bodies, and is measured again only where
-/// it is below what the two can approach by.
+/// the two can approach by more than that.
 bool staysApart(const State& state, const Approaches& approaches, const ContactKey& key,
                 float& apart) {
   apart -= static_cast<float>(2.0 * state.moved);
