@@ -86,16 +86,6 @@ void switchMagnets(State& state, const Actions& actions, Scratch& scratch) {
   }
 }
 
-/// Brings back all that rests on bodies that move by their script in this step.
-void bringBackMoved(State& state, const Actions& actions, Scratch& scratch) {
-  if (state.parked.count == 0) return;
-  std::vector<BodyId> moving;
-  for (const Actions::Scripted& scripted : actions.scripts) {
-    if (!state.rigid(scripted.body).still()) moving.push_back(scripted.body);
-  }
-  bringBackAround(state, scratch, moving);
-}
-
 }  // namespace
 
 void listAround(const State& state, const std::vector<BodyId>& bodies, std::vector<BodyId>& out) {
@@ -119,14 +109,15 @@ void listAround(const State& state, const std::vector<BodyId>& bodies, std::vect
 }
 
 void beginStep(State& state, Actions& actions, Scratch& scratch) {
+  layOutCollections(state);  // a step that an error ended may have left some
   scratch.events.clear();
   scratch.stirred.clear();
   takeOverStirred(state, actions, scratch);
   emitBodies(state, actions, scratch);
   letGo(state, actions, scratch);
   switchMagnets(state, actions, scratch);
-  moveScripted(state, actions);
-  bringBackMoved(state, actions, scratch);
+  moveScripted(state, actions, scratch);
+  bringBackAround(state, scratch, scratch.started);
   listLoads(state, actions, scratch);
   listKicks(state, actions, scratch);
   // Bodies that are about to be struck look ahead for contacts already in this step.

@@ -38,6 +38,26 @@ void forgetContacts(State& state, Scratch& scratch, BodyId body) {
   collectPairs(state, scratch);
 }
 
+/// Takes the bodies of a joint out of their collections. Those that are merged with a fixed one
+/// stay.
+void releaseEnds(Setup& setup, Scratch& scratch, BodyId a, BodyId b) {
+  const State& state = setup.state;
+  for (const BodyId body : {a, b}) {
+    if (state[body].alive && state.responds(body)) release(setup, scratch, body);
+  }
+}
+
+/// Bodies that are fixed have no contacts with each other: those of a pinned one would make it a
+/// member.
+void dropContactsOfFixed(State& state, Scratch& scratch) {
+  const auto are_fixed = [&](const ContactKey& key) {
+    return !state.responds(key.a) && !state.responds(key.b);
+  };
+  dropContacts(state.contacts, [&](const Contact& contact) { return are_fixed(contact.key); });
+  std::erase_if(state.contacts.idle, [&](const IdlePair& pair) { return are_fixed(pair.key); });
+  collectPairs(state, scratch);
+}
+
 bool isScripted(const State& state, BodyId body) { return state[body].motion == Motion::Scripted; }
 
 void letFloat(Rigid& r) {
@@ -134,6 +154,7 @@ void pin(Setup& setup, Scratch& scratch, BodyId body) {
   r.v.setZero();
   r.omega = r.inv_mass = r.inv_inertia = 0.0;
   r.resized = true;
+  dropContactsOfFixed(state, scratch);
 }
 
 void unpin(Setup& setup, Scratch& scratch, BodyId body) {
@@ -193,8 +214,7 @@ void setMode(Setup& setup, Scratch& scratch, Mode mode) {
 std::uint32_t addJoint(Setup& setup, Scratch& scratch, const JointDesc& desc) {
   State& state = setup.state;
   const BodyId a{static_cast<std::uint32_t>(desc.a)};
-  release(setup, scratch, a);
-  if (desc.b) release(setup, scratch, BodyId{static_cast<std::uint32_t>(*desc.b)});
+  releaseEnds(setup, scratch, a, desc.b ? BodyId{static_cast<std::uint32_t>(*desc.b)} : a);
   appendJoint(state, desc);
   listNewJoint(state);
   if (!desc.collide && desc.b) {
@@ -212,10 +232,8 @@ std::uint32_t addJoint(Setup& setup, Scratch& scratch, const JointDesc& desc) {
 void removeJoint(Setup& setup, Scratch& scratch, std::uint32_t joint) {
   State& state = setup.state;
   if (state.joints[joint].broken) return;
-  const BodyId a = state.joints[joint].a, b = state.joints[joint].b;
-  const bool to_world = state.joints[joint].to_world;
-  if (state[a].alive) release(setup, scratch, a);
-  if (!to_world && state[b].alive) release(setup, scratch, b);
+  const Joint& held = state.joints[joint];
+  releaseEnds(setup, scratch, held.a, held.to_world ? held.a : held.b);
   breakJoint(state, scratch, state.joints[joint]);
 }
 

@@ -190,13 +190,16 @@ ScriptPose scriptPose(const Actions::Scripted& scripted, double time) {
                     scripted.script);
 }
 
-void moveScripted(State& state, const Actions& actions) {
+void moveScripted(State& state, const Actions& actions, Scratch& scratch) {
+  scratch.started.clear();
   for (const Actions::Scripted& scripted : actions.scripts) {
     Rigid& r = state[rigidOf(scripted.body)];
+    const bool stood = r.still();
     const ScriptPose next = scriptPose(scripted, state.time + state.h);
     const Vec2 center = Pose::at(next.position, next.angle) * scripted.center;
     r.v = (center - r.x) / state.h;
     r.omega = (next.angle - r.angle) / state.h;
+    if (stood && !r.still()) scratch.started.push_back(scripted.body);
   }
 }
 

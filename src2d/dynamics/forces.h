@@ -49,8 +49,9 @@ struct ScriptPose {
 };
 ScriptPose scriptPose(const Actions::Scripted& scripted, double time);
 
-/// Gives scripted bodies the velocity that brings them to their pose at the end of the step.
-void moveScripted(State& state, const Actions& actions);
+/// Gives scripted bodies the velocity that brings them to their pose at the end of the step, and
+/// lists those that stood still before in `scratch.started`.
+void moveScripted(State& state, const Actions& actions, Scratch& scratch);
 
 /// Lists the forces of this step: springs and timed forces.
 void listLoads(State& state, Actions& actions, Scratch& scratch);

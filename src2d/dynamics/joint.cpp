@@ -294,8 +294,9 @@ void breakJoint(State& state, Scratch& scratch, Joint& joint) {
   scratch.events.push_back({EventType::Break, joint.a, joint.to_world ? joint.a : joint.b});
   joint.broken = true;
   joint.lambda = {};
-  state.rigid(joint.a).resized = true;  // the broadphase is to look again
-  if (!joint.to_world) state.rigid(joint.b).resized = true;
+  for (const BodyId body : {joint.a, joint.to_world ? joint.a : joint.b}) {
+    if (state.responds(body)) state.rigid(body).resized = true;  // the broadphase is to look again
+  }
   eraseFrom(state.joint_lists.present, static_cast<std::uint32_t>(&joint - state.joints.data()));
   if (partsBodies(joint)) eraseFrom(state.joined_pairs, pairOf(joint));
 }

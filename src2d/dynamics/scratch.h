@@ -312,6 +312,7 @@ struct Scratch {
   /// Bodies for which something is new in this step that is no contact and no impulse: a force
   /// begins or ends, a magnet is switched, a pin is drawn.
   std::vector<BodyId> stirred;
+  std::vector<BodyId> started;  ///< scripted bodies that stood still before this step
 
   // SleepAndWake
   std::vector<std::uint8_t> restless, island_awake;  ///< per rigid that is present

@@ -8,6 +8,7 @@
 #include "src2d/collections/collection.h"
 #include "src2d/collections/weld_list.h"
 #include "src2d/contact/detection.h"
+#include "src2d/contact/parking.h"
 #include "src2d/contact/table.h"
 #include "src2d/proofs/proof_transfer.h"
 
@@ -189,6 +190,7 @@ void expectContactsOfStruck(State& state, Scratch& scratch) {
     if (contact.count > 0) found.push_back(contact);
   }
   addContacts(state.contacts, found);
+  bringBackTouched(state);
   absorbContacts(state);
   for (const RigidId id : struckCollections(state, scratch)) {
     for (InternalContact& inner : state.collection(id).contacts) {

@@ -87,12 +87,18 @@ Decision* recordMerge(const State& state, Notes* notes, const BodyPair& pair,
 
 namespace {
 
+/// Asleep a pair waits: its things are not looked at, and may be parked.
+bool isAsleep(const State& state, const BodyPair& pair) {
+  return state.rigid(pair.a).asleep || state.rigid(pair.b).asleep;
+}
+
 void listReadyContacts(const State& state, Scratch& scratch, const MergeGraph& graph) {
   for (const BodyPair& pair : scratch.pairs) {
     const int steps = state.contacts[state.contacts.order[pair.first]].quiet_steps;
     const Criterion counted = wasQuietForLong(state, steps);
     if (steps > 0) recordMerge(state, scratch.notes, pair, counted);
-    if (!counted.holds || !haveOneFrame(state, pair.a, pair.b).holds) continue;
+    if (!counted.holds || isAsleep(state, pair)) continue;
+    if (!haveOneFrame(state, pair.a, pair.b).holds) continue;
     scratch.ready.push_back({.pair = pair,
                              .node_a = graph.node(pair.a),
                              .node_b = graph.node(pair.b),
@@ -105,7 +111,8 @@ void listReadyJoints(const State& state, Scratch& scratch, const MergeGraph& gra
     const BodyPair pair{joint.a, joint.b, 0, 0};
     const Criterion held = isHeldByJoints(joint);
     recordMerge(state, scratch.notes, pair, held);
-    if (!held.holds || !haveOneFrame(state, joint.a, joint.b).holds) continue;
+    if (!held.holds || isAsleep(state, pair)) continue;
+    if (!haveOneFrame(state, joint.a, joint.b).holds) continue;
     scratch.ready.push_back({.pair = pair,
                              .node_a = graph.node(joint.a),
                              .node_b = graph.node(joint.b),

@@ -3,6 +3,7 @@
 #include "src2d/collections/collection.h"
 #include "src2d/collections/cuts.h"
 #include "src2d/contact/detection.h"
+#include "src2d/contact/parking.h"
 #include "src2d/merging/bounces.h"
 #include "src2d/merging/expected_contacts.h"
 #include "src2d/merging/rule.h"
@@ -28,6 +29,8 @@ void unmerge(State& state, Scratch& scratch) {
 }
 
 void releaseBodies(State& state, Scratch& scratch, const std::vector<BodyId>& bodies) {
+  bringBackAround(state, scratch, bodies);
+  layOutCollections(state);  // a step that an error ended may have left some
   const std::vector<std::uint8_t> is_named = namedAmong(state, bodies);
   const std::size_t slots = state.collections.size();
   for (std::size_t slot = 0; slot < slots; ++slot) {

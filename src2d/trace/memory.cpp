@@ -64,8 +64,8 @@ std::size_t bytesOfScratch(const Scratch& s) {
   return bytesOf(s.loads, s.kicks, s.springs, s.stretches, s.spring_gain, s.pairs, s.events,
                  s.moved, s.moved_flag, s.candidates, s.touching, s.seams, s.loose_sides,
                  s.fixed_covers, s.touchers, s.casts, s.kick_order, s.load_order, s.near_candidates,
-                 s.near_refined, s.paired_with, s.meetings, s.seeds, s.stirred, s.restless,
-                 s.island_awake) +
+                 s.near_refined, s.paired_with, s.meetings, s.seeds, s.stirred, s.started,
+                 s.restless, s.island_awake) +
          bytesOf(s.sweep_u, s.sweep_contacts, s.sweep_joints, s.near_collection, s.outer_loads,
                  s.load_place, s.doubts, s.regions, s.open_members, s.open_rows, s.open_start,
                  s.open, s.swept, s.opened, s.overloaded_joints, s.ready, s.ties) +

@@ -104,6 +104,44 @@ TEST(WorldEdit, APinnedBodyStaysAndAnUnpinnedOneFalls) {
   EXPECT_NEAR(now(world, BodyId{2}).x.y(), 8 - 0.5 * kGravity * 0.25, 0.05);
 }
 
+/// Its contact with the ground outlived the pin, and made it a member.
+TEST(WorldEdit, ABodyThatIsPinnedWhereItLiesIsNoMember) {
+  World world(column(2), {.mode = Mode::Merge});
+  runSteps(world, 100);
+  world.pin(kFirst);
+  runSteps(world, 50);
+  EXPECT_EQ(now(world, kFirst).collection, kNoCollection);
+  EXPECT_NE(now(world, BodyId{2}).collection, kNoCollection) << "which stands on it";
+  world.unpin(kFirst);
+  world.setVelocity(kFirst, {0, 3}, 0.0);
+  runSteps(world, 5);
+  EXPECT_GT(now(world, kFirst).x.y(), 0.55);
+}
+
+/// A step that ends with an error between two stages may leave a collection that has come apart and
+/// is not laid out.
+TEST(WorldEdit, AWorldWhoseStepFailedCanBeChanged) {
+  for (const bool removes : {false, true}) {
+    Scene scene = wall(8, 10);
+    scene.settings.merging.rule = MergingRule::Paper;
+    scene.settings.unmerging.rule = UnmergingRule::Paper;
+    add(scene, box(0.5, 0.5, {-30, 20}));
+    const BodyId flying{static_cast<std::uint32_t>(scene.bodies.size() - 1)};
+    const BodyId top{static_cast<std::uint32_t>(scene.bodies.size() - 2)};
+    World world(scene, {.mode = Mode::Merge});
+    runSteps(world, 100);
+    const Snapshot seen = world.capture();
+    world.applyImpulse(top, of(seen, top).x, {20000, 6000});
+    for (int i = 0; i < 3; ++i) world.applyImpulse(flying, of(seen, flying).x, {1.7e308, 0});
+    EXPECT_THROW(world.step(), SimulationError);
+    if (removes) {
+      world.removeBody(kFirst);
+    } else {
+      world.release(kFirst);
+    }
+  }
+}
+
 TEST(WorldEdit, WhatStoodOnAGroundThatIsUnpinnedFallsWithIt) {
   World world = atRest(3);
   world.unpin(BodyId{0});
