@@ -145,9 +145,9 @@ void takeBack(State& state, RigidId id) {
   state.collections.bringBack(index(id) - state.bodies.size());
 }
 
-/// Appends the rigid thing of a body, if it is parked. A body that is never parked ties nothing
-/// together, but its pairs went with those that rest on it: these, then. The boxes of a pair meet:
-/// the broadphase drops it where they do not.
+/// Appends the rigid thing of a body, if it is parked. Of a body that is never parked all that is
+/// near it, and all that a joint holds to it: their pairs with it were set aside with them. The
+/// boxes of such a pair meet, as the broadphase drops it where they do not.
 void addAround(const State& state, BodyId body, std::vector<RigidId>& queue) {
   const auto add = [&](RigidId id) {
     if (state.parked.holds(id)) queue.push_back(id);
