@@ -1,6 +1,9 @@
 #include "src2d/collections/joint_welds.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "src2d/collections/weld_list.h"
 
@@ -9,15 +12,18 @@ namespace {
 
 using Pair = std::pair<BodyId, BodyId>;
 
-/// Inside a collection motor and limit hold until they have yielded.
+/// Inside a collection rows hold until they have yielded.
 int freedomsInside(const State& state, const JointBlock& k) {
   const Joint& joint = state.joints[k.joint];
-  if (joint.kind == JointKind::Weld) return 3;
   const auto yields = [&](std::size_t row) {
-    return std::abs(joint.yielded[row - kMotorRow]) > state.settings.unmerging.sliding;
+    return std::abs(joint.yielded[row]) > state.settings.unmerging.sliding;
   };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(k.coupled); ++i) {
+    if (yields(i)) return 0;
+  }
+  if (joint.kind == JointKind::Weld) return 3;
   const bool brake = k.motor && joint.motor->speed == 0.0 && !yields(kMotorRow);
-  const bool limit = k.limit && k.rows[kLimitRow].bias == 0.0 && !yields(kLimitRow);
+  const bool limit = k.isAtLimit() && !yields(kLimitRow);
   if (joint.kind == JointKind::Distance) return (joint.limits ? limit : joint.stiffness == 0.0);
   return brake || limit ? 3 : 2;
 }
@@ -55,19 +61,41 @@ bool updateWelds(const State& state, Collection& c) {
   return less;
 }
 
-/// Calls `f(yielded, w)` for motors and limits, with the velocity at them, 0 inside their bounds.
-template <class F>
-void forEachBound(State& state, const Collection& c, const std::vector<SolverVelocity>& u, F&& f) {
+/// Sums up the velocities at the rows that give way: soft ones, and those at a bound.
+void sumYields(State& state, const Collection& c, const std::vector<SolverVelocity>& u) {
   const Rotation& turn = state[c.rigid].rotation;
   for (const JointBlock& k : c.joints) {
-    for (const std::size_t row : {kMotorRow, kLimitRow}) {
-      if (!(row == kMotorRow ? k.motor : k.limit)) continue;
-      const JointRow& r = k.rows[row];
-      const bool inside = k.lambda[row] > r.lower && k.lambda[row] < r.upper;
-      const double w = inside ? 0.0 : jointVelocity(r, turn, u[k.a], u[k.b]);
-      f(state.joints[k.joint].yielded[row - kMotorRow], w, inside);
-    }
+    k.forEachRow([&](std::size_t i) {
+      const JointRow& row = k.rows[i];
+      const bool holds = row.softness == 0.0 && k.isWithinBounds(i);
+      float& yielded = state.joints[k.joint].yielded[i];
+      const double w = jointVelocity(row, turn, u[k.a], u[k.b]);
+      yielded = holds ? 0.0F : yielded + static_cast<float>(w);
+    });
   }
+}
+
+/// The relative velocities that the rows of a block would give bodies at rest. Those of what is not
+/// soft give none.
+std::array<double, 3> yieldOf(const JointBlock& k) {
+  Eigen::Vector3d rest = Eigen::Vector3d::Zero(), softness = Eigen::Vector3d::Zero();
+  for (int i = 0; i < k.coupled; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    softness[i] = k.rows[row].softness;
+    rest[i] = k.rows[row].bias + softness[i] * k.lambda[row];
+  }
+  const Eigen::Vector3d w = softness.cwiseProduct(k.inverse * rest) - rest;
+  return {w[0], w[1], w[2]};
+}
+
+/// No corner of the bodies of a joint is farther from its ends [m].
+double reachOf(const State& state, const Joint& joint) {
+  const auto from = [&](BodyId body, const Vec2& anchor) {
+    const OrientedBox& box = state.extent(rigidOf(body)).box;
+    return (box.frame.position - anchor).norm() + box.half.norm();
+  };
+  const double reach = from(joint.a, joint.anchor_a);
+  return joint.to_world ? reach : std::max(reach, from(joint.b, joint.anchor_b));
 }
 
 }  // namespace
@@ -86,10 +114,20 @@ void addJointWelds(const State& state, Collection& c) {
 
 bool loosenJoints(State& state, Collection& c, const std::vector<SolverVelocity>& u) {
   if (c.joints.empty()) return false;
-  forEachBound(state, c, u, [](float& yielded, double w, bool inside) {
-    yielded = inside ? 0.0F : yielded + static_cast<float>(w);
-  });
+  sumYields(state, c, u);
   return updateWelds(state, c);
+}
+
+double fastestYield(const State& state, const Collection& c) {
+  double fastest = 0.0;
+  for (const JointBlock& k : c.joints) {
+    const std::array<double, 3> w = yieldOf(k);
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      const double arm = k.rows[i].turns() ? reachOf(state, state.joints[k.joint]) : 1.0;
+      fastest = std::max(fastest, arm * std::abs(w[i]));
+    }
+  }
+  return fastest;
 }
 
 bool anyJointBreaks(const State& state, const Collection& c) {

@@ -35,9 +35,13 @@ struct JointHold {
 void addJointWelds(const State& state, Collection& collection);
 
 /// After a sweep with the velocities `u`: counts the joints of each weld anew. A limit lets go, and
-/// a brake yields, once the velocities that the sweep finds there sum up to `unmerging.sliding`.
-/// True when some weld holds less.
+/// a brake or a soft joint yields, once the velocities that the sweep finds there sum up to
+/// `unmerging.sliding`. True when some weld holds less.
 bool loosenJoints(State& state, Collection& collection, const std::vector<SolverVelocity>& u);
+
+/// The fastest motion with which a soft joint inside would give way further under the impulses that
+/// stand there, of the corners of its bodies [m/s].
+double fastestYield(const State& state, const Collection& collection);
 
 /// True when a joint inside bears more than it can.
 bool anyJointBreaks(const State& state, const Collection& collection);

@@ -39,19 +39,13 @@ class JointBuilder {
  public:
   JointBuilder(const State& state, const Joint& joint, const JointPlace& place, JointRows kind,
                const SolverVelocity& a, const SolverVelocity& b)
-      : state_(state),
-        joint_(joint),
-        place_(place),
-        rigid_(kind == JointRows::Rigid || (kind == JointRows::Soft && postStabilised(state))),
-        a_(a),
-        b_(b) {
+      : state_(state), joint_(joint), place_(place), a_(a), b_(b) {
+    const bool corrects = kind == JointRows::Correcting;
+    const bool soft = !corrects && joint.compliance > 0.0;
+    rigid_ = !soft && (kind == JointRows::Keeping || (!corrects && postStabilised(state)));
+    share_ = corrects ? kCorrectedShare : soft ? 1.0 : state.settings.solver.erp;
     // An implicit spring: λ = −h (s + h w) / compliance.
-    const bool soft = kind == JointRows::Soft && joint.compliance > 0.0;
-    share_ = kind == JointRows::Correction ? kCorrectedShare
-             : soft                        ? 1.0
-                                           : state.settings.solver.erp;
     if (soft) softness_ = joint.compliance / (state.h * state.h);
-    rigid_ &= !soft;
   }
 
   JointBlock build() {
@@ -178,8 +172,8 @@ class JointBuilder {
   const State& state_;
   const Joint& joint_;
   const JointPlace& place_;
-  bool rigid_;
   const SolverVelocity &a_, &b_;
+  bool rigid_ = false;  ///< rows keep the error
   double softness_ = 0.0, share_ = 0.0;
   JointBlock block_;
 };

@@ -44,8 +44,8 @@ struct Joint {
   std::array<float, 3> error{};    ///< of the coupled rows [m, rad]
   float breath = std::numeric_limits<float>::infinity();  ///< largest change of it in a step
   int quiet_steps = 0;             ///< consecutive steps in which the bodies could have merged
-  std::array<float, 2> yielded{};  ///< way of motor and limit, in consecutive steps at a bound,
-                                   ///< inside a collection [m/s, rad/s]
+  std::array<float, 4> yielded{};  ///< way of each row, in consecutive steps in which it gives
+                                   ///< way inside a collection [m/s, rad/s]
 };
 
 /// The two bodies of a joint, ascending.
@@ -77,9 +77,9 @@ inline bool slidesOnWorld(const Joint& joint) {
 using JointErrors = std::array<double, 4>;
 JointErrors errorsOf(const Joint& joint, const JointPlace& place);
 
-/// Whether rows are to remove the joint's error, and give way by its compliance; only to keep the
-/// error; or to correct positions.
-enum class JointRows { Soft, Rigid, Correction };
+/// Whether rows are to remove the joint's error; only to keep it, inside a collection; or to
+/// correct positions. The first two give way by its compliance.
+enum class JointRows { Removing, Keeping, Correcting };
 
 /// Bodies that are there, and not broken apart.
 bool holds(const State& state, const Joint& joint);

@@ -27,6 +27,8 @@ struct JointRow {
   double inv_k = 0.0;  ///< 1 / (K + C), of motor and limit
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();  ///< of λ, of motor and limit
+
+  bool turns() const { return dx == 0.0 && dy == 0.0; }
 };
 
 /// Row 2 is the third of a weld, or else the motor; row 3 is the limit.
@@ -42,6 +44,13 @@ struct JointBlock {
   /// Away from its bounds a row holds in both directions.
   bool isWithinBounds(std::size_t i) const {
     return lambda[i] > rows[i].lower && lambda[i] < rows[i].upper;
+  }
+
+  /// The limit leaves no way.
+  bool isAtLimit() const {
+    const JointRow& row = rows[kLimitRow];
+    if (!limit) return false;
+    return row.lower == 0.0 ? row.bias <= 0.0 : row.upper == 0.0 ? row.bias >= 0.0 : true;
   }
 
   /// The rows that there are, one after the other.

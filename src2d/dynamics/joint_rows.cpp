@@ -70,7 +70,7 @@ JointBlock makeBlock(const State& state, const Scratch& scratch, const Joint& jo
   const std::uint32_t a = moverA(state, scratch, joint), b = moverB(state, scratch, joint);
   const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.rigids[b].x;
   const JointPlace place = placeOf(state, joint, {}, state.rigids[a].x, x_b);
-  const JointRows rows = isInside(state, joint) ? JointRows::Rigid : JointRows::Soft;
+  const JointRows rows = isInside(state, joint) ? JointRows::Keeping : JointRows::Removing;
   JointBlock k = makeJointBlock(state, joint, place, rows, scratch.u[a], scratch.u[b]);
   k.a = a;
   k.b = b;

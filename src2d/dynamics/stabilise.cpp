@@ -36,7 +36,7 @@ void aimAtJoints(const State& state, Scratch& scratch) {
     const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.rigids[k.b].x;
     const JointPlace place = placeOf(state, joint, {}, state.rigids[k.a].x, x_b);
     JointBlock anew =
-        makeJointBlock(state, joint, place, JointRows::Correction, scratch.u[k.a], scratch.u[k.b]);
+        makeJointBlock(state, joint, place, JointRows::Correcting, scratch.u[k.a], scratch.u[k.b]);
     anew.a = k.a;
     anew.b = k.b;
     anew.joint = k.joint;

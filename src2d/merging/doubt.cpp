@@ -96,19 +96,6 @@ void recordFinding(const State& state, const Scratch& scratch, const Collection&
                                             {.count = finding.used, .needed = finding.known}));
 }
 
-/// A load that known proofs carry leaves the collection quiet, if its joints bear it too.
-Finding carry(State& state, Collection& c, Finding finding, const Coverage& coverage) {
-  carryBy(c, coverage.weights);
-  if (!c.joints.empty()) {
-    writeImpulses(c);
-    if (overloadsJoints(state, c)) return {Doubt::Open, kOverloaded, "open"};
-  }
-  c.settled = true;
-  finding.verdict = "carried";
-  finding.doubt = c.certificate.front().search.isUnderWay() ? Doubt::Search : Doubt::None;
-  return finding;
-}
-
 /// For any other load impulses are sought, unless those for a load beyond it are already, or
 /// contacts can pass its new part on.
 Finding seek(State& state, const Scratch& scratch, Collection& c, Finding finding,
@@ -129,6 +116,30 @@ Finding seek(State& state, const Scratch& scratch, Collection& c, Finding findin
   return finding;
 }
 
+/// Joints that are soft bear more only where they give way more, whatever known proofs carry.
+Criterion restsOnSoftJoints(const State& state, const Collection& c) {
+  const double motion = fastestYield(state, c), most = cutSpeed(state);
+  return {"proof-motion", kOwnDecided, motion, most, motion <= most};
+}
+
+/// A load that known proofs carry leaves the collection quiet, if its joints bear it too.
+Finding carry(State& state, const Scratch& scratch, Collection& c, Finding finding,
+              const Coverage& coverage, const CollectionLoad& load) {
+  carryBy(c, coverage.weights);
+  if (!c.joints.empty()) {
+    writeImpulses(c);
+    if (overloadsJoints(state, c)) return {Doubt::Open, kOverloaded, "open"};
+    if (const Criterion rests = restsOnSoftJoints(state, c); !rests.holds) {
+      finding.because = rests;
+      return seek(state, scratch, c, finding, load);
+    }
+  }
+  c.settled = true;
+  finding.verdict = "carried";
+  finding.doubt = c.certificate.front().search.isUnderWay() ? Doubt::Search : Doubt::None;
+  return finding;
+}
+
 /// The doubt about the load of a collection in this step.
 Finding findDoubt(State& state, const Scratch& scratch, Collection& c) {
   const LoadCertificate& proof = c.certificate.front();
@@ -146,7 +157,7 @@ Finding findDoubt(State& state, const Scratch& scratch, Collection& c) {
   finding.used =
       static_cast<int>(std::ranges::count_if(coverage.weights, [](double w) { return w > 0.0; }));
   finding.known = static_cast<int>(proof.witnesses.size());
-  return coverage.carried.holds ? carry(state, c, finding, coverage)
+  return coverage.carried.holds ? carry(state, scratch, c, finding, coverage, load)
                                 : seek(state, scratch, c, finding, load);
 }
 
