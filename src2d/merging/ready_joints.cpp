@@ -6,6 +6,7 @@
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/merge_criteria.h"
 #include "src2d/merging/pair_metric.h"
+#include "src2d/proofs/decided_settings.h"
 
 namespace merge2d {
 namespace {
@@ -19,9 +20,12 @@ Criterion jointHardlyBreathes(const State& state, const Joint& joint, double sca
   return below("breathing", kOwnMerging, joint.breath, scale * state.settings.merging.breathing);
 }
 
-/// Eqs. (15) to (17) for the bodies of a joint.
-Criterion jointedBodiesMoveAsOne(const State& state, const BodyPair& pair, double scale) {
-  const double most = scale * state.settings.merging.velocity;
+/// Eqs. (15) to (17) for the bodies of a joint. Those of a soft one must have come to rest: merged
+/// they would be found to move at once.
+Criterion jointedBodiesMoveAsOne(const State& state, const Joint& joint, const BodyPair& pair,
+                                 double scale) {
+  double most = scale * state.settings.merging.velocity;
+  if (joint.compliance > 0.0) most = std::min(most, cutSpeed(state));
   return below("relative-motion", kOwnMerging, relativeMotion(state, pair), most);
 }
 
@@ -30,7 +34,7 @@ void countQuietJoint(State& state, Joint& joint, Notes* notes) {
   const BodyPair pair{a, b, 0, 0};
   const double scale = thresholdScale(contactSize(state, joint.a, joint.b));
   const Criterion breath = jointHardlyBreathes(state, joint, scale);
-  const Criterion motion = jointedBodiesMoveAsOne(state, pair, scale);
+  const Criterion motion = jointedBodiesMoveAsOne(state, joint, pair, scale);
   joint.yielded = {};
   const int before = joint.quiet_steps;
   joint.quiet_steps = breath.holds && motion.holds ? before + 1 : 0;
