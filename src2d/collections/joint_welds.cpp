@@ -88,16 +88,6 @@ std::array<double, 3> yieldOf(const JointBlock& k) {
   return {w[0], w[1], w[2]};
 }
 
-/// No corner of the bodies of a joint is farther from its ends [m].
-double reachOf(const State& state, const Joint& joint) {
-  const auto from = [&](BodyId body, const Vec2& anchor) {
-    const OrientedBox& box = state.extent(rigidOf(body)).box;
-    return (box.frame.position - anchor).norm() + box.half.norm();
-  };
-  const double reach = from(joint.a, joint.anchor_a);
-  return joint.to_world ? reach : std::max(reach, from(joint.b, joint.anchor_b));
-}
-
 }  // namespace
 
 void addJointWelds(const State& state, Collection& c) {

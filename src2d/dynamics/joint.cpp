@@ -275,6 +275,39 @@ JointForce jointForce(const State& state, const Joint& joint) {
   return {impulse / state.h, (load.torque + cross(place.at - place.p_b, impulse)) / state.h};
 }
 
+double velocityErrorOf(const State& state, const Joint& joint) {
+  const auto motionOf = [&](BodyId body) {
+    const Rigid& r = state.rigid(body);
+    const Vec2 v = r.velocityAt(state.pose(body).position);
+    return SolverVelocity{v.x(), v.y(), r.omega, 1.0, 1.0};
+  };
+  const Vec2 x_a = state.pose(joint.a).position;
+  const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.pose(joint.b).position;
+  const SolverVelocity a = motionOf(joint.a),
+                       b = joint.to_world ? SolverVelocity{} : motionOf(joint.b);
+  const JointBlock k =
+      makeJointBlock(state, joint, placeOf(state, joint, {}, x_a, x_b), JointRows::Removing, a, b);
+  double most = 0.0;
+  k.forEachRow([&](std::size_t i) {
+    const bool is_motor = k.motor && i == kMotorRow;  // its impulse is bounded
+    const double rest = jointRest(k, i, {}, a, b);
+    const JointRow& row = k.rows[i];
+    const bool lets_go = (rest > 0.0 && row.lower == 0.0) || (rest < 0.0 && row.upper == 0.0);
+    if (is_motor || lets_go) return;
+    most = std::max(most, std::abs(rest) * (row.turns() ? reachOf(state, joint) : 1.0));
+  });
+  return most;
+}
+
+double reachOf(const State& state, const Joint& joint) {
+  const auto from = [&](BodyId body, const Vec2& anchor) {
+    const OrientedBox& box = state.extent(rigidOf(body)).box;
+    return (box.frame.position - anchor).norm() + box.half.norm();
+  };
+  const double reach = from(joint.a, joint.anchor_a);
+  return joint.to_world ? reach : std::max(reach, from(joint.b, joint.anchor_b));
+}
+
 bool breaks(const State& state, const Joint& joint) {
   if (joint.broken) return false;
   if (joint.break_force == kForever && joint.break_torque == kForever) return false;

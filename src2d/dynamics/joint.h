@@ -114,6 +114,14 @@ struct JointForce {
 };
 JointForce jointForce(const State& state, const Joint& joint);
 
+/// How far the velocities of its bodies are from what its rows ask for, with the impulses of the
+/// last step, at the corners of their boxes [m/s]: a rope that becomes taut, or a script that
+/// starts with a jerk.
+double velocityErrorOf(const State& state, const Joint& joint);
+
+/// No corner of the boxes of its bodies is farther from its ends [m].
+double reachOf(const State& state, const Joint& joint);
+
 /// True when the force is more than it bears.
 bool breaks(const State& state, const Joint& joint);
 

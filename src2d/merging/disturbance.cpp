@@ -7,6 +7,7 @@
 #include "src2d/dynamics/casts.h"
 #include "src2d/dynamics/hit_rows.h"
 #include "src2d/merging/expected_contacts.h"
+#include "src2d/proofs/decided_settings.h"
 
 namespace merge2d {
 namespace {
@@ -125,10 +126,6 @@ void reportImpacts(const State& state, Scratch& scratch) {
 }
 
 }  // namespace
-
-double impactSpeed(const State& state) {
-  return std::max(2.0 * state.h * state.gravity.norm(), state.settings.unmerging.velocity);
-}
 
 void orderContacts(State& state, Scratch& scratch) {
   expectContactsOfStruck(state, scratch);

@@ -1,6 +1,9 @@
 #include "src2d/merging/doubt_spread.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "src2d/collections/collection.h"
 #include "src2d/merging/disturbance.h"
@@ -66,36 +69,71 @@ void spreadHits(State& state, Scratch& scratch) {
   }
 }
 
-void noteReached(const State& state, Scratch& scratch) {
-  const auto moves = [&](BodyId b) {
-    const Rigid& r = state.rigid(b);
-    return !r.asleep && (r.floating() || state.isCollection(state[b].rigid));
+namespace {
+
+/// The rigid things that float and are hit or kicked, or jerked by a joint.
+std::vector<RigidId> struckRigids(const State& state, const Scratch& scratch) {
+  std::vector<RigidId> struck;
+  const auto add = [&](BodyId b) {
+    if (state.rigid(b).floating() && !state.rigid(b).asleep) struck.push_back(state[b].rigid);
   };
-  const auto isFree = [&](BodyId b) { return moves(b) && !state.isCollection(state[b].rigid); };
-  const auto at = [&](BodyId b) { return static_cast<std::uint32_t>(state[b].rigid); };
-  std::vector<std::uint32_t> hit;
+  const double impact = impactSpeed(state);
   for (const Meeting& m : scratch.meetings) {
-    if (m.speed <= impactSpeed(state)) continue;
-    const BodyPair& pair = scratch.pairs[m.pair];
-    for (const BodyId b : {pair.a, pair.b}) {
-      if (isFree(b)) hit.push_back(at(b));
-    }
+    if (m.speed <= impact) continue;
+    add(scratch.pairs[m.pair].a);
+    add(scratch.pairs[m.pair].b);
   }
-  if (hit.empty()) return;
-  auto& sets = scratch.sets;
-  sets.reset(state.rigids.size());
-  for (const BodyPair& pair : scratch.pairs) {
-    if (moves(pair.a) && moves(pair.b)) sets.unite(at(pair.a), at(pair.b));
+  for (const Kick& kick : scratch.kicks) add(kick.body);
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
+    if (!holds(state, joint) || isInside(state, joint)) continue;
+    if (velocityErrorOf(state, joint) <= impact) continue;
+    add(joint.a);
+    if (!joint.to_world) add(joint.b);
   }
+  return struck;
+}
+
+/// What passes a blow on: it floats, or is a collection.
+bool passesBlows(const State& state, BodyId b) {
+  const Rigid& r = state.rigid(b);
+  return !r.asleep && (r.floating() || state.isCollection(state[b].rigid));
+}
+
+/// Has the solve asked about the collections, floating or not, that hang together with one of
+/// these.
+void markReached(const State& state, Scratch& scratch, std::span<const RigidId> struck,
+                 bool floating) {
+  const auto setOf = [&](RigidId id) { return scratch.sets.find(static_cast<std::uint32_t>(id)); };
   SetNames reached;
-  for (const std::uint32_t id : hit) reached.add(sets.find(id));
+  for (const RigidId id : struck) reached.add(setOf(id));
   reached.sort();
   for (const Collection& c : state.collections) {
-    if (!isSwept(state, c) || state[c.rigid].floating()) continue;
+    if (!isSwept(state, c) || state[c.rigid].floating() != floating) continue;
     Doubt& doubt = scratch.doubts[state.collections.slotOf(c)];
-    const bool is_reached = reached.contains(sets.find(static_cast<std::uint32_t>(c.rigid)));
-    if (is_reached && doubt == Doubt::None) doubt = Doubt::Reached;
+    if (doubt == Doubt::None && reached.contains(setOf(c.rigid))) doubt = Doubt::Reached;
   }
+}
+
+}  // namespace
+
+void noteReached(const State& state, Scratch& scratch) {
+  std::vector<RigidId> struck = struckRigids(state, scratch);
+  if (struck.empty()) return;
+  scratch.sets.reset(state.rigids.size());
+  const auto unite = [&](BodyId a, BodyId b) {
+    if (!passesBlows(state, a) || !passesBlows(state, b)) return;
+    scratch.sets.unite(static_cast<std::uint32_t>(state[a].rigid),
+                       static_cast<std::uint32_t>(state[b].rigid));
+  };
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
+    if (!joint.to_world && holds(state, joint)) unite(joint.a, joint.b);
+  }
+  markReached(state, scratch, struck, true);
+  for (const BodyPair& pair : scratch.pairs) unite(pair.a, pair.b);
+  std::erase_if(struck, [&](RigidId id) { return state.isCollection(id); });
+  markReached(state, scratch, struck, false);
 }
 
 void openWhatFramesDrag(const State& state, Scratch& scratch) {

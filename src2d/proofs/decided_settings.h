@@ -73,6 +73,12 @@ inline bool isSmallPart(std::size_t part, std::size_t of) { return kDecided.litt
 /// for before it merges.
 inline int hitSteps(const State& state) { return state.settings.merging.steps; }
 
+/// Pairs that meet faster than this are an impact: gravity alone does not do it within two steps,
+/// so a resting body that lost its contact for a moment is none [m/s].
+inline double impactSpeed(const State& state) {
+  return std::max(2.0 * state.h * state.gravity.norm(), state.settings.unmerging.velocity);
+}
+
 /// Something hits it in these steps.
 inline bool isHit(const State& state, const Collection& c) {
   return state.step - c.hits.blow < hitSteps(state);

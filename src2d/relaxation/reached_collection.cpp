@@ -1,6 +1,8 @@
 #include "src2d/relaxation/reached_collection.h"
 
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "src2d/collections/collection.h"
 #include "src2d/collections/inner_push.h"
@@ -14,12 +16,26 @@
 namespace merge2d {
 namespace {
 
+/// Where a collection floats no load moves its members against each other that hardly moves it.
+bool isStruck(const State& state, const Collection& c, const CollectionLoad& load) {
+  return !state[c.rigid].floating() || load.norm > impactSpeed(state);
+}
+
+/// Those on which something acts from outside.
+std::vector<std::uint32_t> membersActedOn(const CollectionLoad& load) {
+  std::vector<std::uint32_t> members;
+  for (const OuterLoad& outer : load.outer) members.push_back(outer.member);
+  return members;
+}
+
 /// The members that cannot pass on the loads that the solve has put on them.
 std::vector<std::uint32_t> overloadedMembers(State& state, const Scratch& scratch, Collection& c) {
-  if (coverageOf(state, c, loadOn(state, scratch, c)).carried.holds) return {};
+  const CollectionLoad load = loadOn(state, scratch, c);
+  if (!isStruck(state, c, load) || coverageOf(state, c, load).carried.holds) return {};
   bringBlocksBack(state, c);
   writeImpulses(c);
   listWeldsOfMembers(c);
+  if (state[c.rigid].floating()) return membersActedOn(load);
   layOutPush(state, c);
   return findDisturbed(state, scratch, c, true);
 }

@@ -1,7 +1,7 @@
 #pragma once
-/// A collection that is fixed to a frame and rests against something free. Where that is hit, also
-/// through others, the blow must not end in the frame: the full solve takes the collection as
-/// immovable, and tells how much it would have to bear.
+/// A collection that a blow reaches through something else: what rests against it is hit, or a rope
+/// that holds it becomes taut. The blow must not end in its frame, nor move all of its members as
+/// one: the full solve takes the collection as one body, and tells how much it would have to bear.
 
 #include "src2d/dynamics/state.h"
 
@@ -15,8 +15,8 @@ void beginReached(const State& state, const Scratch& scratch, const Collection& 
                   OpenRegion& region);
 
 /// After the solve: opens it where its proofs do not cover that load, and contacts cannot pass it
-/// on to the frame. True where the step must be solved again. The loads from outside must be listed
-/// again.
+/// on to the frame; one that floats where the blow also moves it faster than an impact is. True
+/// where the step must be solved again. The loads from outside must be listed again.
 bool openReached(State& state, Scratch& scratch, OpenRegion& region);
 
 }  // namespace merge2d
