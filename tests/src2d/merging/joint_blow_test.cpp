@@ -1,0 +1,105 @@
+/// Blows that reach collections through joints.
+
+#include <fmt/format.h>
+
+#include "tests/support/merging_testing.h"
+
+namespace merge2d {
+namespace {
+
+/// A cart of 20 kg on two wheels with a crate of 20 kg on it, that rolls with `speed`.
+std::string cart(double speed, const std::string& more) {
+  std::string toml = kGround + "[material]\nfriction = 0.5\n";
+  const auto add = [&](const std::string& name, double x, double y, const std::string& rest) {
+    toml += fmt::format("[[body]]\nname = \"{}\"\nat = [{}, {}]\nvelocity = [{}, 0]\n{}\n", name, x,
+                        y, speed, rest);
+  };
+  add("cart", 0, 0.5, "box = [2, 0.2]\nmass = 20");
+  add("crate", 0, 0.85, "box = [0.5, 0.5]\nmass = 20");
+  for (const auto& [name, x] : {std::pair("rear", -0.7), std::pair("front", 0.7)}) {
+    const double spin = -speed / 0.2 / kDegree;
+    add(name, x, 0.2, fmt::format("circle = 0.2\nmass = 1\nspin = {}", spin));
+    toml += fmt::format(
+        "[[joint]]\nkind = \"revolute\"\nbodies = [\"cart\", \"{}\"]\nat = [{}, 0.2]\n", name, x);
+  }
+  return toml + more;
+}
+
+/// How far the crate is from where it was on the cart.
+double wayOfCrate(const Simulation& run) {
+  return run.body("crate").x.x() - run.body("cart").x.x();
+}
+
+/// What stops the cart does not stop the crate: it slides on, by v² / (2 μ g) where the cart
+/// stands.
+TEST(JointBlow, ACrateSlidesOnWhereARopeStopsItsCart) {
+  const std::string rope =
+      "[[joint]]\nkind = \"distance\"\nbodies = [\"cart\"]\nat = [-1, 0.5]\nto = [-4, 0.5]\n"
+      "limits = [0, 9]\n";
+  for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {
+    SCOPED_TRACE(name(mode));
+    Simulation run(cart(3.0, rope), mode);
+    run.until(1.9);
+    EXPECT_EQ(run.merged("crate"), mode != Mode::Reference);
+    EXPECT_NEAR(wayOfCrate(run), 0.0, 1e-3);
+    run.until(4.0);
+    EXPECT_NEAR(wayOfCrate(run), 3.0 * 3.0 / (2 * 0.5 * kGravity), 0.05);
+  }
+}
+
+/// The same where a curb stops one of its wheels; the cart springs back a little.
+TEST(JointBlow, ACrateSlidesOnWhereACurbStopsAWheelOfItsCart) {
+  const std::string curb =
+      "[[body]]\nname = \"curb\"\nmotion = \"pinned\"\nat = [6.2, 0.1]\nbox = [0.4, 0.2]\n";
+  Simulation reference(cart(3.0, curb), Mode::Reference), run(cart(3.0, curb), Mode::Merge);
+  run.until(1.6);
+  ASSERT_TRUE(run.merged("crate"));
+  run.until(4.0);
+  reference.until(4.0);
+  EXPECT_NEAR(wayOfCrate(run), wayOfCrate(reference), 0.05);
+  EXPECT_GT(wayOfCrate(run), 0.5);
+}
+
+/// A kick on a wheel moves the cart below its crate.
+TEST(JointBlow, ACrateStaysBehindWhereAWheelOfItsCartIsKicked) {
+  Simulation reference(cart(0.0, ""), Mode::Reference), run(cart(0.0, ""), Mode::Merge);
+  for (Simulation* one : {&reference, &run}) {
+    one->until(2.0);
+    one->kick("rear", {60.0, 0.0});
+    one->until(5.0);
+  }
+  EXPECT_LT(wayOfCrate(reference), -0.15);
+  EXPECT_NEAR(wayOfCrate(run), wayOfCrate(reference), 0.02);
+}
+
+/// What its joints and contacts can pass on parts nothing: one that swings on a rope stays merged.
+TEST(JointBlow, ACrateStaysOnATrayThatSwings) {
+  Simulation run(R"(
+format = 1
+[[body]]
+name = "tray"
+at = [0, -2]
+shapes = [{ box = [0.1, 2], at = [0, 1] }, { box = [2, 0.2] }]
+spin = 30
+velocity = [1.0471976, 0]
+[[body]]
+name = "crate"
+at = [0.4, -1.65]
+box = [0.5, 0.5]
+spin = 30
+velocity = [0.8639380, 0.2094395]
+[[joint]]
+kind = "revolute"
+bodies = ["tray"]
+at = [0, 0]
+)",
+                 Mode::Merge);
+  run.until(1.0);
+  ASSERT_TRUE(run.merged("crate"));
+  const int before = run.count(EventType::Unmerge);
+  run.until(6.0);
+  EXPECT_EQ(run.count(EventType::Unmerge), before);
+}
+
+}  // namespace
+}  // namespace merge2d
