@@ -50,7 +50,8 @@ struct JointBlock {
   bool isAtLimit() const {
     const JointRow& row = rows[kLimitRow];
     if (!limit) return false;
-    return row.lower == 0.0 ? row.bias <= 0.0 : row.upper == 0.0 ? row.bias >= 0.0 : true;
+    if (row.lower == 0.0) return row.bias <= 0.0;
+    return row.upper != 0.0 || row.bias >= 0.0;
   }
 
   /// The rows that there are, one after the other.

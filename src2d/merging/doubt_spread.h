@@ -10,7 +10,8 @@ void spreadHits(State& state, Scratch& scratch);
 
 /// A blow may reach a collection on a frame through other bodies and joints, and one that floats
 /// through joints: the solve of the step tells (reached_collection.h). Where it comes through
-/// contacts alone, one that floats takes it as one body, and its own load is asked in the next step.
+/// contacts alone, one that floats takes it as one body, and its own load is asked in the next
+/// step.
 void noteReached(const State& state, Scratch& scratch);
 
 /// Between two things that are fixed to different frames the full solve has no row, and no load

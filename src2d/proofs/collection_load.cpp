@@ -81,8 +81,8 @@ void addJoints(const State& state, OuterLoads& loads) {
     const Vec2 x_a = state.pose(joint.a).position;
     const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.pose(joint.b).position;
     SolverVelocity a{.inv_mass = 1.0, .inv_inertia = 1.0}, b = a;
-    JointBlock k =
-        makeJointBlock(state, joint, placeOf(state, joint, {}, x_a, x_b), JointRows::Removing, a, b);
+    JointBlock k = makeJointBlock(state, joint, placeOf(state, joint, {}, x_a, x_b),
+                                  JointRows::Removing, a, b);
     k.lambda = joint.lambda;
     applyJointImpulses(k, {}, a, b);
     loads.add(joint.a, {a.vx, a.vy}, a.omega);
