@@ -75,8 +75,8 @@ void sumYields(State& state, const Collection& c, const std::vector<SolverVeloci
   }
 }
 
-/// The relative velocities that the rows of a block would give bodies at rest. Those of what is not
-/// soft give none.
+/// The relative velocities that the rows of a block would give bodies at rest. Rigid rows give
+/// none.
 std::array<double, 3> yieldOf(const JointBlock& k) {
   Eigen::Vector3d rest = Eigen::Vector3d::Zero(), softness = Eigen::Vector3d::Zero();
   for (int i = 0; i < k.coupled; ++i) {

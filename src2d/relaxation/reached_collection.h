@@ -1,7 +1,8 @@
 #pragma once
-/// A collection that a blow reaches through something else: what rests against it is hit, or a rope
-/// that holds it becomes taut. The blow must not end in its frame, nor move all of its members as
-/// one: the full solve takes the collection as one body, and tells how much it would have to bear.
+/// A collection that a blow reaches through something else: a body that rests against it is hit, or
+/// a rope that holds it becomes taut. The blow must not end in its frame, nor move all of its
+/// members as one: the full solve takes the collection as one body, and tells how much it would
+/// have to bear.
 
 #include "src2d/dynamics/state.h"
 
