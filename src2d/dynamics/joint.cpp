@@ -276,17 +276,19 @@ JointForce jointForce(const State& state, const Joint& joint) {
 }
 
 double velocityErrorOf(const State& state, const Joint& joint) {
-  const auto motionOf = [&](BodyId body) {
-    const Rigid& r = state.rigid(body);
-    const Vec2 v = r.velocityAt(state.pose(body).position);
-    return SolverVelocity{v.x(), v.y(), r.omega, 1.0, 1.0};
-  };
   const Vec2 x_a = state.pose(joint.a).position;
   const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.pose(joint.b).position;
-  const SolverVelocity a = motionOf(joint.a),
-                       b = joint.to_world ? SolverVelocity{} : motionOf(joint.b);
-  const JointBlock k =
-      makeJointBlock(state, joint, placeOf(state, joint, {}, x_a, x_b), JointRows::Removing, a, b);
+  const JointPlace place = placeOf(state, joint, {}, x_a, x_b);
+  // Before it turned in the last step, as to turn it takes forces.
+  const auto motionOf = [&](BodyId body, const Vec2& x) {
+    const Rigid& r = state.rigid(body);
+    const Vec2 arm = r.previous_rotation * (r.rotation.inverse() * (place.at - r.x));
+    const Vec2 v = r.v + cross(r.omega, arm) - cross(r.omega, place.at - x);
+    return SolverVelocity{v.x(), v.y(), r.omega, 1.0, 1.0};
+  };
+  const SolverVelocity a = motionOf(joint.a, x_a),
+                       b = joint.to_world ? SolverVelocity{} : motionOf(joint.b, x_b);
+  const JointBlock k = makeJointBlock(state, joint, place, JointRows::Removing, a, b);
   double most = 0.0;
   k.forEachRow([&](std::size_t i) {
     const bool is_motor = k.motor && i == kMotorRow;  // its impulse is bounded

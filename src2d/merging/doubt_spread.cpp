@@ -102,22 +102,26 @@ bool passesBlows(const State& state, BodyId b) {
 
 /// Has the solve asked about the collections, floating or not, that hang together with one of
 /// these.
-void markReached(const State& state, Scratch& scratch, std::span<const RigidId> struck,
-                 bool floating) {
+void markReached(State& state, Scratch& scratch, std::span<const RigidId> struck, bool floating) {
   const auto setOf = [&](RigidId id) { return scratch.sets.find(static_cast<std::uint32_t>(id)); };
   SetNames reached;
   for (const RigidId id : struck) reached.add(setOf(id));
   reached.sort();
-  for (const Collection& c : state.collections) {
+  for (Collection& c : state.collections) {
     if (!isSwept(state, c) || state[c.rigid].floating() != floating) continue;
+    if (!reached.contains(setOf(c.rigid))) continue;
     Doubt& doubt = scratch.doubts[state.collections.slotOf(c)];
-    if (doubt == Doubt::None && reached.contains(setOf(c.rigid))) doubt = Doubt::Reached;
+    if (doubt == Doubt::None) doubt = Doubt::Reached;
+    if (doubt == Doubt::Search && floating) {  // no proof is known that may cover it
+      doubt = Doubt::Open;
+      c.hits.blow = state.step;
+    }
   }
 }
 
 }  // namespace
 
-void noteReached(const State& state, Scratch& scratch) {
+void noteReached(State& state, Scratch& scratch) {
   std::vector<RigidId> struck = struckRigids(state, scratch);
   if (struck.empty()) return;
   scratch.sets.reset(state.rigids.size());

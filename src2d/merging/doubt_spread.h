@@ -12,7 +12,7 @@ void spreadHits(State& state, Scratch& scratch);
 /// through joints: the solve of the step tells (reached_collection.h). Where it comes through
 /// contacts alone, one that floats takes it as one body, and its own load is asked in the next
 /// step.
-void noteReached(const State& state, Scratch& scratch);
+void noteReached(State& state, Scratch& scratch);
 
 /// Between two things that are fixed to different frames the full solve has no row, and no load
 /// tells how one drags at the other: where a frame moves, it is asked with the members on their
