@@ -111,7 +111,8 @@ limits = [-60, 10]
   }
 }
 
-/// What its joints and contacts can pass on parts nothing: one that swings on a rope stays merged.
+/// A load that joints and contacts can pass on parts nothing: a crate on a tray that swings stays
+/// merged.
 TEST(JointBlow, ACrateStaysOnATrayThatSwings) {
   Simulation run(R"(
 format = 1
