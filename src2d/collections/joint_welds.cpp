@@ -1,6 +1,5 @@
 #include "src2d/collections/joint_welds.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,17 +74,13 @@ void sumYields(State& state, const Collection& c, const std::vector<SolverVeloci
   }
 }
 
-/// The relative velocities that the rows of a block would give bodies at rest. Rigid rows give
-/// none.
-std::array<double, 3> yieldOf(const JointBlock& k) {
-  Eigen::Vector3d rest = Eigen::Vector3d::Zero(), softness = Eigen::Vector3d::Zero();
-  for (int i = 0; i < k.coupled; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    softness[i] = k.rows[row].softness;
-    rest[i] = k.rows[row].bias + softness[i] * k.lambda[row];
-  }
-  const Eigen::Vector3d w = softness.cwiseProduct(k.inverse * rest) - rest;
-  return {w[0], w[1], w[2]};
+/// No corner of the members of a joint is farther from its ends [m].
+double reachOfMembers(const State& state, const Collection& c, const Joint& joint) {
+  const auto reach = [&](BodyId body, const Vec2& anchor) {
+    return state[body].rigid == c.rigid ? reachFrom(state, body, anchor) : 0.0;
+  };
+  const double of_a = reach(joint.a, joint.anchor_a);
+  return joint.to_world ? of_a : std::max(of_a, reach(joint.b, joint.anchor_b));
 }
 
 }  // namespace
@@ -111,11 +106,12 @@ bool loosenJoints(State& state, Collection& c, const std::vector<SolverVelocity>
 double fastestYield(const State& state, const Collection& c) {
   double fastest = 0.0;
   for (const JointBlock& k : c.joints) {
-    const std::array<double, 3> w = yieldOf(k);
-    for (std::size_t i = 0; i < w.size(); ++i) {
-      const double arm = k.rows[i].turns() ? reachOf(state, state.joints[k.joint]) : 1.0;
-      fastest = std::max(fastest, arm * std::abs(w[i]));
-    }
+    const std::array<double, 4> change = changeBySolving(k, {}, {});
+    k.forEachRow([&](std::size_t i) {
+      if (k.rows[i].softness == 0.0) return;
+      const double arm = k.rows[i].turns() ? reachOfMembers(state, c, state.joints[k.joint]) : 1.0;
+      fastest = std::max(fastest, arm * std::abs(change[i]));
+    });
   }
   return fastest;
 }

@@ -112,7 +112,7 @@ class JointBuilder {
     limit(row, value);
   }
 
-  /// The nearer limit: met as a contact is, never overrun in a step.
+  /// The nearer limit: met as a contact is, never overrun in a step, unless it is soft.
   void limit(JointRow row, double value) {
     if (!joint_.limits) return;
     const auto [lower, upper] = *joint_.limits;
@@ -122,7 +122,6 @@ class JointBuilder {
     const double way = gap > 0.0 ? gap / state_.h : share_ * gap / state_.h;
     const bool pressed = joint_.lambda[kLimitRow] != 0.0;
     row.bias = rigid_ && (pressed || gap <= 0.0) ? 0.0 : sign * way;
-    if (gap > 0.0) row.softness = 0.0;
     if (lower != upper) (at_lower ? row.lower : row.upper) = 0.0;
     block_.rows[kLimitRow] = row;
     block_.limit = true;
@@ -275,39 +274,47 @@ JointForce jointForce(const State& state, const Joint& joint) {
   return {impulse / state.h, (load.torque + cross(place.at - place.p_b, impulse)) / state.h};
 }
 
-double velocityErrorOf(const State& state, const Joint& joint) {
-  const Vec2 x_a = state.pose(joint.a).position;
-  const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.pose(joint.b).position;
-  const JointPlace place = placeOf(state, joint, {}, x_a, x_b);
-  // Before it turned in the last step, as to turn it takes forces.
-  const auto motionOf = [&](BodyId body, const Vec2& x) {
-    const Rigid& r = state.rigid(body);
-    const Vec2 arm = r.previous_rotation * (r.rotation.inverse() * (place.at - r.x));
-    const Vec2 v = r.v + cross(r.omega, arm) - cross(r.omega, place.at - x);
-    return SolverVelocity{v.x(), v.y(), r.omega, 1.0, 1.0};
-  };
-  const SolverVelocity a = motionOf(joint.a, x_a),
-                       b = joint.to_world ? SolverVelocity{} : motionOf(joint.b, x_b);
+namespace {
+
+/// A rigid thing as the full solve takes it.
+SolverVelocity moverVelocity(const Rigid& r, const Vec2& v) {
+  const bool moves = r.floating() && !r.asleep;
+  return {v.x(), v.y(), r.omega, moves ? r.inv_mass : 0.0, moves ? r.inv_inertia : 0.0};
+}
+
+/// The velocities of the ends are those before the bodies turned in the last step: the centripetal
+/// part of a force acts all the time, and is no jerk.
+SolverVelocity beforeTurn(const Rigid& r, const Vec2& end) {
+  const Vec2 arm = end - r.x;
+  const Vec2 before = r.previous_rotation * (r.rotation.inverse() * arm);
+  return moverVelocity(r, r.v + cross(r.omega, before) - cross(r.omega, arm));
+}
+
+}  // namespace
+
+double jerkOf(const State& state, const Joint& joint) {
+  const Rigid& r_a = state.rigid(joint.a);
+  const Rigid* r_b = joint.to_world ? nullptr : &state.rigid(joint.b);
+  const JointPlace place = placeOf(state, joint, {}, r_a.x, r_b ? r_b->x : Vec2(Vec2::Zero()));
+  const bool of_rod = joint.kind == JointKind::Distance;
+  const SolverVelocity a = beforeTurn(r_a, of_rod ? place.p_a : place.at);
+  const SolverVelocity b = r_b ? beforeTurn(*r_b, place.p_b) : SolverVelocity{};
+  if (a.inv_mass == 0.0 && b.inv_mass == 0.0) return 0.0;
+  double reach = 0.0;
+  if (a.inv_mass > 0.0) reach = reachFrom(state, joint.a, joint.anchor_a);
+  if (b.inv_mass > 0.0) reach = std::max(reach, reachFrom(state, joint.b, joint.anchor_b));
   const JointBlock k = makeJointBlock(state, joint, place, JointRows::Removing, a, b);
+  const std::array<double, 4> change = changeBySolving(k, a, b);
   double most = 0.0;
   k.forEachRow([&](std::size_t i) {
-    const bool is_motor = k.motor && i == kMotorRow;  // its impulse is bounded
-    const double rest = jointRest(k, i, {}, a, b);
-    const JointRow& row = k.rows[i];
-    const bool lets_go = (rest > 0.0 && row.lower == 0.0) || (rest < 0.0 && row.upper == 0.0);
-    if (is_motor || lets_go) return;
-    most = std::max(most, std::abs(rest) * (row.turns() ? reachOf(state, joint) : 1.0));
+    most = std::max(most, std::abs(change[i]) * (k.rows[i].turns() ? reach : 1.0));
   });
   return most;
 }
 
-double reachOf(const State& state, const Joint& joint) {
-  const auto from = [&](BodyId body, const Vec2& anchor) {
-    const OrientedBox& box = state.extent(rigidOf(body)).box;
-    return (box.frame.position - anchor).norm() + box.half.norm();
-  };
-  const double reach = from(joint.a, joint.anchor_a);
-  return joint.to_world ? reach : std::max(reach, from(joint.b, joint.anchor_b));
+double reachFrom(const State& state, BodyId body, const Vec2& anchor) {
+  const OrientedBox& box = state.extent(rigidOf(body)).box;
+  return (box.frame.position - anchor).norm() + box.half.norm();
 }
 
 bool breaks(const State& state, const Joint& joint) {

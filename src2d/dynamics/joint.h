@@ -44,8 +44,9 @@ struct Joint {
   std::array<float, 3> error{};    ///< of the coupled rows [m, rad]
   float breath = std::numeric_limits<float>::infinity();  ///< largest change of it in a step
   int quiet_steps = 0;             ///< consecutive steps in which the bodies could have merged
-  std::array<float, 4> yielded{};  ///< way of each row, in consecutive steps in which it gives
-                                   ///< way inside a collection [m/s, rad/s]
+  std::array<float, 4> yielded{};  ///< way of each row inside a collection: of a soft one since it
+                                   ///< merged, of another in consecutive steps at a bound [m/s,
+                                   ///< rad/s]
 };
 
 /// The two bodies of a joint, ascending.
@@ -114,13 +115,13 @@ struct JointForce {
 };
 JointForce jointForce(const State& state, const Joint& joint);
 
-/// How far the velocities of its bodies are from what its rows ask for, with the impulses of the
-/// last step, at the corners of their boxes [m/s]: a rope that becomes taut, or a script that
-/// starts with a jerk.
-double velocityErrorOf(const State& state, const Joint& joint);
+/// The largest change of the relative velocity of its bodies that a solve of its rows alone would
+/// make beyond the impulses of the last step, at the corners of those that respond [m/s]: where a
+/// rope becomes taut, a motor starts, or a script begins with a jerk.
+double jerkOf(const State& state, const Joint& joint);
 
-/// No corner of the boxes of its bodies is farther from its ends [m].
-double reachOf(const State& state, const Joint& joint);
+/// No corner of the box of a body is farther from a point in its frame [m].
+double reachFrom(const State& state, BodyId body, const Vec2& anchor);
 
 /// True when the force is more than it bears.
 bool breaks(const State& state, const Joint& joint);

@@ -94,6 +94,30 @@ inline double jointRest(const JointBlock& k, std::size_t i, const Rotation& turn
   return jointVelocity(r, turn, a, b) + r.bias + r.softness * k.lambda[i];
 }
 
+/// The change of the relative velocity along each row that a solve would make: the coupled rows
+/// together, each of the others alone [m/s, rad/s].
+inline std::array<double, 4> changeBySolving(const JointBlock& k, const SolverVelocity& a,
+                                             const SolverVelocity& b) {
+  Eigen::Vector3d rest = Eigen::Vector3d::Zero(), softness = Eigen::Vector3d::Zero();
+  std::array<double, 4> change{};
+  k.forEachRow([&](std::size_t i) {
+    const JointRow& r = k.rows[i];
+    const double error = jointRest(k, i, {}, a, b);
+    if (i < static_cast<std::size_t>(k.coupled)) {
+      rest[static_cast<Eigen::Index>(i)] = error;
+      softness[static_cast<Eigen::Index>(i)] = r.softness;
+      return;
+    }
+    const double x = std::clamp(k.lambda[i] - r.inv_k * error, r.lower, r.upper);
+    change[i] = (x - k.lambda[i]) * (1.0 / r.inv_k - r.softness);
+  });
+  const Eigen::Vector3d together = softness.cwiseProduct(k.inverse * rest) - rest;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(k.coupled); ++i) {
+    change[i] = together[static_cast<Eigen::Index>(i)];
+  }
+  return change;
+}
+
 /// Solves a motor or a limit.
 inline void solveJointBound(JointBlock& k, std::size_t i, const Rotation& turn, SolverVelocity& a,
                             SolverVelocity& b) {

@@ -243,10 +243,13 @@ bool correctionHolds(const State& state, std::span<const JointBlock> joints,
   return bent <= 0.25 * corrected;
 }
 
-void storeJointImpulses(State& state, Scratch& scratch) {
+void storeJointImpulses(State& state, const Scratch& scratch) {
+  for (const JointBlock& k : scratch.joint_blocks) state.joints[k.joint].lambda = k.lambda;
+}
+
+void breakOverloadedJoints(State& state, Scratch& scratch) {
   for (const JointBlock& k : scratch.joint_blocks) {
     Joint& joint = state.joints[k.joint];
-    joint.lambda = k.lambda;
     // Unmerge takes one apart that is inside an open collection.
     if (!isInside(state, joint) && breaks(state, joint)) breakJoint(state, scratch, joint);
   }

@@ -43,7 +43,10 @@ bool correctionHolds(const State& state, std::span<const JointBlock> joints,
                      const std::vector<SolverVelocity>& u, const std::vector<JointMotion>& before,
                      double corrected);
 
-/// Hands the impulses back to the joints, and breaks those that bear too much.
-void storeJointImpulses(State& state, Scratch& scratch);
+/// Hands the impulses back to the joints.
+void storeJointImpulses(State& state, const Scratch& scratch);
+
+/// Breaks the joints that bear too much, after the last solve of a step.
+void breakOverloadedJoints(State& state, Scratch& scratch);
 
 }  // namespace merge2d

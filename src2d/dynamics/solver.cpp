@@ -187,6 +187,11 @@ void solveIslands(const State& state, Scratch& scratch, ContactRows& rows) {
 void solveContacts(State& state, Scratch& scratch) {
   const bool post = state.settings.solver.stabilisation == Stabilisation::Post;
   if (std::exchange(scratch.solved, false) && !post) return;
+  solveAllRows(state, scratch);
+  breakOverloadedJoints(state, scratch);
+}
+
+void solveAllRows(State& state, Scratch& scratch) {
   listRows(state, scratch);
   ContactRows rows(state, scratch);
   scratch.hit_ways.clear();

@@ -31,7 +31,11 @@ double contactSize(const State& state, BodyId a, BodyId b);
 double contactSoftness(const State& state, BodyId a, BodyId b, double inv_mass_a,
                        double inv_mass_b);
 
-/// Sweeps over the rows; writes the impulses into the contacts and the velocities into `scratch.u`.
+/// SolveLCP, unless the step has been solved before; then joints break.
 void solveContacts(State& state, Scratch& scratch);
+
+/// Sweeps over the rows; writes the impulses into contacts and joints, and the velocities into
+/// `scratch.u`.
+void solveAllRows(State& state, Scratch& scratch);
 
 }  // namespace merge2d

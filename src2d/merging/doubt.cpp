@@ -198,6 +198,7 @@ void findDoubts(State& state, Scratch& scratch) {
     }
     if (doubt == Doubt::None && isLongQuiet(state, c)) putBlocksAway(c);
   }
+  const std::vector<Doubt> before = scratch.notes ? scratch.doubts : std::vector<Doubt>();
   noteReached(state, scratch);
   const bool any = std::ranges::any_of(state.collections.active(), [&](std::uint32_t slot) {
     return scratch.doubts[slot] != Doubt::None;
@@ -205,10 +206,9 @@ void findDoubts(State& state, Scratch& scratch) {
   scratch.sweeping = any;
   if (!any) return;
   scratch.last_doubt = state.step;
-  const std::vector<Doubt> before = scratch.notes ? scratch.doubts : std::vector<Doubt>();
   spreadHits(state, scratch);
   for (std::size_t slot = 0; slot < before.size(); ++slot) {
-    if (before[slot] == scratch.doubts[slot]) continue;
+    if (before[slot] == Doubt::Open || scratch.doubts[slot] != Doubt::Open) continue;
     recordFinding(state, scratch, state.collections[slot], {Doubt::Open, kNeighbourHit, "open"});
   }
   for (Collection& c : state.collections) {

@@ -83,11 +83,13 @@ std::vector<RigidId> struckRigids(const State& state, const Scratch& scratch) {
     add(scratch.pairs[m.pair].a);
     add(scratch.pairs[m.pair].b);
   }
-  for (const Kick& kick : scratch.kicks) add(kick.body);
+  for (const Kick& kick : scratch.kicks) {
+    if (kick.impulse.norm() * state.rigid(kick.body).inv_mass > impact) add(kick.body);
+  }
   for (const std::uint32_t i : state.joint_lists.present) {
     const Joint& joint = state.joints[i];
     if (!holds(state, joint) || isInside(state, joint)) continue;
-    if (velocityErrorOf(state, joint) <= impact) continue;
+    if (jerkOf(state, joint) <= impact) continue;
     add(joint.a);
     if (!joint.to_world) add(joint.b);
   }
@@ -111,8 +113,10 @@ void markReached(State& state, Scratch& scratch, std::span<const RigidId> struck
     if (!isSwept(state, c) || state[c.rigid].floating() != floating) continue;
     if (!reached.contains(setOf(c.rigid))) continue;
     Doubt& doubt = scratch.doubts[state.collections.slotOf(c)];
-    if (doubt == Doubt::None) doubt = Doubt::Reached;
-    if (doubt == Doubt::Search && floating) {  // no proof is known that may cover it
+    const bool carried = doubt == Doubt::Search && c.settled;  // a search looks ahead
+    if (doubt == Doubt::None || (floating && carried)) {
+      doubt = Doubt::Reached;
+    } else if (floating && doubt == Doubt::Search) {
       doubt = Doubt::Open;
       c.hits.blow = state.step;
     }

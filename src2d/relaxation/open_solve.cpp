@@ -5,6 +5,7 @@
 
 #include "src2d/collections/collection.h"
 #include "src2d/collections/momentum.h"
+#include "src2d/dynamics/joint_rows.h"
 #include "src2d/dynamics/solver.h"
 #include "src2d/proofs/collection_load.h"
 #include "src2d/relaxation/open_region.h"
@@ -92,8 +93,7 @@ void solveOpened(State& state, Scratch& scratch) {
   scratch.last_sweep = state.step;
   for (bool wider = true; wider;) {
     listRegions(state, scratch);
-    scratch.solved = false;
-    solveContacts(state, scratch);
+    solveAllRows(state, scratch);
     listOuterLoads(state, scratch);
     wider = false;
     for (OpenRegion& region : scratch.regions) {
@@ -102,6 +102,7 @@ void solveOpened(State& state, Scratch& scratch) {
     }
   }
   std::erase_if(scratch.regions, isClosed);
+  breakOverloadedJoints(state, scratch);
   scratch.solved = true;
   showVelocities(state, scratch);
   for (OpenRegion& region : scratch.regions) {

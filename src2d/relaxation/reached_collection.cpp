@@ -16,7 +16,7 @@
 namespace merge2d {
 namespace {
 
-/// Where a collection floats no load moves its members against each other that hardly moves it.
+/// A blow moves one that floats faster than an impact is.
 bool isStruck(const State& state, const Collection& c, const CollectionLoad& load) {
   return !state[c.rigid].floating() || load.norm > impactSpeed(state);
 }

@@ -167,10 +167,54 @@ TEST(JointLoad, ASoftWeldStretchesWithItsLoad) {
   }
 }
 
+TEST(JointLoad, ASoftLimitGivesWayToItsLoad) {
+  constexpr double kCompliance = 2e-5;
+  const std::string slider =
+      "kind = \"prismatic\"\naxis = [0, 1]\nlimits = [0, 1]\ncompliance = 2e-5\n";
+  for (const Mode mode : {Mode::Reference, Mode::Merge}) {
+    SCOPED_TRACE(name(mode));
+    Simulation run(hoist(20.0, slider), mode);
+    EXPECT_LT(errorOfStretch(run, 20.0, kCompliance), 0.06 * kCompliance * 50 * kGravity);
+    EXPECT_EQ(run.count(EventType::Merge) > 0, mode == Mode::Merge);
+  }
+}
+
 TEST(JointLoad, UnderThePapersRuleASoftWeldStretchesToo) {
   constexpr double kCompliance = 2e-5;
-  Simulation run(hoist(2.0, "kind = \"weld\"\ncompliance = 2e-5\n", "paper"), Mode::Merge);
-  EXPECT_LT(errorOfStretch(run, 2.0, kCompliance), 0.06 * kCompliance * 50 * kGravity);
+  Simulation run(hoist(20.0, "kind = \"weld\"\ncompliance = 2e-5\n", "paper"), Mode::Merge);
+  EXPECT_LT(errorOfStretch(run, 20.0, kCompliance), 0.06 * kCompliance * 50 * kGravity);
+  EXPECT_GT(run.count(EventType::Merge), 0);
+}
+
+/// A soft limit that a body runs into gives way by v √(C m), and gives the speed back but for the
+/// damping of the implicit step.
+TEST(JointLoad, ASoftLimitIsASpringFromTheFirstTouchOn) {
+  for (const double speed : {0.95, 1.0, 1.1, 1.2}) {
+    Simulation run(fmt::format(R"(
+format = 1
+gravity = [0, 0]
+[[body]]
+name = "slider"
+at = [0, 0]
+box = [0.5, 0.5]
+mass = 20
+velocity = [{}, 0]
+[[joint]]
+kind = "prismatic"
+bodies = ["slider"]
+at = [0, 0]
+axis = [1, 0]
+limits = [-9, 1]
+compliance = 1e-3
+)",
+                               speed),
+                   Mode::Reference);
+    double farthest = 0.0;
+    run.steps(300, [&] { farthest = std::max(farthest, run.body("slider").x.x()); });
+    const double overrun = speed * std::sqrt(1e-3 * 20.0);
+    EXPECT_NEAR(farthest - 1.0, overrun, 0.15 * overrun) << speed;
+    EXPECT_NEAR(run.body("slider").v.x(), -0.9 * speed, 0.12 * speed) << speed;
+  }
 }
 
 /// A plank of 5 kg and 2 m on a soft joint, and boxes of 1 kg that come to lie on it at 1.5 m.
