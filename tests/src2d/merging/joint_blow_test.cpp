@@ -48,7 +48,7 @@ TEST(JointBlow, ACrateSlidesOnWhereARopeStopsItsCart) {
 }
 
 /// The rope breaks where the cart alone is too much for it, as in the reference, and not where it
-/// bears the cart but would not bear the crate too. What it bears until it breaks slows the cart.
+/// bears the cart but would not bear the crate too. It slows the cart by as much as it bears.
 TEST(JointBlow, ARopeBreaksUnderWhatItStopsAlone) {
   for (const double force : {3000.0, 8000.0, 10000.0}) {
     SCOPED_TRACE(force);
