@@ -109,7 +109,7 @@ void Growth::addBlocks() {
   for (std::uint32_t i = contacts_; i < c_.contacts.size(); ++i) {
     InternalContact& inner = c_.contacts[i];
     inner.block = i;
-    c_.blocks.push_back(makeBlock(state_, c_, inner));
+    c_.blocks.push_back(innerBlock(state_, c_, inner));
     c_.block_contact.push_back(i);
     inner.count = static_cast<std::int16_t>(c_.blocks.back().count);
     c_.laid_out.points += inner.count;

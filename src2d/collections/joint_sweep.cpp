@@ -16,7 +16,7 @@ Vec2 centerOf(const State& state, const Joint& joint, bool of_b) {
 }
 
 /// The rows of a joint in `frame`; bodies keep their own masses.
-JointBlock makeBlock(const State& state, std::uint32_t i, const Pose& frame, JointRows rows,
+JointBlock bodyBlock(const State& state, std::uint32_t i, const Pose& frame, JointRows rows,
                      const SolverVelocity& a, const SolverVelocity& b) {
   const Joint& joint = state.joints[i];
   const JointPlace place =
@@ -52,7 +52,7 @@ void layOutJoints(const State& state, Collection& c) {
   c.joints.clear();
   for (const std::uint32_t i : jointsInside(state, c)) {
     const Joint& joint = state.joints[i];
-    c.joints.push_back(makeBlock(state, i, state[c.rigid].frame(), JointRows::Keeping,
+    c.joints.push_back(bodyBlock(state, i, state[c.rigid].frame(), JointRows::Keeping,
                                  memberMasses(state, c, bodyIndexA(joint)),
                                  memberMasses(state, c, bodyIndexB(state, joint))));
   }
@@ -68,7 +68,7 @@ void listSweepJoints(const State& state, Scratch& scratch) {
         isSweptMember(state, joint.a) || (!joint.to_world && isSweptMember(state, joint.b));
     const std::uint32_t a = bodyIndexA(joint), b = bodyIndexB(state, joint);
     if (!swept || (u[a].inv_mass == 0.0 && u[b].inv_mass == 0.0)) continue;
-    scratch.sweep_joints.push_back(makeBlock(state, i, {}, JointRows::Removing, u[a], u[b]));
+    scratch.sweep_joints.push_back(bodyBlock(state, i, {}, JointRows::Removing, u[a], u[b]));
     for (const std::uint32_t body : {a, b}) {
       if (body < state.bodies.size()) scratch.near_collection[body] = 1;
     }
@@ -90,7 +90,7 @@ void warmStartSweepJoints(const State& state, Scratch& scratch) {
       return body < state.bodies.size() && scratch.near_collection[body] != 0;
     };
     if (!holds(state, joint) || isInside(state, joint) || (!near(a) && !near(b))) continue;
-    applyJointImpulses(makeBlock(state, i, {}, JointRows::Removing, u[a], u[b]), {}, u[a], u[b]);
+    applyJointImpulses(bodyBlock(state, i, {}, JointRows::Removing, u[a], u[b]), {}, u[a], u[b]);
   }
 }
 

@@ -106,7 +106,7 @@ void layOutWelds(const State& state, Collection& c) {
 
 }  // namespace
 
-ContactBlock makeBlock(const State& state, const Collection& c, const InternalContact& contact) {
+ContactBlock innerBlock(const State& state, const Collection& c, const InternalContact& contact) {
   const auto origin = [&](BodyId b) {
     return state[b].rigid == c.rigid ? state[b].local : Vec2(Vec2::Zero());
   };
@@ -187,7 +187,7 @@ void layOutBlocks(const State& state, Collection& c) {
   for (InternalContact& inner : c.contacts) {
     if (regrouping.from()[inner.block] == Regrouping::kNew) {
       ContactBlock& k = c.blocks[inner.block];
-      k = makeBlock(state, c, inner);
+      k = innerBlock(state, c, inner);
       inner.count = static_cast<std::int16_t>(k.count);  // points too close to each other are one
     }
     c.laid_out.points += inner.count;
@@ -208,7 +208,7 @@ void bringBlocksBack(const State& state, Collection& c) {
   reserveTightly(c.blocks, c.block_contact.size());
   for (const std::uint32_t contact : c.block_contact) {
     c.contacts[contact].block = static_cast<std::uint32_t>(c.blocks.size());
-    c.blocks.push_back(makeBlock(state, c, c.contacts[contact]));
+    c.blocks.push_back(innerBlock(state, c, c.contacts[contact]));
   }
 }
 

@@ -13,7 +13,7 @@ Aabb memberBounds(const State& state, BodyId member);
 void fitBox(State& state, RigidId collection);
 
 /// The rows of a contact inside, with its impulses.
-ContactBlock makeBlock(const State& state, const Collection& collection,
+ContactBlock innerBlock(const State& state, const Collection& collection,
                        const InternalContact& contact);
 
 /// Where a few bodies have joined a large collection with proofs since its last layout, and nothing

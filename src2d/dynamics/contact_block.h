@@ -191,6 +191,63 @@ struct ManifoldFriction {
   }
 };
 
+/// How two bodies turn while a block is solved [rad/s], and the impulses that it adds meanwhile
+/// along its normal and its tangent [N s].
+struct BlockSolve {
+  double omega_a, omega_b;
+  double p_n = 0.0, p_t = 0.0;
+};
+
+/// The rows of two points, where their centres of mass move by `v_n` and `v_t`.
+inline void solveTwoPoints(ContactBlock& k, double v_n, double v_t, const SolverVelocity& a,
+                           const SolverVelocity& b, BlockSolve& s) {
+  const double w1 = v_n + k.arm_bn[0] * s.omega_b - k.arm_an[0] * s.omega_a + k.bias[0] +
+                    k.softness * k.lambda_n(0);
+  const double w2 = v_n + k.arm_bn[1] * s.omega_b - k.arm_an[1] * s.omega_a + k.bias[1] +
+                    k.softness * k.lambda_n(1);
+  double x1, x2;
+  solveNormalPair(k, w1, w2, x1, x2);
+  const double p1 = x1 - k.lambda_n(0), p2 = x2 - k.lambda_n(1);
+  k.lambda_n(0) = x1;
+  k.lambda_n(1) = x2;
+  s.p_n = p1 + p2;
+  s.omega_a -= a.inv_inertia * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
+  s.omega_b += b.inv_inertia * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
+
+  const ManifoldFriction f(k);
+  const double y = f.solve(k, v_t + f.arm_b * s.omega_b - f.arm_a * s.omega_a);
+  const double y1 = f.part[0] * y, y2 = f.part[1] * y;
+  const double q1 = y1 - k.lambda_t(0), q2 = y2 - k.lambda_t(1);
+  k.lambda_t(0) = y1;
+  k.lambda_t(1) = y2;
+  s.p_t = q1 + q2;
+  s.omega_a -= a.inv_inertia * (k.arm_at[0] * q1 + k.arm_at[1] * q2);
+  s.omega_b += b.inv_inertia * (k.arm_bt[0] * q1 + k.arm_bt[1] * q2);
+}
+
+/// The rows of one point, likewise.
+inline void solveOnePoint(ContactBlock& k, double v_n, double v_t, const SolverVelocity& a,
+                          const SolverVelocity& b, BlockSolve& s) {
+  const double w = v_n + k.arm_bn[0] * s.omega_b - k.arm_an[0] * s.omega_a + k.bias[0] +
+                   k.softness * k.lambda_n(0);
+  double x = k.lambda_n(0) - w / k.k11;
+  if (!k.bilateral) x = std::max(0.0, x);
+  s.p_n = x - k.lambda_n(0);
+  k.lambda_n(0) = x;
+  s.omega_a -= a.inv_inertia * k.arm_an[0] * s.p_n;
+  s.omega_b += b.inv_inertia * k.arm_bn[0] * s.p_n;
+
+  const double y = solveTangent(k, 0, v_t + k.arm_bt[0] * s.omega_b - k.arm_at[0] * s.omega_a);
+  s.p_t = y - k.lambda_t(0);
+  k.lambda_t(0) = y;
+  s.omega_a -= a.inv_inertia * k.arm_at[0] * s.p_t;
+  s.omega_b += b.inv_inertia * k.arm_bt[0] * s.p_t;
+  if (!k.rolls()) return;
+  const double p_r = solveRolling(k, s.omega_b - s.omega_a, a, b);
+  s.omega_a -= a.inv_inertia * p_r;
+  s.omega_b += b.inv_inertia * p_r;
+}
+
 /// Solves one block: normals together, then their friction (Eqs. (5)-(7)). `nx`, `ny` is
 /// the block's normal in the frame of the velocities. The rows share a normal: what one of them
 /// changes for the next is told by its impulse alone, so that the velocities are read and written
@@ -200,62 +257,22 @@ inline void solveBlock(ContactBlock& k, double nx, double ny, SolverVelocity& a,
   const double dx = b.vx - a.vx, dy = b.vy - a.vy;
   const double v_n = nx * dx + ny * dy;  // of the centres of mass
   const double v_t = nx * dy - ny * dx + a.surface + b.surface;
-  double omega_a = a.omega, omega_b = b.omega;
-  double p_n, p_t;  // what is added along the normal and the tangent
+  BlockSolve s{a.omega, b.omega};
   if (k.count == 2) {
-    const double w1 = v_n + k.arm_bn[0] * omega_b - k.arm_an[0] * omega_a + k.bias[0] +
-                      k.softness * k.lambda_n(0);
-    const double w2 = v_n + k.arm_bn[1] * omega_b - k.arm_an[1] * omega_a + k.bias[1] +
-                      k.softness * k.lambda_n(1);
-    double x1, x2;
-    solveNormalPair(k, w1, w2, x1, x2);
-    const double p1 = x1 - k.lambda_n(0), p2 = x2 - k.lambda_n(1);
-    k.lambda_n(0) = x1;
-    k.lambda_n(1) = x2;
-    p_n = p1 + p2;
-    omega_a -= a.inv_inertia * (k.arm_an[0] * p1 + k.arm_an[1] * p2);
-    omega_b += b.inv_inertia * (k.arm_bn[0] * p1 + k.arm_bn[1] * p2);
-
-    const ManifoldFriction f(k);
-    const double y = f.solve(k, v_t + f.arm_b * omega_b - f.arm_a * omega_a);
-    const double y1 = f.part[0] * y, y2 = f.part[1] * y;
-    const double q1 = y1 - k.lambda_t(0), q2 = y2 - k.lambda_t(1);
-    k.lambda_t(0) = y1;
-    k.lambda_t(1) = y2;
-    p_t = q1 + q2;
-    omega_a -= a.inv_inertia * (k.arm_at[0] * q1 + k.arm_at[1] * q2);
-    omega_b += b.inv_inertia * (k.arm_bt[0] * q1 + k.arm_bt[1] * q2);
+    solveTwoPoints(k, v_n, v_t, a, b, s);
   } else {
-    const double w = v_n + k.arm_bn[0] * omega_b - k.arm_an[0] * omega_a + k.bias[0] +
-                     k.softness * k.lambda_n(0);
-    double x = k.lambda_n(0) - w / k.k11;
-    if (!k.bilateral) x = std::max(0.0, x);
-    p_n = x - k.lambda_n(0);
-    k.lambda_n(0) = x;
-    omega_a -= a.inv_inertia * k.arm_an[0] * p_n;
-    omega_b += b.inv_inertia * k.arm_bn[0] * p_n;
-
-    const double y = solveTangent(k, 0, v_t + k.arm_bt[0] * omega_b - k.arm_at[0] * omega_a);
-    p_t = y - k.lambda_t(0);
-    k.lambda_t(0) = y;
-    omega_a -= a.inv_inertia * k.arm_at[0] * p_t;
-    omega_b += b.inv_inertia * k.arm_bt[0] * p_t;
-    if (k.rolls()) {
-      const double p_r = solveRolling(k, omega_b - omega_a, a, b);
-      omega_a -= a.inv_inertia * p_r;
-      omega_b += b.inv_inertia * p_r;
-    }
+    solveOnePoint(k, v_n, v_t, a, b, s);
   }
-  const double px = nx * p_n - ny * p_t, py = ny * p_n + nx * p_t;
+  const double px = nx * s.p_n - ny * s.p_t, py = ny * s.p_n + nx * s.p_t;
   if (a.responds()) {
     a.vx -= a.inv_mass * px;
     a.vy -= a.inv_mass * py;
-    a.omega = omega_a;
+    a.omega = s.omega_a;
   }
   if (b.responds()) {
     b.vx += b.inv_mass * px;
     b.vy += b.inv_mass * py;
-    b.omega = omega_b;
+    b.omega = s.omega_b;
   }
 }
 

@@ -198,4 +198,10 @@ void resolveHits(State& state, Scratch& scratch, const Island& island) {
   path.keepWays(scratch.hit_ways);
 }
 
+HitWay wayInStep(const State& state, const Scratch& scratch, RigidId id) {
+  const auto hit = std::ranges::lower_bound(scratch.hit_ways, id, {}, &HitWay::id);
+  if (hit != scratch.hit_ways.end() && hit->id == id) return *hit;
+  return {id, state.h * state[id].v, state.h * state[id].omega};
+}
+
 }  // namespace merge2d

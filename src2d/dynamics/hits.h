@@ -32,4 +32,8 @@ namespace merge2d {
 /// Follows the hits of an island through the step, from the velocities of the full solve on.
 void resolveHits(State& state, Scratch& scratch, const Island& island);
 
+/// How a rigid thing goes through the step: as hits left it (Scratch::hit_ways), or else with the
+/// velocity that it has now.
+HitWay wayInStep(const State& state, const Scratch& scratch, RigidId id);
+
 }  // namespace merge2d

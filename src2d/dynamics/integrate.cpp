@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src2d/dynamics/hits.h"
 #include "src2d/dynamics/stabilise.h"
 #include "src2d/dynamics/task_pool.h"
 #include "src2d/dynamics/turn_stop.h"
@@ -53,11 +54,10 @@ void followHits(State& state, const Scratch& scratch) {
 void stopTurns(State& state, const Scratch& scratch, const std::vector<StoppedTurn>& stopped) {
   for (const StoppedTurn& stop : stopped) {
     Rigid& r = state[stop.id];
-    const auto hit = std::ranges::find(scratch.hit_ways, stop.id, &HitWay::id);
-    const bool was_hit = hit != scratch.hit_ways.end();
+    const HitWay whole = wayInStep(state, scratch, stop.id);
     const double left = 1.0 - stop.part;
-    r.moveBy(stop.along - left * (was_hit ? hit->way : Vec2(state.h * r.v)));
-    r.angle -= left * (was_hit ? hit->turn : state.h * r.omega);
+    r.moveBy(stop.along - left * whole.way);
+    r.angle -= left * whole.turn;
     r.rotation = Rotation::of(r.angle);
   }
 }

@@ -110,7 +110,7 @@ bool aimBlock(State& state, const Scratch& scratch, const RowSource& source, con
 }
 
 /// The rows of one block.
-void makeBlock(State& state, const Scratch& scratch, RowSource& source, ContactBlock& k) {
+void fillBlock(State& state, const Scratch& scratch, RowSource& source, ContactBlock& k) {
   if (source.isInner()) {
     const Collection& c = state.collections[source.slot()];
     k = turned(state[c.rigid].rotation, c.blocks[source.block()]);
@@ -195,7 +195,7 @@ double contactSoftness(const State& state, BodyId a, BodyId b, double inv_mass_a
 }
 
 void ContactRows::make(std::uint32_t block) {
-  makeBlock(state_, scratch_, sourceOf(block), scratch_.blocks[block]);
+  fillBlock(state_, scratch_, sourceOf(block), scratch_.blocks[block]);
 }
 
 void ContactRows::store(std::uint32_t block) {

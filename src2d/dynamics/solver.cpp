@@ -77,6 +77,32 @@ void solveBends(const State& state, const IslandParts& island, std::vector<Solve
   m.uncorrected.restore(island.blocks, island.joints, island.bodies, u);
 }
 
+/// Sweeps an island with joints: all of them together, then the contacts.
+SweepChange sweepWithJoints(const State& state, Scratch& scratch, const IslandParts& parts,
+                            NncgBuffers& buffers) {
+  const SolverSettings& settings = state.settings.solver;
+  auto& u = scratch.u;
+  JointSolver together(parts.joints, u, scratch.joint_memory);
+  dropFutileCorrections(state, parts, u, together, scratch.corrections);
+  Nncg iteration(
+      parts.blocks.size() + parts.joints.size(),
+      [&](std::size_t i) -> Impulses& {
+        return i < parts.blocks.size() ? parts.blocks[i].lambda
+                                       : parts.joints[i - parts.blocks.size()].lambda;
+      },
+      parts.bodies.size(), [&](std::size_t i) -> SolverVelocity& { return u[parts.bodies[i]]; },
+      [&] {
+        together.sweep();
+        sweep(parts.blocks, u, settings.method);
+      },
+      buffers);
+  const auto done = [&] { return parts.blocks.empty() && together.isExact(); };
+  SweepChange change = iteration.run(settings.iterations, isAccelerated(settings.method), done);
+  solveBends(state, parts, u, scratch.corrections,
+             [&] { change = iteration.run(kSweepsForBends, false, done); });
+  return change;
+}
+
 /// An island block by block. Far-away bodies do not matter: each island has its own ρ.
 SweepChange solveOneByOne(const State& state, Scratch& scratch, const Island& island,
                           const SweepTools& tools) {
@@ -94,33 +120,12 @@ SweepChange solveOneByOne(const State& state, Scratch& scratch, const Island& is
     warmStart(blocks, u);
     warmStartJoints(joints, u);
   }
-  const auto body = [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; };
-  const bool accelerate = isAccelerated(settings.method);
-  if (joints.empty()) {
-    Nncg iteration(
-        blocks.size(), [&](std::size_t i) -> Impulses& { return blocks[i].lambda; }, bodies.size(),
-        body, [&] { sweep(blocks, u, settings.method); }, buffers);
-    return iteration.run(settings.iterations, accelerate);
-  }
-  JointSolver together(joints, u, scratch.joint_memory);
-  const IslandParts parts{blocks, joints, bodies};
-  dropFutileCorrections(state, parts, u, together, scratch.corrections);
+  if (!joints.empty()) return sweepWithJoints(state, scratch, {blocks, joints, bodies}, buffers);
   Nncg iteration(
-      blocks.size() + joints.size(),
-      [&](std::size_t i) -> Impulses& {
-        return i < blocks.size() ? blocks[i].lambda : joints[i - blocks.size()].lambda;
-      },
-      bodies.size(), body,
-      [&] {
-        together.sweep();
-        sweep(blocks, u, settings.method);
-      },
-      buffers);
-  const auto done = [&] { return blocks.empty() && together.isExact(); };
-  SweepChange change = iteration.run(settings.iterations, accelerate, done);
-  solveBends(state, parts, u, scratch.corrections,
-             [&] { change = iteration.run(kSweepsForBends, false, done); });
-  return change;
+      blocks.size(), [&](std::size_t i) -> Impulses& { return blocks[i].lambda; }, bodies.size(),
+      [&](std::size_t i) -> SolverVelocity& { return u[bodies[i]]; },
+      [&] { sweep(blocks, u, settings.method); }, buffers);
+  return iteration.run(settings.iterations, isAccelerated(settings.method));
 }
 
 template <class Visit>
@@ -206,6 +211,7 @@ void solveAllRows(State& state, Scratch& scratch) {
     all.squared += scratch.island_changes[i].squared;
     all.total += scratch.island_changes[i].total;
   }
+  std::ranges::sort(scratch.hit_ways, {}, &HitWay::id);
   scratch.stats.contacts = 0;
   for (const RowSource& source : scratch.row_sources) {
     if (!source.isInner()) scratch.stats.contacts += source.count();

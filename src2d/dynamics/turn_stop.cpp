@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src2d/dynamics/hits.h"
 #include "src2d/geometry/collide.h"
 #include "src2d/geometry/distance.h"
 
@@ -27,12 +28,9 @@ struct Step {
   std::vector<StoppedTurn>& stopped;
 
   StepMotion motionOf(RigidId id) const {
-    const Rigid& r = state[id];
-    const auto hit = std::ranges::find(scratch.hit_ways, id, &HitWay::id);
-    const bool was_hit = hit != scratch.hit_ways.end();
+    const HitWay whole = wayInStep(state, scratch, id);
     const StoppedTurn stop = stopOf(id);
-    if (was_hit) return {stop.part * hit->way + stop.along, stop.part * hit->turn};
-    return {stop.part * state.h * r.v + stop.along, stop.part * state.h * r.omega};
+    return {stop.part * whole.way + stop.along, stop.part * whole.turn};
   }
   StoppedTurn stopOf(RigidId id) const {
     const auto known = std::ranges::find(stopped, id, &StoppedTurn::id);

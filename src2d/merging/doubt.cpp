@@ -173,17 +173,8 @@ bool isLongQuiet(const State& state, const Collection& c) {
   return state.step - std::max(proof.last_doubt, proof.since) == kDecided.patience;
 }
 
-}  // namespace
-
-void findDoubts(State& state, Scratch& scratch) {
-  notePerturbations(state, scratch);
-  listOuterLoads(state, scratch);
-  scratch.sweep_contacts.clear();
-  scratch.sweep_joints.clear();
-  clearDoubts(state, scratch);
-  scratch.regions.clear();  // some are left where an error ended the last step
-  scratch.open.clear();
-  openWhatFramesDrag(state, scratch);
+/// Asks each collection about its load, but for those that frames drag.
+void askEach(State& state, Scratch& scratch) {
   for (Collection& c : state.collections) {
     if (!isSwept(state, c)) continue;
     openCertificate(state, c);
@@ -198,19 +189,18 @@ void findDoubts(State& state, Scratch& scratch) {
     }
     if (doubt == Doubt::None && isLongQuiet(state, c)) putBlocksAway(c);
   }
-  const std::vector<Doubt> before = scratch.notes ? scratch.doubts : std::vector<Doubt>();
-  noteReached(state, scratch);
-  const bool any = std::ranges::any_of(state.collections.active(), [&](std::uint32_t slot) {
-    return scratch.doubts[slot] != Doubt::None;
-  });
-  scratch.sweeping = any;
-  if (!any) return;
-  scratch.last_doubt = state.step;
-  spreadHits(state, scratch);
+}
+
+/// Notes the collections that are open for the sake of another one.
+void recordSpread(const State& state, const Scratch& scratch, const std::vector<Doubt>& before) {
   for (std::size_t slot = 0; slot < before.size(); ++slot) {
     if (before[slot] == Doubt::Open || scratch.doubts[slot] != Doubt::Open) continue;
     recordFinding(state, scratch, state.collections[slot], {Doubt::Open, kNeighbourHit, "open"});
   }
+}
+
+/// The blocks and impulses of collections that are in doubt.
+void readyBlocks(State& state, const Scratch& scratch) {
   for (Collection& c : state.collections) {
     const Doubt doubt = doubtAbout(state, scratch, c);
     if (doubt != Doubt::Search && doubt != Doubt::Open) continue;
@@ -218,6 +208,30 @@ void findDoubts(State& state, Scratch& scratch) {
     writeImpulses(c);
     c.certificate.front().last_doubt = state.step;
   }
+}
+
+}  // namespace
+
+void findDoubts(State& state, Scratch& scratch) {
+  notePerturbations(state, scratch);
+  listOuterLoads(state, scratch);
+  scratch.sweep_contacts.clear();
+  scratch.sweep_joints.clear();
+  clearDoubts(state, scratch);
+  scratch.regions.clear();  // some are left where an error ended the last step
+  scratch.open.clear();
+  openWhatFramesDrag(state, scratch);
+  askEach(state, scratch);
+  const std::vector<Doubt> before = scratch.notes ? scratch.doubts : std::vector<Doubt>();
+  noteReached(state, scratch);
+  scratch.sweeping = std::ranges::any_of(state.collections.active(), [&](std::uint32_t slot) {
+    return scratch.doubts[slot] != Doubt::None;
+  });
+  if (!scratch.sweeping) return;
+  scratch.last_doubt = state.step;
+  spreadHits(state, scratch);
+  recordSpread(state, scratch, before);
+  readyBlocks(state, scratch);
 }
 
 }  // namespace merge2d

@@ -145,10 +145,7 @@ void noteReached(State& state, Scratch& scratch) {
 }
 
 void openWhatFramesDrag(const State& state, Scratch& scratch) {
-  const auto moves = [&](BodyId b) {
-    const Rigid& r = state.rigid(b);
-    return r.anchor > kWorldFrame && !r.still();
-  };
+  const auto moves = [&](BodyId b) { return state.rigid(b).isCarried(); };
   const auto open = [&](BodyId body) {
     if (!state.isCollection(state[body].rigid)) return;
     const Collection& c = state.collection(state[body].rigid);

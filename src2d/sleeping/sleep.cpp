@@ -40,21 +40,20 @@ void markRestless(State& state, Scratch& scratch) {
   for (const Kick& kick : scratch.kicks) mark(kick.body);
   for (const BodyId b : scratch.stirred) mark(b);
   sumLoads(state, scratch, mark);
-  const auto stirs = [](const Rigid& r) { return r.anchor > kWorldFrame && !r.still(); };
   for (const Collection& c : state.collections) {
     if (c.id == kNoCollection || state[c.rigid].floating()) continue;
-    if (stirs(state[rigidOf(c.anchor)])) restless[index(c.rigid)] = 1;
+    if (state[rigidOf(c.anchor)].isCarried()) restless[index(c.rigid)] = 1;
   }
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
-    if (stirs(a)) mark(pair.b);
-    if (stirs(b)) mark(pair.a);
+    if (a.isCarried()) mark(pair.b);
+    if (b.isCarried()) mark(pair.a);
   }
   for (const std::uint32_t i : state.joint_lists.present) {
     const Joint& joint = state.joints[i];
     if (joint.to_world || !holds(state, joint)) continue;
-    if (stirs(state.rigid(joint.a))) mark(joint.b);
-    if (stirs(state.rigid(joint.b))) mark(joint.a);
+    if (state.rigid(joint.a).isCarried()) mark(joint.b);
+    if (state.rigid(joint.b).isCarried()) mark(joint.a);
   }
 }
 
