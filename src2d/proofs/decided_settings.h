@@ -37,12 +37,12 @@ struct DecidedSettings {
   /// Times as many where a search has found motion: without, a wall of 5,000 that swings takes
   /// three times as long on average.
   double when_open = 4.0;
-  /// What goes on for so long lasts [s]. A search: from then on the direct solver takes part, with
-  /// the load of the step, in steps of the search that are powers of two, where all rows are swept.
-  /// After 0.64 s a wall of 1,000 bricks on a swinging platform costs more than its reference;
-  /// after 0.16 s a wall slips late. And hits without a break: the collection steps back, as its
-  /// bodies cost less one by one. A tower of 20,000 that is struck loses as many bricks as the
-  /// reference; with 0.2 s 3% fewer.
+  /// The time after which a search, or hits without a break, are long [s].
+  /// * A long search: the direct solver takes part, with the load of the step, in steps of the
+  ///   search that are powers of two, where all rows are swept. After 0.64 s a wall of 1,000 bricks
+  ///   on a swinging platform costs more than its reference; after 0.16 s a wall slips late.
+  /// * A collection that is hit for long steps back, as its bodies cost less one by one. A tower of
+  ///   20,000 that is struck loses as many bricks as the reference; with 0.2 s 3% fewer.
   double lasting = 0.08;
   /// A carried load is followed by one this part further from the mean of the witnesses [1]: a wall
   /// on a swinging platform then needs one search, not one per new extreme.
@@ -50,14 +50,14 @@ struct DecidedSettings {
   /// A load is covered where the witnesses leave this part of the frame's motion over, and of the
   /// forces from outside. These weigh less, as they act on one member each [1].
   double left_over = 0.9e-3, outer_weight = 0.05;
-  /// So many iterations are enough to wait for. Sweeps of a search in one step: more settle what
-  /// the next step has anew. And steps after which something is past. A hit: until then a
-  /// collection is looked at once in as many steps as a pair must be quiet for before it merges, as
-  /// a heap into which bodies fall changes before a search could end; the filling funnel and the
-  /// collapsing tower-platform take three quarters of the time. The motion of a pair that parted
-  /// slowly: it waits as long as it would still seem at rest, at most so many steps, unless it is
-  /// found to gain less by then. And a search: the memory of its rows is given back, though not at
-  /// once, as loads come again.
+  /// The most sweeps of a search in one step, and the steps after which an event is past.
+  /// * Sweeps: more of them settle a load that the next step replaces.
+  /// * A hit: until then a collection is looked at once in as many steps as a pair must be quiet
+  ///   for before it merges, as a heap into which bodies fall changes before a search could end.
+  ///   The filling funnel and the collapsing tower-platform take three quarters of the time.
+  /// * The motion of a pair that parted slowly: it waits as long as it would still seem at rest, at
+  ///   most so many steps, unless it is found to gain less by then.
+  /// * A search: the memory of its rows is given back, though not at once, as loads come again.
   int patience = 200;
   /// One in so many is a small part of a collection: it keeps its layout while no larger part of it
   /// has come in, and its proofs while no larger part of its members is loaded from outside; and an
