@@ -5,11 +5,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "src2d/core/suggest.h"
 
 namespace merge2d {
 namespace {
+
+/// Criteria that compare a quantity with a threshold; `unit` is what follows "m".
+struct ComparedCriterion {
+  std::string_view criterion, quantity, unit = "/s";
+};
+constexpr ComparedCriterion kCompared[] = {
+    {"relative-motion", "relative motion"},
+    {"motion", "relative motion"},
+    {"breathing", "the change of overlap", " per step"},
+    {"rest", "its motion in the world"},
+    {"balance", "what it gained in this step"},
+    {"impact", "the speed of approach"},
+    {"proof-motion", "the motion that known impulses leave"},
+    {"search-motion", "the fastest motion that was found"},
+    {"residual", "the residual of the rows inside"},
+    {"stopped", "the motion of the waiting pair"},
+    {"noise", "the motion at one of the boxes"},
+    {"bounce", "the bounce that arrives"},
+};
+
+/// Criteria that are met or not, without a number of their own.
+struct StatedCriterion {
+  std::string_view criterion, statement;
+};
+constexpr StatedCriterion kStated[] = {
+    {"in-doubt", "its proofs are in doubt, as contacts or forces are new"},
+    {"joints", "a joint inside bears more than its strength"},
+    {"neighbour-hit", "something that it touches was hit"},
+    {"dragged", "a frame that moves drags at it"},
+    {"search-mover", "its bodies did not move in the search that opened their collection"},
+    {"pressed", "no contact between them carries a force"},
+};
 
 std::string withDigits(double value, int digits) {
   const double size = std::abs(value);
@@ -92,6 +125,40 @@ std::string proof(const Decision& d) {
   return compared(what, d, "/s");
 }
 
+std::string hit(const Decision& d) {
+  return fmt::format("something hit it {} ago, and a hit opens it for {} ({})",
+                     counted(static_cast<std::size_t>(d.value), "step", "steps"),
+                     counted(static_cast<std::size_t>(d.threshold), "step", "steps"),
+                     equationName(d.equation));
+}
+
+std::string hits(const Decision& d) {
+  return fmt::format(
+      "hits have gone on for {:.3g} s (bodies are simulated one by one after {} s; {})", d.value,
+      d.threshold, equationName(d.equation));
+}
+
+std::string patience(const Decision& d) {
+  return fmt::format("their last weld turned slowly, or was hit for long: {} to wait",
+                     counted(static_cast<std::size_t>(d.value), "step", "steps"));
+}
+
+std::string belt(const Decision& d) {
+  return fmt::format("one of them drives what lies on it, at {} m/s ({})", shortNumber(d.value),
+                     equationName(d.equation));
+}
+
+std::string freedoms(const Decision& d) {
+  return fmt::format("their joints take away {:.0f} of {:.0f} freedoms{}", d.value, d.threshold,
+                     d.verdict == "wait" ? ", too few to hold them" : "");
+}
+
+std::string load(const Decision& d) {
+  return fmt::format(
+      "the impulse between them changes by {:.2g} of itself in a second, {} {:.2g} ({})", d.value,
+      d.value < d.threshold ? "below" : "above", d.threshold, equationName(d.equation));
+}
+
 std::string sleeping(const Decision& d) {
   if (d.criterion == "disturbed") {
     return fmt::format("a kick, another load or a moving neighbour disturbs it ({})",
@@ -171,77 +238,31 @@ std::string Words::group(const Group& group) const {
 std::string Words::test(const Decision& d, const std::vector<Group>& groups) const {
   const std::string_view c = d.criterion;
   if (d.stage == "SleepAndWake") return sleeping(d);
-  if (c == "relative-motion" || c == "motion") return compared("relative motion", d, "/s");
-  if (c == "breathing") return compared("the change of overlap", d, " per step");
-  if (c == "rest") return compared("its motion in the world", d, "/s");
-  if (c == "balance") return compared("what it gained in this step", d, "/s");
-  if (c == "impact") return compared("the speed of approach", d, "/s");
+  if (const auto* of = std::ranges::find(kCompared, c, &ComparedCriterion::criterion);
+      of != std::end(kCompared)) {
+    return compared(of->quantity, d, of->unit);
+  }
+  if (const auto* of = std::ranges::find(kStated, c, &StatedCriterion::criterion);
+      of != std::end(kStated)) {
+    return fmt::format("{} ({})", of->statement, equationName(d.equation));
+  }
   if (c == "sliding") {
     return compared(d.stage == "Unmerge" ? "the slip of a contact" : "slip", d, "/s");
   }
   if (c == "proof") return proof(d);
-  if (c == "proof-motion") return compared("the motion that known impulses leave", d, "/s");
-  if (c == "search-motion") return compared("the fastest motion that was found", d, "/s");
-  if (c == "in-doubt") {
-    return fmt::format("its proofs are in doubt, as contacts or forces are new ({})",
-                       equationName(d.equation));
-  }
-  if (c == "joints") {
-    return fmt::format("a joint inside bears more than its strength ({})",
-                       equationName(d.equation));
-  }
-  if (c == "neighbour-hit") {
-    return fmt::format("something that it touches was hit ({})", equationName(d.equation));
-  }
-  if (c == "dragged") {
-    return fmt::format("a frame that moves drags at it ({})", equationName(d.equation));
-  }
-  if (c == "residual") return compared("the residual of the rows inside", d, "/s");
-  if (c == "hit") {
-    return fmt::format("something hit it {} ago, and a hit opens it for {} ({})",
-                       counted(static_cast<std::size_t>(d.value), "step", "steps"),
-                       counted(static_cast<std::size_t>(d.threshold), "step", "steps"),
-                       equationName(d.equation));
-  }
+  if (c == "hit") return hit(d);
+  if (c == "hits") return hits(d);
   if (c == "edge") return edge(d);
   if (c == "cycle") {
     const auto members = static_cast<std::size_t>(d.members);
     if (d.members >= 0 && members < groups.size()) return cycle(d, group(groups[members]));
     return cycle(d, d.group < 0 ? "its own" : name(BodyId{static_cast<std::uint32_t>(d.group)}));
   }
-  if (c == "patience") {
-    return fmt::format("their last weld turned slowly, or was hit for long: {} to wait",
-                       counted(static_cast<std::size_t>(d.value), "step", "steps"));
-  }
-  if (c == "stopped") return compared("the motion of the waiting pair", d, "/s");
-  if (c == "belt") {
-    return fmt::format("one of them drives what lies on it, at {} m/s ({})", shortNumber(d.value),
-                       equationName(d.equation));
-  }
-  if (c == "noise") return compared("the motion at one of the boxes", d, "/s");
-  if (c == "search-mover") {
-    return fmt::format("its bodies did not move in the search that opened their collection ({})",
-                       equationName(d.equation));
-  }
-  if (c == "bounce") return compared("the bounce that arrives", d, "/s");
+  if (c == "patience") return patience(d);
+  if (c == "belt") return belt(d);
   if (c == "frames") return "they are on two frames, which may move against each other";
-  if (c == "freedoms") {
-    return fmt::format("their joints take away {:.0f} of {:.0f} freedoms{}", d.value, d.threshold,
-                       d.verdict == "wait" ? ", too few to hold them" : "");
-  }
-  if (c == "load") {
-    return fmt::format(
-        "the impulse between them changes by {:.2g} of itself in a second, {} {:.2g} ({})", d.value,
-        d.value < d.threshold ? "below" : "above", d.threshold, equationName(d.equation));
-  }
-  if (c == "hits") {
-    return fmt::format(
-        "hits have gone on for {:.3g} s (bodies are simulated one by one after {} s; {})", d.value,
-        d.threshold, equationName(d.equation));
-  }
-  if (c == "pressed") {
-    return fmt::format("no contact between them carries a force ({})", equationName(d.equation));
-  }
+  if (c == "freedoms") return freedoms(d);
+  if (c == "load") return load(d);
   if (c == "broken") return "a contact of the weld carries no force any more (Section 6.3)";
   return fmt::format("{} of {} steps passed (Section 5.1)", d.count, d.needed);  // "count"
 }

@@ -192,29 +192,10 @@ class Builder {
 
 void setUp(const Scene& scene, Mode mode, Setup& out) { Builder(out).build(scene, mode); }
 
-BodyId appendBody(Setup& setup, const BodyDesc& desc) {
-  State& s = setup.state;
-  const std::size_t bodies = s.bodies.size(), extents = s.extents.size() - s.collections.size();
-  const auto split = [](auto& table, std::size_t at) {
-    const auto middle = table.begin() + static_cast<std::ptrdiff_t>(at);
-    auto behind = std::vector(middle, table.end());
-    table.erase(middle, table.end());
-    return behind;
-  };
-  std::vector<Rigid> rigids = split(s.rigids, bodies);
-  const std::vector<Extent> of_collections = split(s.extents, extents);
-  const BodyId id = Builder(setup).addBody(desc, desc.at, false);
-  setup.added.push_back(desc);
+namespace {
 
-  // Collections follow the bodies: each of their tables moves on by one.
-  const auto more = static_cast<std::uint32_t>(s.extents.size() - extents);
-  for (Rigid& r : rigids) r.extent += more;
-  s.rigids.insert(s.rigids.end(), rigids.begin(), rigids.end());
-  s.extents.insert(s.extents.end(), of_collections.begin(), of_collections.end());
-  auto& trees = s.broadphase.shape_trees;
-  trees.emplace(trees.begin() + static_cast<std::ptrdiff_t>(bodies));
-  s.broadphase.shape_leaves.resize(s.shape_body.size(), -1);
-  listSiblings(s);
+/// Collections follow the bodies: one more body behind the first `bodies` moves each on by one.
+void moveCollectionsOn(State& s, std::size_t bodies) {
   const auto moveOn = [&](auto& rigid) {
     if (static_cast<std::size_t>(rigid) < bodies) return;
     rigid = static_cast<std::remove_reference_t<decltype(rigid)>>(
@@ -233,6 +214,33 @@ BodyId appendBody(Setup& setup, const BodyDesc& desc) {
       moveOn(joint.b);
     }
   }
+}
+
+}  // namespace
+
+BodyId appendBody(Setup& setup, const BodyDesc& desc) {
+  State& s = setup.state;
+  const std::size_t bodies = s.bodies.size(), extents = s.extents.size() - s.collections.size();
+  const auto split = [](auto& table, std::size_t at) {
+    const auto middle = table.begin() + static_cast<std::ptrdiff_t>(at);
+    auto behind = std::vector(middle, table.end());
+    table.erase(middle, table.end());
+    return behind;
+  };
+  std::vector<Rigid> rigids = split(s.rigids, bodies);
+  const std::vector<Extent> of_collections = split(s.extents, extents);
+  const BodyId id = Builder(setup).addBody(desc, desc.at, false);
+  setup.added.push_back(desc);
+
+  const auto more = static_cast<std::uint32_t>(s.extents.size() - extents);
+  for (Rigid& r : rigids) r.extent += more;
+  s.rigids.insert(s.rigids.end(), rigids.begin(), rigids.end());
+  s.extents.insert(s.extents.end(), of_collections.begin(), of_collections.end());
+  auto& trees = s.broadphase.shape_trees;
+  trees.emplace(trees.begin() + static_cast<std::ptrdiff_t>(bodies));
+  s.broadphase.shape_leaves.resize(s.shape_body.size(), -1);
+  listSiblings(s);
+  moveCollectionsOn(s, bodies);
   s.ready_before.clear();
   rebuildTree(s);
   return id;

@@ -14,34 +14,50 @@ std::vector<std::vector<std::uint32_t>> membersOf(const Groups& groups) {
   return members;
 }
 
-CycleVerdicts judge(const ContactGraph& graph) {
-  const auto bodies = static_cast<std::uint32_t>(graph.bodies.size());
+namespace {
 
-  // All pinned bodies are the first of them.
+/// The node of each body: all that are pinned are the first of them.
+std::vector<std::uint32_t> nodesOf(const ContactGraph& graph) {
   const auto ground = static_cast<std::uint32_t>(
       std::find(graph.pinned.begin(), graph.pinned.end(), 1) - graph.pinned.begin());
-  const auto node = [&](std::uint32_t body) { return graph.pinned[body] != 0 ? ground : body; };
+  std::vector<std::uint32_t> nodes(graph.bodies.size());
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) nodes[i] = graph.pinned[i] != 0 ? ground : i;
+  return nodes;
+}
 
-  // Two pins are as firm as any larger number that nobody has placed.
+/// The pins of all pairs, and the pair of each. Two are as firm as any larger number that nobody
+/// has placed.
+struct PinsOfPairs {
   std::vector<Pin> pins;
   std::vector<std::uint32_t> pair_of;
-  for (std::uint32_t i = 0; i < graph.pairs.size(); ++i) {
-    const GraphPair& pair = graph.pairs[i];
-    Pin pin{.a = node(pair.a), .b = node(pair.b)};
-    pin.placed = !pair.points.empty();
-    const auto count =
-        pin.placed ? pair.points.size() : static_cast<std::size_t>(std::min(pair.contacts, 2));
-    for (std::size_t k = 0; k < count; ++k) {
-      if (pin.placed) pin.at = pair.points[k];
-      pins.push_back(pin);
-      pair_of.push_back(i);
+
+  PinsOfPairs(const ContactGraph& graph, const std::vector<std::uint32_t>& nodes) {
+    for (std::uint32_t i = 0; i < graph.pairs.size(); ++i) {
+      const GraphPair& pair = graph.pairs[i];
+      Pin pin{.a = nodes[pair.a], .b = nodes[pair.b]};
+      pin.placed = !pair.points.empty();
+      const auto count =
+          pin.placed ? pair.points.size() : static_cast<std::size_t>(std::min(pair.contacts, 2));
+      for (std::size_t k = 0; k < count; ++k) {
+        if (pin.placed) pin.at = pair.points[k];
+        pins.push_back(pin);
+        pair_of.push_back(i);
+      }
     }
   }
+};
+
+}  // namespace
+
+CycleVerdicts judge(const ContactGraph& graph) {
+  const auto bodies = static_cast<std::uint32_t>(graph.bodies.size());
+  const std::vector<std::uint32_t> nodes = nodesOf(graph);
+  const auto& [pins, pair_of] = PinsOfPairs(graph, nodes);
 
   CycleVerdicts verdicts;
   const auto of_bodies = [&](const Groups& of_nodes) {
     Groups groups(bodies);
-    for (std::uint32_t i = 0; i < bodies; ++i) groups[i] = of_nodes[node(i)];
+    for (std::uint32_t i = 0; i < bodies; ++i) groups[i] = of_nodes[nodes[i]];
     return groups;
   };
   const TriangleGroups triangle = triangleGroups(bodies, pins);
