@@ -14,7 +14,7 @@ void fitBox(State& state, RigidId collection);
 
 /// The rows of a contact inside, with its impulses.
 ContactBlock innerBlock(const State& state, const Collection& collection,
-                       const InternalContact& contact);
+                        const InternalContact& contact);
 
 /// Where a few bodies have joined a large collection with proofs since its last layout, and nothing
 /// has left: puts the new members, contacts, welds and blocks behind the others, which keep their

@@ -369,7 +369,7 @@ struct Scratch {
   std::vector<BlockOrder> block_order;
   std::vector<BlockOrder> by_colour;        ///< as an intermediate order
   std::vector<std::uint32_t> island_roots;  ///< ascending
-  std::vector<HitWay> hit_ways;  ///< ascending
+  std::vector<HitWay> hit_ways;             ///< ascending
   /// Per thread, the caller's first (thread_memory.h).
   std::vector<SweepMemory> sweeps = std::vector<SweepMemory>(1);
   std::vector<SweepChange> island_changes;  ///< per island
