@@ -19,13 +19,13 @@ namespace merge2d {
 namespace {
 
 constexpr const char* kExplainExamples = R"(Examples:
-  merge2d explain tower-platform --at 118
+  merge2d explain tower-platform --at 599
   merge2d explain books --at 3 --pair diary notebook
   merge2d explain tower-platform --weld "brick[2,3]" "brick[2,4]"
   merge2d explain books --at 3 --json
 
-Each sentence comes from the tests that the time step made, with value, threshold, equation of the
-paper, and count. docs/records.md lists the tests. Without --all, at most a dozen of a kind are
+Each sentence comes from the tests that the time step made, with value, threshold, source (an
+equation of the paper, or a page of ours), and count. docs/records.md lists the tests. Without --all, at most a dozen of a kind are
 told; --json always tells all.)";
 
 struct ExplainOptions : SceneOptions {

@@ -26,7 +26,7 @@ constexpr const char* kProgramExamples = R"(Examples:
   merge2d study grid.toml -o thresholds    run it many times, with parameters that vary
   merge2d lesson tower-platform            write a page to step through it in a browser
   merge2d step books                       walk through it, stage by stage, and back
-  merge2d explain tower-platform --at 118  why pairs merged, came apart, or did not
+  merge2d explain tower-platform --at 599  why pairs merged, came apart, or did not
   merge2d validate my-scene.toml           check a scene of your own
 
 'merge2d COMMAND --help' tells more. The result goes to the standard output, messages to the

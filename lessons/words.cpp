@@ -95,29 +95,35 @@ std::string edge(const Decision& d) {
   if (d.verdict == "apart") {
     return fmt::format("{}, about to slide ({})", allOnEdge(d.threshold), equationName(d.equation));
   }
-  if (d.value >= d.threshold) {
-    return fmt::format("{}, but the body is wedged in and cannot slide ({})",
-                       allOnEdge(d.threshold), equationName(d.equation));
+  if (d.value == 0.0) {
+    return fmt::format("none of {} that press could slide on the edge of its friction cone ({})",
+                       contacts(d.threshold), equationName(d.equation));
   }
-  return fmt::format("{} of {} that press {} on the edge of the friction cone ({})",
-                     d.value == 0.0 ? "none" : fmt::format("{:.0f}", d.value),
+  return fmt::format("{:.0f} of {} that press {} on the edge of the friction cone ({})", d.value,
                      contacts(d.threshold), d.value > 1.0 ? "are" : "is", equationName(d.equation));
 }
 
-/// `group` names its bodies.
+/// The sentence with the source of its criterion, where that has one.
+std::string cited(const std::string& sentence, const Decision& d) {
+  return d.equation.empty() ? sentence : fmt::format("{} ({})", sentence, equationName(d.equation));
+}
+
+/// `group` names its bodies. A joint counts as one contact or as two.
 std::string cycle(const Decision& d, const std::string& group) {
-  if (d.verdict == "merge") {
-    return d.value >= d.threshold
-               ? fmt::format("{} hold the pair rigidly (Section 8.2)", contacts(d.value))
-               : fmt::format("its single contact is part of the rigid group of {} (Section 8.2)",
-                             group);
+  if (d.verdict != "merge") {
+    return cited("a single contact is a pivot, and no rigid group holds it", d);
   }
-  return "a single contact is a pivot, and no rigid group holds it (Section 8.2)";
+  if (d.value < d.threshold) {
+    return cited(fmt::format("its single contact is part of the rigid group of {}", group), d);
+  }
+  return cited(
+      fmt::format("{}, or joints that count as so many, hold the pair rigidly", contacts(d.value)),
+      d);
 }
 
 /// The load of a collection beside those that its contacts are known to carry.
 std::string proof(const Decision& d) {
-  if (d.needed == 0) return "no load is known that its contacts carry";
+  if (d.needed == 0) return cited("no load is known that its contacts carry", d);
   const std::string what =
       d.needed == 1
           ? "the part that the one known load leaves over"
@@ -139,8 +145,14 @@ std::string hits(const Decision& d) {
 }
 
 std::string patience(const Decision& d) {
-  return fmt::format("their last weld turned slowly, or was hit for long: {} to wait",
-                     counted(static_cast<std::size_t>(d.value), "step", "steps"));
+  return cited(fmt::format("their last weld turned slowly, or was hit for long: {} to wait",
+                           counted(static_cast<std::size_t>(d.value), "step", "steps")),
+               d);
+}
+
+std::string steady(const Decision& d) {
+  return fmt::format("it has been slow under steady loads for {} of {} s ({})",
+                     shortNumber(d.value), shortNumber(d.threshold), equationName(d.equation));
 }
 
 std::string belt(const Decision& d) {
@@ -149,8 +161,9 @@ std::string belt(const Decision& d) {
 }
 
 std::string freedoms(const Decision& d) {
-  return fmt::format("their joints take away {:.0f} of {:.0f} freedoms{}", d.value, d.threshold,
-                     d.verdict == "wait" ? ", too few to hold them" : "");
+  return cited(fmt::format("their joints take away {:.0f} of {:.0f} freedoms{}", d.value,
+                           d.threshold, d.verdict == "wait" ? ", too few to hold them" : ""),
+               d);
 }
 
 std::string load(const Decision& d) {
@@ -244,7 +257,7 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
   }
   if (const auto* of = std::ranges::find(kStated, c, &StatedCriterion::criterion);
       of != std::end(kStated)) {
-    return fmt::format("{} ({})", of->statement, equationName(d.equation));
+    return cited(std::string(of->statement), d);
   }
   if (c == "sliding") {
     return compared(d.stage == "Unmerge" ? "the slip of a contact" : "slip", d, "/s");
@@ -259,8 +272,11 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
     return cycle(d, d.group < 0 ? "its own" : name(BodyId{static_cast<std::uint32_t>(d.group)}));
   }
   if (c == "patience") return patience(d);
+  if (c == "steady") return steady(d);
   if (c == "belt") return belt(d);
-  if (c == "frames") return "they are on two frames, which may move against each other";
+  if (c == "frames") {
+    return cited("they are on two frames, which may move against each other", d);
+  }
   if (c == "freedoms") return freedoms(d);
   if (c == "load") return load(d);
   if (c == "broken") return "a contact of the weld carries no force any more (Section 6.3)";

@@ -558,7 +558,7 @@ typedef struct m2_decision {
   int32_t reserved;   /**< 0 */
   char stage[32];     /**< of Algorithm 1 */
   char criterion[24]; /**< "relative-motion", "sliding", … */
-  char equation[24];  /**< of the paper: "(17)" */
+  char equation[48];  /**< of the paper, as "(17)", or the page of our own criterion */
   char verdict[16];   /**< "merge", "wait", "apart", "keep", "unmerge", … */
 } m2_decision;
 /** Whether the steps to come note their decisions: off at first, as it takes time. */

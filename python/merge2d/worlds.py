@@ -21,7 +21,7 @@ _EVENT = np.dtype([("type", "U8"), ("reason", "U16"), ("a", "u4"), ("b", "u4"),
                    ("collection", "i4")])
 _DECISION = np.dtype([("a", "u4"), ("b", "u4"), ("value", "f8"), ("threshold", "f8"),
                       ("count", "i4"), ("needed", "i4"), ("before", "i4"), ("stage", "U32"),
-                      ("criterion", "U24"), ("equation", "U24"), ("verdict", "U16")])
+                      ("criterion", "U24"), ("equation", "U48"), ("verdict", "U16")])
 
 
 class World(_merge2d.World):
@@ -250,8 +250,8 @@ class World(_merge2d.World):
     @property
     def decisions(self):
         """Each test of a criterion in the last step: a, b, value, threshold, count, needed, before,
-        stage, criterion, equation of the paper ("(17)") or section, verdict. A record about a
-        collection has its first body as `a` and `b`. docs/records.md tells which criteria
+        stage, criterion, equation (of the paper, "(17)" or "Section 5.1", or the page of a
+        criterion of our own), verdict. A record about a collection has its first body as `a` and `b`. docs/records.md tells which criteria
         count something else than steps. InputError when the step did not note them."""
         return super().decisions().astype(_DECISION)
 

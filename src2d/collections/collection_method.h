@@ -21,7 +21,7 @@ struct CollectionMethod {
   InnerRows (*innerRows)(const State& state, const InternalContact& contact,
                          const SolverVelocity& a, const SolverVelocity& b);
   /// The parts that the welds hold together that are not cut.
-  Parts (*parts)(const State& state, Scratch& scratch, const Collection& collection);
+  Parts (*parts)(const State& state, const Collection& collection);
   /// How many steps a contact waits that leaves its collection, before its pair may merge again.
   /// `cut` is its weld when a test of this step cut it, else null.
   int (*waitAfterSplit)(const State& state, const Weld* cut);

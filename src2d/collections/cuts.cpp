@@ -53,7 +53,7 @@ void splitAtCuts(State& state, Scratch& scratch, RigidId id, const Parts& parts)
 bool breakJointsInside(State& state, Scratch& scratch, Collection& c) {
   if (!anyJointBreaks(state, c)) return false;
   const std::vector<std::uint32_t> joints = takeOverloadedJoints(state, c);
-  const Parts parts = collectionMethod(state).parts(state, scratch, c);
+  const Parts parts = collectionMethod(state).parts(state, c);
   if (fallsApart(state, c, parts)) splitAtCuts(state, scratch, c.rigid, parts);
   breakWhatStaysInside(state, scratch, joints);
   scratch.split = true;  // to be laid out anew

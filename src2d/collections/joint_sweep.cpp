@@ -5,10 +5,6 @@
 namespace merge2d {
 namespace {
 
-bool isSweptMember(const State& state, BodyId b) {
-  return state.isCollection(state[b].rigid) && !state.rigid(b).asleep;
-}
-
 /// A member's centre of mass; the world at the other end does not respond, so any place will do.
 Vec2 centerOf(const State& state, const Joint& joint, bool of_b) {
   if (of_b && joint.to_world) return Vec2::Zero();
@@ -65,7 +61,7 @@ void listSweepJoints(const State& state, Scratch& scratch) {
     const Joint& joint = state.joints[i];
     if (!holds(state, joint) || isInside(state, joint)) continue;
     const bool swept =
-        isSweptMember(state, joint.a) || (!joint.to_world && isSweptMember(state, joint.b));
+        state.isAwakeMember(joint.a) || (!joint.to_world && state.isAwakeMember(joint.b));
     const std::uint32_t a = bodyIndexA(joint), b = bodyIndexB(state, joint);
     if (!swept || (u[a].inv_mass == 0.0 && u[b].inv_mass == 0.0)) continue;
     scratch.sweep_joints.push_back(bodyBlock(state, i, {}, JointRows::Removing, u[a], u[b]));

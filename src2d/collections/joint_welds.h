@@ -4,7 +4,6 @@
 /// joint counts as two contacts and holds alone; so do a strong enough brake and a limit that
 /// presses.
 
-#include <algorithm>
 #include <span>
 #include <vector>
 

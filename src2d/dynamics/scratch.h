@@ -126,7 +126,6 @@ struct SweepItem {
   Vec2 normal() const { return {turn.c, turn.s}; }
   std::uint32_t a() const { return block ? block->a : joint->a; }
   std::uint32_t b() const { return block ? block->b : joint->b; }
-  Impulses& impulses() const { return block ? block->lambda : joint->lambda; }
 };
 
 /// The source of a block of the full solve, which its impulses go back to: one or two points of the

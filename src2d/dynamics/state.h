@@ -84,6 +84,9 @@ struct State {
   Rigid& rigid(BodyId id) { return rigids[index(bodies[index(id)].rigid)]; }
   const Rigid& rigid(BodyId id) const { return rigids[index(bodies[index(id)].rigid)]; }
   bool isCollection(RigidId id) const { return index(id) >= bodies.size(); }
+  /// In a collection.
+  bool isMember(BodyId id) const { return isCollection(bodies[index(id)].rigid); }
+  bool isAwakeMember(BodyId id) const { return isMember(id) && !rigid(id).asleep; }
   Collection& collection(RigidId id) { return collections[index(id) - bodies.size()]; }
   const Collection& collection(RigidId id) const { return collections[index(id) - bodies.size()]; }
   /// The body that names a rigid thing: its own, or the first member.
@@ -93,9 +96,7 @@ struct State {
   }
 
   /// True for a body that forces move, also inside a collection: neither pinned nor scripted.
-  bool responds(BodyId id) const {
-    return rigid(id).floating() || isCollection(bodies[index(id)].rigid);
-  }
+  bool responds(BodyId id) const { return rigid(id).floating() || isMember(id); }
 
   /// Of the boxes around two shapes the least extent [m].
   double thickness(std::uint32_t shape_a, std::uint32_t shape_b) const {

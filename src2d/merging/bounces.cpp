@@ -13,16 +13,18 @@
 namespace merge2d {
 namespace {
 
-/// Whether hits of two bodies are followed (dynamics/hits.h) of which one is as fast as this [m/s]:
-/// bounces, and later hits in their chain that are too slow to bounce.
-bool isFollowed(const State& state, BodyId a, BodyId b, double speed) {
-  return restitutionOf(state, a, b) > 0.0 && speed > state.settings.unmerging.velocity;
+/// No hit of two bodies of which one is as fast as this is followed (dynamics/hits.h) [m/s]: no
+/// bounce, nor a later hit in its chain that is too slow to bounce.
+Criterion bouncesNot(const State& state, BodyId a, BodyId b, double speed) {
+  const double bounce = restitutionOf(state, a, b) > 0.0 ? speed : 0.0;
+  const double most = state.settings.unmerging.velocity;
+  return {"bounce", kOwnHits, bounce, most, bounce <= most};
 }
 
 /// The speed that a body at rest gets from one that hits it, by Newton's law, as in a row of balls
 /// [m/s].
 double passedOn(const State& state, BodyId from, BodyId to, double speed) {
-  if (!state.responds(to) || !isFollowed(state, from, to, speed)) return 0.0;
+  if (!state.responds(to) || bouncesNot(state, from, to, speed).holds) return 0.0;
   const ContactKey key{from, to, state[from].first_shape, state[to].first_shape};
   const double e = speed > leastBounce(state, key) ? restitutionOf(state, from, to) : 0.0;
   return (1.0 + e) * speed * state[from].mass / (state[from].mass + state[to].mass);
@@ -75,10 +77,10 @@ class BounceSpread {
 
 /// No bounce arrives at the bodies of a weld: bodies that bounce are followed hit by hit, each on
 /// its own (dynamics/hits.h).
-Criterion bouncesNot(const State& state, const Weld& weld, const std::vector<double>& arrives) {
-  const double speed = std::max(arrives[index(weld.a)], arrives[index(weld.b)]);
-  return {"bounce", kOwnHits, speed, state.settings.unmerging.velocity,
-          !isFollowed(state, weld.a, weld.b, speed)};
+Criterion isReachedByNone(const State& state, const Weld& weld,
+                          const std::vector<double>& arrives) {
+  return bouncesNot(state, weld.a, weld.b,
+                    std::max(arrives[index(weld.a)], arrives[index(weld.b)]));
 }
 
 /// Cuts the welds of a collection at which bounces arrive.
@@ -87,7 +89,7 @@ bool cutBouncing(const State& state, const Scratch& scratch, Collection& c,
   bool any = false;
   for (Weld& weld : c.welds) {
     if (weld.joints > 0) continue;
-    const Criterion stays = bouncesNot(state, weld, arrives);
+    const Criterion stays = isReachedByNone(state, weld, arrives);
     if (stays.holds) continue;
     weld.cut = any = true;
     weld.reason = EventReason::RelativeMotion;
@@ -124,7 +126,7 @@ void releaseBouncing(State& state, Scratch& scratch, const std::vector<double>& 
     Noted noted(scratch.notes);
     if (!cutBouncing(state, scratch, c, arrives)) continue;
     noted.close();
-    splitAtCuts(state, scratch, c.rigid, collectionMethod(state).parts(state, scratch, c));
+    splitAtCuts(state, scratch, c.rigid, collectionMethod(state).parts(state, c));
     restate(state, noted, "cut");
   }
 }

@@ -1,7 +1,6 @@
 #include "src2d/merging/decided_unmerge.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -228,24 +227,32 @@ bool hasJointsOutside(const State& state, const Collection& c) {
   return any;
 }
 
-/// Whether nothing moves in a search. What may turn is looked at more closely, for one step more.
-bool restsIn(const State& state, const SearchTools& tools, Collection& c) {
-  const SweepMemory& memory = tools.sweeps.memory;
-  const double tolerance = toleratedResidual(state);
-  const auto sure = [&] { return c.residual / kDecided.tolerance; };
-  if (fastestContact(memory, c) > std::max(cutSpeed(state), sure())) return false;
+/// The fastest motion of a weld that turns by more than `noise` [m/s], or 0.
+double fastestTurn(const State& state, const SweepMemory& memory, const Collection& c,
+                   double noise) {
   const WeldMotions motions(state, c, memory.trial_u);
-  const auto turnsBy = [&](double noise) {
-    return std::ranges::any_of(c.welds, [&](const Weld& w) { return motions.turns(w, noise); });
-  };
-  if (c.residual > tolerance || !turnsBy(c.residual)) return true;
-  continueSearch(state, tools, c, kDecided.tolerance * tolerance);
-  return !turnsBy(sure());
+  double fastest = 0.0;
+  for (const Weld& weld : c.welds) {
+    if (!motions.turns(weld, noise)) continue;
+    fastest = std::max(fastest, motions.of(weld, 0.0).most);
+  }
+  return fastest;
 }
 
-/// The fastest motion that a search has found, of one that was told to have found some (restsIn).
-Criterion movesNowhere(const State& state, const SweepMemory& memory, const Collection& c) {
-  return {"search-motion", kOwnDecided, fastestOf(state, memory, c), cutSpeed(state), false};
+/// Nothing moves in a search. Welds that may turn are looked at more closely, for one step more.
+Criterion restsIn(const State& state, const SearchTools& tools, Collection& c) {
+  const SweepMemory& memory = tools.sweeps.memory;
+  const double tolerance = toleratedResidual(state), cut = cutSpeed(state);
+  const auto moves = [](double motion, double most) {
+    return Criterion{"search-motion", kOwnDecided, motion, most, motion <= most};
+  };
+  const auto sure = [&] { return c.residual / kDecided.tolerance; };
+  const Criterion rests = moves(fastestContact(memory, c), std::max(cut, sure()));
+  if (!rests.holds || c.residual > tolerance) return rests;
+  if (fastestTurn(state, memory, c, c.residual) == 0.0) return rests;
+  continueSearch(state, tools, c, kDecided.tolerance * tolerance);
+  const double turn = fastestTurn(state, memory, c, sure());
+  return turn > 0.0 ? moves(turn, cut) : rests;
 }
 
 /// The record of a search for the load of a step, with its step; none of one that looks ahead.
@@ -268,7 +275,8 @@ bool endSearch(State& state, const SearchTools& tools, Collection& c) {
   const SweepMemory& memory = tools.sweeps.memory;
   LoadCertificate& proof = c.certificate.front();
   if (proof.search.isSuspended()) return true;
-  const bool rests = restsIn(state, tools, c);
+  const Criterion resting = restsIn(state, tools, c);
+  const bool rests = resting.holds;
   const Criterion converged = hasConverged(state, c);
   if (rests && !converged.holds) {
     recordSearch(state, tools.notes, c, proof.search, converged, "search");
@@ -288,7 +296,7 @@ bool endSearch(State& state, const SearchTools& tools, Collection& c) {
   if (c.settled) {
     recordSearch(state, tools.notes, c, search, converged, "carried");
   } else if (tools.notes) {
-    const Criterion why = rests ? kOverloaded : movesNowhere(state, memory, c);
+    const Criterion& why = rests ? kOverloaded : resting;
     recordSearch(state, tools.notes, c, search, why, "open");
   }
   if (rests) prove(state, c, std::move(search.load));

@@ -1,7 +1,6 @@
 #include "src2d/merging/default_rule.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "src2d/dynamics/solver.h"
 #include "src2d/dynamics/thread_memory.h"
@@ -98,7 +97,7 @@ InnerRows rigidRows(const State& state, const InternalContact& contact, const So
 /// Guarded by Cures.AContactThatCarriedNothingWhenItsPairMergedTakesALoadLater.
 void keepAllPoints(InternalContact&) {}
 
-Parts uncutParts(const State&, Scratch&, const Collection& c) { return componentsOf(c); }
+Parts uncutParts(const State&, const Collection& c) { return componentsOf(c); }
 
 /// Deviation: a pair that parted slowly waits for as long as it would still seem at rest. Guarded
 /// by Seesaw.BarelyOutOfBalanceTipsAsInTheReference.

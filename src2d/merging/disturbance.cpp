@@ -30,7 +30,7 @@ double speedBound(const Rigid& a, const Rigid& b, const Contact& contact) {
 /// Surely below the closing speed that `closingSpeed` asks for.
 bool isSlow(const State& state, const Contact& contact, double impact) {
   constexpr double kRounding = 1e-9;
-  if (state.isCollection(state[contact.key.a].rigid)) return false;  // its points are seen from a
+  if (state.isMember(contact.key.a)) return false;  // its points are seen from a
   bool fresh = false;
   for (int i = 0; i < contact.count; ++i) {
     fresh |= contact.points[static_cast<std::size_t>(i)].fresh;

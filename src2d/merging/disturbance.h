@@ -1,8 +1,6 @@
 #pragma once
 /// ContactOrdering: where something new enters in this step (Section 6.2).
 
-#include <cstdint>
-
 #include "src2d/dynamics/state.h"
 
 namespace merge2d {

@@ -37,7 +37,7 @@ bool takesHoldAnew(const State& state, const BodyPair& pair) {
 /// Notes hits, magnets that take hold, impulses, and forces that begin or end.
 void notePerturbations(State& state, const Scratch& scratch) {
   const auto hit = [&](BodyId b, bool met) {
-    if (!state.isCollection(state[b].rigid)) return;
+    if (!state.isMember(b)) return;
     Collection& c = state.collection(state[b].rigid);
     c.hits.blow = state.step;
     if (met) c.hits.met = state.step;
@@ -54,7 +54,7 @@ void notePerturbations(State& state, const Scratch& scratch) {
   }
   for (const Kick& kick : scratch.kicks) hit(kick.body, false);
   for (const BodyId b : scratch.stirred) {
-    if (!state.isCollection(state[b].rigid)) continue;
+    if (!state.isMember(b)) continue;
     forgetProofs(state.collection(state[b].rigid));
   }
 }

@@ -96,10 +96,10 @@ std::vector<RigidId> struckRigids(const State& state, const Scratch& scratch) {
   return struck;
 }
 
-/// What passes a blow on: it floats, or is a collection.
+/// Things that pass a blow on: floating ones, and collections.
 bool passesBlows(const State& state, BodyId b) {
   const Rigid& r = state.rigid(b);
-  return !r.asleep && (r.floating() || state.isCollection(state[b].rigid));
+  return !r.asleep && (r.floating() || state.isMember(b));
 }
 
 /// Has the solve asked about the collections, floating or not, that hang together with one of
@@ -147,7 +147,7 @@ void noteReached(State& state, Scratch& scratch) {
 void openWhatFramesDrag(const State& state, Scratch& scratch) {
   const auto moves = [&](BodyId b) { return state.rigid(b).isCarried(); };
   const auto open = [&](BodyId body) {
-    if (!state.isCollection(state[body].rigid)) return;
+    if (!state.isMember(body)) return;
     const Collection& c = state.collection(state[body].rigid);
     if (isSwept(state, c)) scratch.doubts[state.collections.slotOf(c)] = Doubt::Open;
   };

@@ -15,8 +15,7 @@ void spreadHits(State& state, Scratch& scratch);
 void noteReached(State& state, Scratch& scratch);
 
 /// Between two things that are fixed to different frames the full solve has no row, and no load
-/// tells how one drags at the other: where a frame moves, it is asked with the members on their
-/// own.
+/// tells how one drags at the other: where a frame moves, the collections that it drags are opened.
 void openWhatFramesDrag(const State& state, Scratch& scratch);
 
 }  // namespace merge2d

@@ -47,15 +47,11 @@ double wayOf(const StruckBodies& struck, BodyId body) {
   return at != struck.end() && at->body == body ? at->way : 0.0;
 }
 
-bool isInCollection(const State& state, BodyId body) {
-  return state.isCollection(state[body].rigid);
-}
-
 /// The collections that bodies with impulses belong to now, ascending.
 std::vector<RigidId> struckCollections(const State& state, const Scratch& scratch) {
   std::vector<RigidId> ids;
   for (const Kick& kick : scratch.kicks) {
-    if (isInCollection(state, kick.body)) ids.push_back(state[kick.body].rigid);
+    if (state.isMember(kick.body)) ids.push_back(state[kick.body].rigid);
   }
   std::ranges::sort(ids);
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -76,14 +72,14 @@ class PairSearch {
  public:
   PairSearch(const State& state, const StruckBodies& struck) : state_(state), struck_(struck) {
     for (const StruckBody& s : struck) {
-      if (!isInCollection(state, s.body)) farthest_frame_ = std::max(farthest_frame_, s.way);
+      if (!state.isMember(s.body)) farthest_frame_ = std::max(farthest_frame_, s.way);
     }
   }
 
   /// Ascending.
   std::vector<ContactKey> find() {
     for (const StruckBody& s : struck_) {
-      if (isInCollection(state_, s.body)) addNeighbours(s);
+      if (state_.isMember(s.body)) addNeighbours(s);
     }
     addKnown();
     std::ranges::sort(keys_);
@@ -134,7 +130,7 @@ class PairSearch {
   }
 
   bool isStruckMember(BodyId body) const {
-    return isInCollection(state_, body) &&
+    return state_.isMember(body) &&
            std::ranges::binary_search(struck_, body, {}, &StruckBody::body);
   }
 
@@ -170,8 +166,7 @@ class PairSearch {
 }  // namespace
 
 void expectContactsOfStruck(State& state, Scratch& scratch) {
-  if (std::ranges::none_of(scratch.kicks,
-                           [&](const Kick& k) { return isInCollection(state, k.body); })) {
+  if (std::ranges::none_of(scratch.kicks, [&](const Kick& k) { return state.isMember(k.body); })) {
     return;
   }
   const StruckBodies struck = struckBodies(state, scratch);

@@ -51,6 +51,13 @@ class GroupList {
   std::map<std::uint32_t, std::int32_t> place_;
 };
 
+/// Section 8.2, or docs/cycles.md: a pair with fewer than two contacts needs its group.
+Criterion isHeld(const State& state, const ReadyPair& edge, bool by_group) {
+  const bool by_cycles = state.settings.merging.cycles == CycleCriterion::Triangle;
+  return {"cycle", by_cycles ? "Section 8.2" : kOwnCycles, static_cast<double>(edge.contacts), 2.0,
+          by_group};
+}
+
 }  // namespace
 
 void noteGroups(const State& state, Scratch& scratch, const Groups& group) {
@@ -71,10 +78,8 @@ void noteGroups(const State& state, Scratch& scratch, const Groups& group) {
     }
   }
   groups.write();
-  const bool by_cycles = state.settings.merging.cycles == CycleCriterion::Triangle;
-  const std::string_view source = by_cycles ? "Section 8.2" : kOwnCycles;
   for (const ReadyPair& edge : scratch.ready) {
-    const Criterion test{"cycle", source, static_cast<double>(edge.contacts), 2.0, held(edge)};
+    const Criterion test = isHeld(state, edge, held(edge));
     Decision* d = recordMerge(state, scratch.notes, edge.pair, test);
     if (d && test.holds) groups.nameIn(*d, group[edge.node_a]);
   }

@@ -68,8 +68,7 @@ void weldPairs(State& state, Scratch& scratch, const std::vector<BodyPair>& pair
                const OnFloor& on_floor) {
   for (const BodyPair& pair : pairs) {
     if (!weld(state, pair, on_floor)) continue;
-    const RigidId id =
-        state.isCollection(state[pair.a].rigid) ? state[pair.a].rigid : state[pair.b].rigid;
+    const RigidId id = state.isMember(pair.a) ? state[pair.a].rigid : state[pair.b].rigid;
     scratch.events.push_back(
         {EventType::Merge, pair.a, pair.b, state.collection(id).id, EventReason::None});
   }

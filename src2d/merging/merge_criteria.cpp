@@ -120,9 +120,8 @@ Criterion hardlyBreathes(const PairInContact& pair) {
 }
 
 Criterion isNotAboutToSlide(const PairInContact& pair) {
-  const bool slides = pair.on_edge == pair.active && aboutToSlide(pair.state, pair.pair);
-  return {"edge", kOwnMerging, static_cast<double>(pair.on_edge), static_cast<double>(pair.active),
-          !slides};
+  const bool wedged = pair.on_edge == pair.active && !aboutToSlide(pair.state, pair.pair);
+  return below("edge", kOwnMerging, wedged ? 0.0 : pair.on_edge, pair.active);
 }
 
 Criterion hasSettledLoad(const PairInContact& pair) {

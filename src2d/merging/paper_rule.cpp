@@ -1,7 +1,5 @@
 #include "src2d/merging/paper_rule.h"
 
-#include <algorithm>
-
 #include "src2d/collections/collection.h"
 #include "src2d/collections/inner_push.h"
 #include "src2d/dynamics/solver.h"
@@ -50,10 +48,6 @@ void discardInactive(InternalContact& contact) {
 
 int waitsNever(const State&, const Weld*) { return 0; }
 
-Parts components(const State& state, Scratch&, const Collection& c) {
-  return connectedParts(state, c);
-}
-
 /// The contacts around collections, then those inside. A contact that carried nothing when its pair
 /// merged is no part of the contact graph: its block is not among the active ones.
 std::vector<SweepItem> sweepItems(State& state, Scratch& scratch) {
@@ -97,7 +91,7 @@ constinit const UnmergingMethod kPaperUnmerging{
     .unmerge = unmergeByContacts,
     .collections = {.enter = discardInactive,
                     .innerRows = softRows,
-                    .parts = components,
+                    .parts = connectedParts,
                     .waitAfterSplit = waitsNever},
 };
 

@@ -14,11 +14,10 @@ void sleepEachByItself(State& state, Scratch& scratch) {
   for (const RigidId id : state.present) {
     if (!canSleep(state, id)) continue;
     const Rigid& r = state[id];
-    const bool disturbed = scratch.restless[index(id)] != 0;
-    const bool rests = r.asleep || r.quiet_steps >= state.settings.sleeping.steps;
-    recordSleep(state, scratch, id, disturbed || !rests);
-    if (r.asleep && disturbed) wakeUp(state, scratch, id);
-    if (!r.asleep && rests && !disturbed) fallAsleep(state, scratch, id);
+    const Criterion quiet = isQuiet(state, scratch, id);
+    recordSleep(state, scratch, id, quiet);
+    if (r.asleep && !quiet.holds) wakeUp(state, scratch, id);
+    if (!r.asleep && quiet.holds) fallAsleep(state, scratch, id);
   }
 }
 

@@ -23,9 +23,9 @@ Criterion sticks(const UnmergingSettings& settings, double slip) {
   return {"sliding", "(19)", slip, settings.sliding, slip <= settings.sliding};
 }
 
-/// Eq. (17) at unmerging (Section 6.4).
+/// Section 6.4, with the measure of Eq. (17).
 Criterion movesSlowly(const UnmergingSettings& settings, double motion) {
-  return {"relative-motion", "(17)", motion, settings.velocity, motion <= settings.velocity};
+  return {"relative-motion", "Section 6.4", motion, settings.velocity, motion <= settings.velocity};
 }
 
 /// Asks the criteria of the welds of one collection in one step, and cuts the welds for which one

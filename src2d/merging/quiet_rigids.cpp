@@ -61,17 +61,27 @@ Criterion rests(const Candidate& c) {
   return below("rest", "Section 7", motion, c.velocity);
 }
 
-/// Forces and gravity balance. A load must have been steady for as long as acceleration is looked
-/// ahead for; so may a thing that is held by contacts prove that nothing comes of its acceleration.
+/// Forces and gravity balance.
 Criterion isBalanced(const Candidate& c, const SolverVelocity& u) {
   const double gain =
       fastestCorner(c.box, {c.rigid.x, {u.gained[0], u.gained[1]}, u.gained[2]}, {});
   const double largest = largestGain(c.state, c.ties, c.velocity);
-  const bool balanced = gain <= largest;
-  const bool lasts = c.rigid.slow_steps * c.state.h >= c.state.settings.sleeping.time;
-  const bool holds =
-      c.ties.held ? lasts || (balanced && !c.ties.loaded) : balanced && (lasts || !c.ties.loaded);
-  return {"balance", kOwnSleeping, gain, largest, holds};
+  return {"balance", kOwnSleeping, gain, largest, gain <= largest};
+}
+
+/// It has been slow under steady loads for as long as acceleration is looked ahead for.
+Criterion isSteady(const Candidate& c) {
+  const double time = c.rigid.slow_steps * c.state.h, least = c.state.settings.sleeping.time;
+  return {"steady", kOwnSleeping, time, least, time >= least};
+}
+
+/// The test that decides whether it stays at rest: balance, where a load on it must have been
+/// steady as well. For a thing that contacts hold steadiness is enough: nothing came of its
+/// acceleration.
+Criterion staysAtRest(const Candidate& c, const SolverVelocity& u) {
+  const Criterion balanced = isBalanced(c, u), steady = isSteady(c);
+  if (balanced.holds) return c.ties.loaded ? steady : balanced;
+  return c.ties.held && steady.holds ? steady : balanced;
 }
 
 void recordRest(const State& state, Scratch& scratch, RigidId id, const Criterion& test,
@@ -100,11 +110,11 @@ void countQuietRigids(State& state, Scratch& scratch) {
       if (scratch.notes) recordRest(state, scratch, id, slow, before);
       continue;
     }
-    const Criterion balanced = isBalanced(candidate, scratch.u[index(id)]);
-    if (balanced.holds) r.quiet_steps = before + 1;
+    const Criterion stays = staysAtRest(candidate, scratch.u[index(id)]);
+    if (stays.holds) r.quiet_steps = before + 1;
     if (!scratch.notes) continue;
     recordRest(state, scratch, id, slow, before);
-    if (sleeping.time > 0.0) recordRest(state, scratch, id, balanced, before);
+    if (sleeping.time > 0.0) recordRest(state, scratch, id, stays, before);
   }
 }
 

@@ -18,7 +18,7 @@ constexpr std::string_view kStage = "AccumulateRelativeMotion";
 
 /// A pair that parted slowly has waited, but for the last step, which counts.
 Criterion hasWaited(int count) {
-  return {"patience", kOwnMerging, static_cast<double>(-count), 0.0, count >= -1};
+  return {"patience", kOwnMerging, static_cast<double>(-count), 1.0, count >= -1};
 }
 
 /// A pair that waits, as it parted slowly, and does not move half as fast as it would by now with
@@ -31,12 +31,12 @@ Criterion hasStopped(const State& state, const BodyPair& pair, const Contact& co
   return below("stopped", kOwnMerging, relativeMotion(state, pair), 0.5 * steps * gain);
 }
 
-/// It has waited for long enough to be asked for that.
+/// It has waited for long enough to be asked for that: for a tenth of the longest wait.
 bool isAskedWhetherItStopped(const State& state, const Contact& contact) {
+  constexpr int kLongEnough = kDecided.patience / 10;  // steps
   if (contact.parting <= 0.0F || contact.quiet_steps >= -1) return false;
   const auto gain = static_cast<double>(contact.parting);
-  const double steps = stepsUntilSeen(state, gain) + contact.quiet_steps;
-  return steps >= kDecided.tolerance * kDecided.patience;
+  return stepsUntilSeen(state, gain) + contact.quiet_steps >= kLongEnough;
 }
 
 /// A pair that has stopped waits no longer.

@@ -1,8 +1,9 @@
 #pragma once
-/// SingleIterationPGS (Section 6.2): one sweep of PGS over the contacts inside collections, and
-/// those around them, keeps the inner forces alive. Its velocities are only looked at, by Unmerge;
-/// its impulses of contacts outside collections are thrown away, so that the full solve's warm
-/// start is untouched. The rule decides which rows are swept, and in which order (rule.h).
+/// SingleIterationPGS (Section 6.2): the impulses inside collections. By the paper's rule one sweep
+/// of PGS over the contacts inside, and those around them, keeps the inner forces alive. Its
+/// velocities are only looked at, by Unmerge; its impulses of contacts outside collections are
+/// thrown away, so that the full solve's warm start is untouched. The default rule searches, and
+/// opens collections (doubt.h).
 
 #include "src2d/dynamics/state.h"
 
@@ -26,8 +27,8 @@ inline void sweepItem(const SweepItem& item, std::vector<SolverVelocity>& u, Sol
 /// Updates the impulses inside collections.
 void sweepCollections(State& state, Scratch& scratch);
 
-/// For the rules that sweep: `inside` updates the impulses inside; the impulses outside that only
-/// the sweep knows are kept.
+/// For the paper's rule: `inside` updates the impulses inside; the impulses outside that only the
+/// sweep knows are kept.
 void sweepAround(State& state, Scratch& scratch, void (*inside)(State& state, Scratch& scratch));
 
 }  // namespace merge2d

@@ -45,7 +45,7 @@ void releaseBodies(State& state, Scratch& scratch, const std::vector<BodyId>& bo
       any = true;
     }
     if (!any) continue;
-    splitAtCuts(state, scratch, c.rigid, collectionMethod(state).parts(state, scratch, c));
+    splitAtCuts(state, scratch, c.rigid, collectionMethod(state).parts(state, c));
   }
   finishSplits(state, scratch);
   layOutCollections(state);

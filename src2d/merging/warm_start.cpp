@@ -14,8 +14,6 @@
 namespace merge2d {
 namespace {
 
-bool isMember(const State& state, BodyId b) { return state.isCollection(state[b].rigid); }
-
 /// The velocity of each member in its collection, with last step's push.
 void startMembers(const State& state, Collection& c, Scratch& scratch) {
   layOutPush(state, c);
@@ -38,7 +36,7 @@ void startMembers(const State& state, Collection& c, Scratch& scratch) {
 void startOthers(const State& state, Scratch& scratch) {
   for (std::uint32_t i = 0; i < state.bodies.size(); ++i) {
     const BodyId b{i};
-    if (isMember(state, b) || !state[b].alive) continue;
+    if (state.isMember(b) || !state[b].alive) continue;
     const Rigid& r = state[rigidOf(b)];
     const bool free = r.floating() && !r.asleep;
     SolverVelocity& u = scratch.sweep_u[i];

@@ -9,7 +9,7 @@ namespace merge2d {
 /// The stage, which the rule of unmerging fills (rule.h).
 void warmStart(State& state, Scratch& scratch);
 
-/// For the rules that sweep: sets up the velocities that the sweep starts from.
+/// For the paper's rule: sets up the velocities that the sweep starts from.
 void warmStartSweep(State& state, Scratch& scratch);
 
 }  // namespace merge2d

@@ -44,8 +44,8 @@ class WeldMotions {
   const std::vector<SolverVelocity>& u_;
 };
 
-/// How fast the members of the trial move, at contacts and at the corners of welds; turning about a
-/// contact of a body beside which the other hardly moves is left to the residual [m/s].
+/// How fast the members move in a search, at contacts and at the corners of welds [m/s]. A weld of
+/// which one box hardly moves is left out: its motion may be that of the residual.
 double fastestOf(const State& state, const SweepMemory& memory, const Collection& c);
 
 /// Per weld: whether its bodies move in a search.

@@ -8,10 +8,6 @@
 namespace merge2d {
 namespace {
 
-bool isAwake(const State& state, BodyId b) {
-  return state.isCollection(state[b].rigid) && !state.rigid(b).asleep;
-}
-
 std::uint32_t slotOf(const State& state, BodyId b) {
   return static_cast<std::uint32_t>(index(state[b].rigid) - state.bodies.size());
 }
@@ -26,7 +22,7 @@ class OuterLoads {
   }
 
   void add(BodyId b, const Vec2& impulse, double moment) {
-    if (!isAwake(state_, b)) return;
+    if (!state_.isAwakeMember(b)) return;
     std::uint32_t& place = place_[index(b)];
     if (place == 0) {
       loads_.push_back({.slot = slotOf(state_, b), .member = state_[rigidOf(b)].member});
@@ -51,7 +47,7 @@ class OuterLoads {
 
 void addContacts(const State& state, const Scratch& scratch, OuterLoads& loads) {
   for (const BodyPair& pair : scratch.pairs) {
-    if (!isAwake(state, pair.a) && !isAwake(state, pair.b)) continue;
+    if (!state.isAwakeMember(pair.a) && !state.isAwakeMember(pair.b)) continue;
     const Pose pose_a = state.pose(pair.a);
     const Vec2 x_b = state.pose(pair.b).position;
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
@@ -77,7 +73,8 @@ void addJoints(const State& state, OuterLoads& loads) {
   for (const std::uint32_t i : state.joint_lists.present) {
     const Joint& joint = state.joints[i];
     if (!holds(state, joint) || isInside(state, joint)) continue;
-    if (!isAwake(state, joint.a) && (joint.to_world || !isAwake(state, joint.b))) continue;
+    if (!state.isAwakeMember(joint.a) && (joint.to_world || !state.isAwakeMember(joint.b)))
+      continue;
     const Vec2 x_a = state.pose(joint.a).position;
     const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.pose(joint.b).position;
     SolverVelocity a{.inv_mass = 1.0, .inv_inertia = 1.0}, b = a;

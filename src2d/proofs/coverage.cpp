@@ -88,9 +88,8 @@ Coverage coverageOf(const State& state, const Collection& c, const CollectionLoa
   const std::size_t n = proof.witnesses.size();
   const double ll = weighed(load.norm * load.norm, square(load), scale);
   if (n == 0) {
-    Coverage none = leaving(ll, {});
-    none.carried.holds = false;
-    return none;
+    const double all = ll <= 0.0 ? 0.0 : std::sqrt(ll);
+    return {{"proof", kOwnDecided, all, 0.0, false}, {}};
   }
   const Coverage known = leaving(leftByWeights(state, c, load, scale), proof.weights);
   if (known.carried.holds) return known;

@@ -79,7 +79,7 @@ inline double impactSpeed(const State& state) {
   return std::max(2.0 * state.h * state.gravity.norm(), state.settings.unmerging.velocity);
 }
 
-/// Something hits it in these steps.
+/// Something has hit the collection in the last `hitSteps` steps.
 inline bool isHit(const State& state, const Collection& c) {
   return state.step - c.hits.blow < hitSteps(state);
 }
@@ -90,8 +90,8 @@ inline double rowSweeps(const State& state, std::size_t rows) {
                   state.settings.solver.iterations * static_cast<double>(rows));
 }
 
-/// The sweeps of the full solve over all its rows are more than those of a step: a hit is followed
-/// only as far as it reaches.
+/// The full solve spends more row sweeps on its contacts than a search may in one step: then a
+/// hit is followed only as far as it reaches.
 inline bool isLarge(const State& state, const Collection& c) {
   return rowSweeps(state, c.block_contact.size()) > kDecided.row_sweeps;
 }

@@ -13,7 +13,7 @@ namespace merge2d {
 /// Of a floating collection: the member whose rows follow from those of the others.
 BodyId heaviestOf(const State& state, const Collection& c);
 
-/// Has the proofs speak for a new layout, from this step on.
+/// Marks all proofs as inherited by a new layout of this step, and ends the search.
 void restart(const State& state, LoadCertificate& proof);
 
 /// The impulses inside are from now on those of this combination of the proofs.

@@ -1,7 +1,7 @@
 #pragma once
 /// Proofs outlive a layout: the impulses of a witness go on to carry their load when a body joins a
-/// collection or leaves it. Those between the body and the others become loads from
-/// outside, or no longer are.
+/// collection or leaves it. When a body leaves, its impulses on the others become loads from
+/// outside; when one joins, such loads become impulses inside.
 
 #include "src2d/core/regrouping.h"
 #include "src2d/proofs/load_certificate.h"

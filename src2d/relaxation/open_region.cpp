@@ -1,7 +1,6 @@
 #include "src2d/relaxation/open_region.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "src2d/collections/collection.h"
 #include "src2d/collections/inner_push.h"

@@ -22,8 +22,8 @@ bool isDirect(const State& state, const ProofSearch& search);
 /// Replaces the load of a search by that of this step; the impulses found so far stay.
 void renewLoad(const State& state, Collection& collection, const CollectionLoad& load);
 
-/// The same for a load beyond those that there were. The heaviest member of a floating collection
-/// is fixed, as its rows follow from those of the others.
+/// Begins a search for impulses that carry a load beyond those that there were. The heaviest member
+/// of a floating collection is fixed, as its rows follow from those of the others.
 void beginSearchAhead(const State& state, Collection& collection, Witness&& load, double way);
 
 /// Memory and records of a search: several threads may go on with searches in different

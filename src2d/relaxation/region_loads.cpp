@@ -1,8 +1,6 @@
 #include "src2d/relaxation/region_loads.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "src2d/collections/inner_push.h"
 #include "src2d/proofs/collection_load.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <span>
-#include <utility>
 
 #include "src2d/collections/momentum.h"
 #include "src2d/dynamics/thread_memory.h"

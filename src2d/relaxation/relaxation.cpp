@@ -1,6 +1,5 @@
 #include "src2d/relaxation/relaxation.h"
 
-#include <algorithm>
 #include <numeric>
 
 #include "src2d/collections/collection.h"

@@ -71,50 +71,41 @@ void fallAsleep(State& state, Scratch& scratch, RigidId id) {
 
 namespace {
 
-/// The criterion that decides whether something falls asleep, wakes or stays awake.
-Criterion sleepCriterion(const State& state, const Scratch& scratch, RigidId id, bool stays_awake) {
-  const Rigid& r = state[id];
-  const int needed = state.settings.sleeping.steps;
-  const auto keepsAwake = [](std::string_view criterion) {
-    return Criterion{criterion, kOwnSleeping, 1.0, 0.0, false};
-  };
-  if (scratch.restless[index(id)] != 0) return keepsAwake("disturbed");
-  if (r.asleep) return keepsAwake("neighbours");
-  if (r.quiet_steps >= needed && stays_awake) {
-    const bool settles = state.isCollection(id) && !state.collection(id).settled;
-    return keepsAwake(settles ? "inner-forces" : "neighbours");
-  }
-  return {"rest", "Section 7", static_cast<double>(r.quiet_steps), static_cast<double>(needed),
-          r.quiet_steps >= needed};
+Criterion keepsAwake(std::string_view criterion) {
+  return {criterion, kOwnSleeping, 1.0, 0.0, false};
 }
 
 }  // namespace
 
-void recordSleep(const State& state, const Scratch& scratch, RigidId id, bool stays_awake) {
+Criterion isQuiet(const State& state, const Scratch& scratch, RigidId id) {
+  if (scratch.restless[index(id)] != 0) return keepsAwake("disturbed");
   const Rigid& r = state[id];
-  if (!scratch.notes || (r.asleep && !stays_awake)) return;
+  const int needed = state.settings.sleeping.steps;
+  return {"rest", "Section 7", static_cast<double>(r.quiet_steps), static_cast<double>(needed),
+          r.asleep || r.quiet_steps >= needed};
+}
+
+void recordSleep(const State& state, const Scratch& scratch, RigidId id, const Criterion& test) {
+  const Rigid& r = state[id];
+  if (!scratch.notes || (r.asleep && test.holds)) return;
   const BodyId first = state.firstBody(id);
-  const std::string_view verdict = r.asleep ? "wake" : stays_awake ? "wait" : "sleep";
+  const std::string_view verdict = test.holds ? "sleep" : r.asleep ? "wake" : "wait";
   scratch.notes->decisions.push_back(
-      record(sleepCriterion(state, scratch, id, stays_awake), "SleepAndWake", first, first, verdict,
+      record(test, "SleepAndWake", first, first, verdict,
              {r.quiet_steps, r.quiet_steps, state.settings.sleeping.steps}));
 }
 
 namespace {
 
-/// Why an island stays awake: the strongest reason of its members.
-enum Awake : std::uint8_t { kNothing, kInnerForces, kMotion };
-
-Awake reasonToStay(const State& state, RigidId id, bool restless) {
-  const Rigid& r = state[id];
-  if (restless) return kMotion;
-  if (r.asleep) return kNothing;
-  if (r.quiet_steps < state.settings.sleeping.steps) return kMotion;
-  const bool settled = !state.isCollection(id) || state.collection(id).settled;
-  return settled ? kNothing : kInnerForces;
+/// It is quiet, and so are the forces inside.
+Criterion maySleep(const State& state, const Scratch& scratch, RigidId id) {
+  const Criterion quiet = isQuiet(state, scratch, id);
+  if (!quiet.holds || state[id].asleep || !state.isCollection(id)) return quiet;
+  return state.collection(id).settled ? quiet : keepsAwake("inner-forces");
 }
 
-std::uint8_t& reasonOfIsland(Scratch& scratch, RigidId id) {
+/// Whether something in its island stays awake.
+std::uint8_t& awakeOfIsland(Scratch& scratch, RigidId id) {
   return scratch.island_awake[scratch.sets.find(static_cast<std::uint32_t>(id))];
 }
 
@@ -122,9 +113,7 @@ std::uint8_t& reasonOfIsland(Scratch& scratch, RigidId id) {
 /// be looked at again: asleep it would never merge.
 bool isAboutToMerge(const State& state, const BodyPair& pair) {
   if (!merges(state.mode) || state.rigid(pair.a).asleep || state.rigid(pair.b).asleep) return false;
-  const auto free = [&](BodyId b) {
-    return state.rigid(b).floating() && !state.isCollection(state[b].rigid);
-  };
+  const auto free = [&](BodyId b) { return state.rigid(b).floating() && !state.isMember(b); };
   if (!free(pair.a) && !free(pair.b)) return false;
   const int quiet = state.contacts[state.contacts.order[pair.first]].quiet_steps;
   return quiet != 0 && quiet < state.settings.merging.steps;
@@ -136,7 +125,7 @@ void awaitMerges(const State& state, Scratch& scratch) {
     if (!isAboutToMerge(state, pair)) continue;
     for (const BodyId b : {pair.a, pair.b}) {
       const RigidId id = state[b].rigid;
-      if (canSleep(state, id)) reasonOfIsland(scratch, id) = kMotion;
+      if (canSleep(state, id)) awakeOfIsland(scratch, id) = 1;
     }
   }
 }
@@ -158,15 +147,11 @@ void uniteIslands(const State& state, Scratch& scratch) {
   }
 }
 
-/// Per island the strongest reason of its members to stay awake.
 void findWhatStaysAwake(const State& state, Scratch& scratch) {
   resizeTightly(scratch.island_awake, state.rigids.size());
-  for (const RigidId id : state.present) scratch.island_awake[index(id)] = kNothing;
+  for (const RigidId id : state.present) scratch.island_awake[index(id)] = 0;
   for (const RigidId id : state.present) {
-    if (!canSleep(state, id)) continue;
-    std::uint8_t& island = reasonOfIsland(scratch, id);
-    const std::uint8_t own = reasonToStay(state, id, scratch.restless[index(id)] != 0);
-    island = std::max(island, own);
+    if (canSleep(state, id) && !maySleep(state, scratch, id).holds) awakeOfIsland(scratch, id) = 1;
   }
   awaitMerges(state, scratch);
 }
@@ -189,8 +174,11 @@ void sleepByIslands(State& state, Scratch& scratch) {
   findWhatStaysAwake(state, scratch);
   for (const RigidId id : state.present) {
     if (!canSleep(state, id)) continue;
-    const bool stays_awake = reasonOfIsland(scratch, id) != kNothing;
-    recordSleep(state, scratch, id, stays_awake);
+    const bool stays_awake = awakeOfIsland(scratch, id) != 0;
+    if (scratch.notes) {
+      const Criterion own = maySleep(state, scratch, id);
+      recordSleep(state, scratch, id, own.holds && stays_awake ? keepsAwake("neighbours") : own);
+    }
     const bool asleep = state[id].asleep;
     if (asleep && stays_awake) wakeUp(state, scratch, id);
     if (!asleep && !stays_awake) fallAsleep(state, scratch, id);

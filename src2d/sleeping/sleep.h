@@ -22,8 +22,11 @@ void markRestless(State& state, Scratch& scratch);
 /// Puts one rigid thing to sleep.
 void fallAsleep(State& state, Scratch& scratch, RigidId id);
 
-/// Records whether a rigid thing stays awake, and the one test that decided it.
-void recordSleep(const State& state, const Scratch& scratch, RigidId id, bool stays_awake);
+/// A rigid thing has been quiet for long enough, or sleeps, and nothing disturbs it (Section 7).
+Criterion isQuiet(const State& state, const Scratch& scratch, RigidId id);
+
+/// Records the test that decided whether a rigid thing sleeps, where it holds, or stays awake.
+void recordSleep(const State& state, const Scratch& scratch, RigidId id, const Criterion& test);
 
 /// Wakes one rigid thing; its island follows in the stage.
 void wakeUp(State& state, Scratch& scratch, RigidId id);

@@ -235,8 +235,7 @@ void measure(const State& state, const Actions& actions, const Snapshot& seen, S
   stats.kinetic_energy = stats.potential_energy = stats.angular_momentum = 0.0;
   stats.momentum.setZero();
   for (const BodyState& b : seen.bodies) {
-    if (state[rigidOf(b.id)].anchor != kFloating && !state.isCollection(state[b.id].rigid))
-      continue;
+    if (state[rigidOf(b.id)].anchor != kFloating && !state.isMember(b.id)) continue;
     const Body& body = state[b.id];
     stats.kinetic_energy +=
         0.5 * (body.mass * b.v.squaredNorm() + body.inertia * b.omega * b.omega);
@@ -289,7 +288,7 @@ double deepestOverlap(const State& state, const std::vector<Event>& events) {
   for (const Event& event : events) {
     if (event.type != EventType::Merge) continue;
     for (const BodyId b : {event.a, event.b}) {
-      if (state.isCollection(state[b].rigid)) grown.push_back(state[b].rigid);
+      if (state.isMember(b)) grown.push_back(state[b].rigid);
     }
   }
   std::ranges::sort(grown);

@@ -22,7 +22,7 @@ TEST(PublicLayout, IsThatOfTheSoname) {
   EXPECT_EQ(sizeof(m2_joint_state), 72U);
   EXPECT_EQ(sizeof(m2_collection), 80U);
   EXPECT_EQ(sizeof(m2_event), 20U);
-  EXPECT_EQ(sizeof(m2_decision), 136U);
+  EXPECT_EQ(sizeof(m2_decision), 160U);
   EXPECT_EQ(sizeof(m2_counts), 24U);
   EXPECT_EQ(sizeof(m2_sums), 56U);
   EXPECT_EQ(sizeof(m2_ray_hit), 48U);

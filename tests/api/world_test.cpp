@@ -110,11 +110,14 @@ TEST(PublicWorld, SaysWhyTwoBodiesAreOne) {
   world.step();
   EXPECT_THAT(world.why(2, 1), HasSubstr("box 0 and box 1"));
   ASSERT_FALSE(world.decisions().empty());
+  std::vector<std::string> sources;
   for (const merge2d::Decision& d : world.decisions()) {
     EXPECT_STRNE(d.stage, "");
     EXPECT_STRNE(d.criterion, "");
     EXPECT_STRNE(d.verdict, "");
+    sources.emplace_back(d.equation);
   }
+  EXPECT_THAT(sources, Contains("docs/decisions/cures.md#when-to-merge")) << "in full";
 }
 
 TEST(PublicWorld, NamesEveryReasonOfAnUnmerge) {

@@ -40,5 +40,49 @@ TEST(Records, ThePageListsEveryRecordThatScenesMake) {
   EXPECT_GE(criteria.size(), 8u);
 }
 
+/// "margin" on the page: the value and the threshold alone tell whether a criterion holds.
+TEST(Records, ValueAndThresholdTellWhetherACriterionHolds) {
+  const std::set<std::string_view> asks_for_enough{"pressed", "steady"};
+  std::set<std::string_view> criteria;
+  for (const char* scene : {"dominoes", "books", "wagon", "seesaw", "slope"}) {
+    World world(loadScene(scene), {.timings = false, .decisions = true});
+    for (int i = 0; i < 300; ++i) {
+      world.step();
+      for (const Decision& d : world.notes().decisions) {
+        if (d.stage != "AccumulateRelativeMotion" || d.verdict == "wait") continue;
+        criteria.insert(d.criterion);
+        const double sign = asks_for_enough.contains(d.criterion) ? -1.0 : 1.0;
+        const double margin = sign * (d.threshold - d.value);
+        const bool holds = d.verdict == "below";
+        EXPECT_TRUE(holds ? margin >= 0.0 : margin <= 0.0)
+            << scene << ": " << d.criterion << " " << d.value << " against " << d.threshold << ": "
+            << d.verdict;
+        if (d.criterion == "edge") {
+          EXPECT_EQ(holds, margin > 0.0) << d.value;
+        }
+      }
+    }
+  }
+  EXPECT_GE(criteria.size(), 7u);
+}
+
+/// Eq. (17) is about merging; its measure at unmerging is that of Section 6.4.
+TEST(Records, ThePapersTestsCiteTheSectionThatMakesThem) {
+  Scene scene = loadScene("unmerge-pivot");
+  scene.settings.merging.rule = MergingRule::Paper;
+  scene.settings.unmerging.rule = UnmergingRule::Paper;
+  World world(scene, {.mode = Mode::Merge, .timings = false, .decisions = true});
+  int asked = 0;
+  for (int i = 0; i < 400; ++i) {
+    world.step();
+    for (const Decision& d : world.notes().decisions) {
+      if (d.stage != "Unmerge" || d.criterion != "relative-motion") continue;
+      EXPECT_EQ(d.equation, "Section 6.4");
+      ++asked;
+    }
+  }
+  EXPECT_GT(asked, 0);
+}
+
 }  // namespace
 }  // namespace merge2d::docs

@@ -113,6 +113,37 @@ TEST_F(WordsTest, TellsWhyAReadyPairIsNotTaken) {
   EXPECT_EQ(said(joints), "their joints take away 3 of 3 freedoms");
 }
 
+TEST_F(WordsTest, CitesThePageOfARigidGroupAndOfTwoFrames) {
+  Decision held{.stage = "Merge",
+                .criterion = "cycle",
+                .equation = kOwnCycles,
+                .value = 1,
+                .threshold = 2,
+                .verdict = "wait"};
+  EXPECT_EQ(said(held),
+            "a single contact is a pivot, and no rigid group holds it (docs/cycles.md)");
+  held.equation = "Section 8.2";
+  EXPECT_EQ(said(held), "a single contact is a pivot, and no rigid group holds it (Section 8.2)");
+  EXPECT_EQ(
+      said({.stage = "Merge", .criterion = "frames", .equation = kOwnMerging, .verdict = "apart"}),
+      "they are on two frames, which may move against each other "
+      "(docs/decisions/cures.md#when-to-merge)");
+}
+
+TEST_F(WordsTest, SaysOfAWedgedPairThatNothingCanSlide) {
+  EXPECT_EQ(said({.criterion = "edge", .equation = "(20)", .value = 0, .threshold = 2}),
+            "none of 2 contacts that press could slide on the edge of its friction cone (Eq. 20)");
+}
+
+TEST_F(WordsTest, TellsForHowLongLoadsHaveBeenSteady) {
+  EXPECT_EQ(said({.stage = "AccumulateRelativeMotion",
+                  .criterion = "steady",
+                  .equation = "Section 7",
+                  .value = 0.3,
+                  .threshold = 1.0}),
+            "it has been slow under steady loads for 0.30 of 1.00 s (Section 7)");
+}
+
 TEST(WordsOfGroups, AreAllTheBodiesOrSomeOfMany) {
   std::vector<BodyInfo> bodies(9);
   for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].name = std::string(1, char('a' + i));

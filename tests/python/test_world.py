@@ -167,13 +167,15 @@ def test_bodies_go_by_number_or_name():
 
 def test_records_are_structured_arrays():
     world = merge2d.World(tower(), decisions=True)
-    kinds, reasons = set(), set()
+    kinds, reasons, sources = set(), set(), set()
     for _ in range(100):
         world.step()
         kinds |= set(world.events["type"])
         reasons |= set(world.decisions["criterion"])
+        sources |= set(world.decisions["equation"])
     assert "merge" in kinds
     assert {"relative-motion", "count"} <= reasons
+    assert {"(17)", "docs/decisions/cures.md#when-to-merge"} <= sources
     contacts = world.contacts
     assert set(contacts["internal"]) == {1}
     assert contacts["ny"] == pytest.approx(np.ones(len(contacts)))

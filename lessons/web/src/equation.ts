@@ -55,7 +55,7 @@ function deed(state: State, change: Change | null): string {
   if (!change) return '';
   switch (kStages[state.stage].id) {
     case 'WarmStart': return change.was === 'new' ? ' It is new and begins with nothing.' : ' It begins with the impulse of the last step.';
-    case 'SingleIterationPGS': return changed(change) ? ' The sweep changes it.' : ' The sweep leaves it as it was.';
+    case 'SingleIterationPGS': return changed(change) ? ' The sweeps inside change it.' : ' The sweeps inside leave it as it was.';
     default: return changed(change) ? ' The full solve changes it.' : ' The full solve leaves it as it was.';
   }
 }
@@ -98,6 +98,12 @@ function heldFast(state: State, collection: number): boolean {
   return trace.contactsAt(step).some((c) => c.internal && ((fixed(c.a) && trace.collection(c.b, step) === collection) || (fixed(c.b) && trace.collection(c.a, step) === collection)));
 }
 
+/** The source of a test: an equation or a section of the paper, or the page of a criterion of our own. */
+function source(d: { criterion: { equation: string } }): string {
+  const { equation } = d.criterion;
+  return equation === '(17)' ? 'Eqs. (15)–(17)' : equation.startsWith('(') ? `Eq. ${equation}` : equation;
+}
+
 function line(state: State): Line | null {
   const { trace, step } = state;
   const hh = trace.lengthOf(step);
@@ -126,8 +132,11 @@ function line(state: State): Line | null {
     }
     case 'Unmerge': {
       const d = decisionMeant(state, ['motion', 'sliding', 'relative-motion'], 'Unmerge');
-      const symbols = row(mo('|'), sub('w', 't'), mo('|'), mo('>'), mi('ε'), text('\u2002and\u2002'), mo('|'), sub('λ', 't'), mo('|'), mo('='), mi('μ'), sub('λ', 'n'));
-      return { symbols, numbers: d ? row(mn(Math.abs(d.value)), mo(Math.abs(d.value) > d.threshold ? '>' : '≤'), mn(d.threshold), text('\u2009m/s')) : null, note: d ? `${d.criterion.criterion}, ${d.criterion.equation.startsWith('(') ? `Eq. ${d.criterion.equation}` : d.criterion.equation}, for ${between(state, d)}: the weld ${d.passed ? 'holds' : 'is cut'}.` : 'Eqs. (19), (20): a weld is cut when its contact slides, breaks, or moves as a pivot. There is no weld here.' };
+      if (!d) return null;
+      const symbols = d.criterion.criterion === 'sliding'
+        ? row(mo('|'), sub('w', 't'), mo('|'), mo('>'), mi('ε'), text('\u2002and\u2002'), mo('|'), sub('λ', 't'), mo('|'), mo('='), mi('μ'), sub('λ', 'n'))
+        : row(math('msubsup', mi('v'), mi('rel'), mi('max')), mo('>'), mi('ε'));
+      return { symbols, numbers: row(mn(Math.abs(d.value)), mo(Math.abs(d.value) > d.threshold ? '>' : '≤'), mn(d.threshold), text('\u2009m/s')), note: `${d.criterion.criterion}, ${source(d)}, for ${between(state, d)}: the weld ${d.passed ? 'holds' : 'is cut'}.` };
     }
     case 'AdvanceVelocities': {
       const symbols = row(sub('u', '+'), mo('='), sub('u', '−'), mo('+'), mi('h'), math('msup', mi('M'), row(mo('−'), mn(1))), mi('f'), mo('+'), mi('h'), math('msup', mi('M'), row(mo('−'), mn(1))), math('msup', mi('J'), mi('T')), mi('λ'));
@@ -144,7 +153,7 @@ function line(state: State): Line | null {
     case 'AccumulateRelativeMotion': {
       const d = decisionMeant(state, ['relative-motion'], 'AccumulateRelativeMotion');
       const symbols = row(named('v', math('msubsup', mi('v'), mi('rel'), mi('max'))), mo('='), math('munder', mo('max'), row(mi('p'), mo('∈'), text('OBBs'))), mo('|'), sub('v', 'rel'), mo('('), mi('p'), mo(')'), mo('|'), mo('<'), named('ε', mi('ε')));
-      return { symbols, numbers: d ? row(mv('v', Math.abs(d.value)), mo(d.passed ? '<' : '≥'), mv('ε', d.threshold), text('\u2009m/s')) : null, note: d ? `Eqs. (15)–(17), for ${between(state, d)}: ${d.passed ? `calm; ${d.count} of ${d.needed} steps` : 'too fast; the count starts again'}.` : 'Eqs. (15)–(17). No free pair is in contact now.' };
+      return { symbols, numbers: d ? row(mv('v', Math.abs(d.value)), mo(d.passed ? '<' : '≥'), mv('ε', d.threshold), text('\u2009m/s')) : null, note: d ? `${source(d)}, for ${between(state, d)}: ${d.passed ? `calm; ${d.count} of ${d.needed} steps` : 'too fast; the count starts again'}.` : 'Eqs. (15)–(17). No free pair is in contact now.' };
     }
     case 'AdvancePositions': {
       const symbols = row(sub('x', '+'), mo('='), sub('x', '−'), mo('+'), mi('h'), sub('v', '+'));

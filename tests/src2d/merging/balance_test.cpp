@@ -26,6 +26,28 @@ TEST(Balance, WhatFallsSlowlyFallsOn) {
   }
 }
 
+/// The record names the test that decided: a box in balance on which a force has just begun to act
+/// waits until that has been steady for a second.
+TEST(Balance, ALoadThatIsNotSteadyYetIsWhatKeepsAwake) {
+  World world(sceneOf("gravity = [0, -10]\n[[body]]\nname = \"ground\"\npinned = true\n"
+                      "box = [9, 1]\nat = [0, -0.5]\n[[body]]\nname = \"b\"\nbox = [1, 1]\n"
+                      "at = [0, 0.5]\n[[force]]\nbody = \"b\"\nforce = [1, 0]\n"),
+              {.mode = Mode::Sleep, .timings = false, .decisions = true});
+  int waits = 0;
+  for (int i = 0; i < 300; ++i) {
+    world.step();
+    for (const Decision& d : world.notes().decisions) {
+      if (d.stage != "AccumulateRelativeMotion" || d.verdict != "awake") continue;
+      if (d.criterion == "rest") continue;
+      EXPECT_TRUE(d.criterion == "steady" ? d.value < d.threshold : d.value > d.threshold)
+          << d.criterion << " in step " << i;
+      waits += d.criterion == "steady" ? 1 : 0;
+    }
+  }
+  EXPECT_GT(waits, 50);
+  EXPECT_TRUE(see(world, "b").asleep);
+}
+
 /// It was thrown up, and would be back where it was.
 TEST(Balance, WithoutATimeAStoneHangsAtTheTopOfItsFlight) {
   for (const double time : {SleepingSettings{}.time, 0.0}) {
