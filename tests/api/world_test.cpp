@@ -117,7 +117,7 @@ TEST(PublicWorld, SaysWhyTwoBodiesAreOne) {
     EXPECT_STRNE(d.verdict, "");
     sources.emplace_back(d.equation);
   }
-  EXPECT_THAT(sources, Contains("docs/decisions/cures.md#when-to-merge")) << "in full";
+  EXPECT_THAT(sources, testing::Contains("docs/decisions/cures.md#when-to-merge")) << "in full";
 }
 
 TEST(PublicWorld, NamesEveryReasonOfAnUnmerge) {
