@@ -204,7 +204,8 @@ TEST(Explain, SaysThatARodHoldsNoPair) {
       textOf(explainStep(Words(world.bodies()), world.capture()), Outcome::Waiting);
   EXPECT_EQ(text,
             "left and right did not merge at step 5, though they passed every test for 3 steps: "
-            "their joints take away 1 of 3 freedoms, too few to hold them.");
+            "their joints take away 1 of 3 freedoms, too few to hold them "
+            "(docs/decisions/cures.md#when-to-merge).");
 }
 
 TEST(Explain, SaysThatAPairIsOnTwoFrames) {

@@ -156,8 +156,12 @@ TEST(WordsOfGroups, AreAllTheBodiesOrSomeOfMany) {
   EXPECT_EQ(words.group(group(3)), "a, b and c");
   EXPECT_EQ(words.group(group(6)), "a, b, c, d, e and f");
   EXPECT_EQ(words.group(group(9)), "a, b, c, d and 5 others");
-  Decision d{
-      .stage = "Merge", .criterion = "cycle", .value = 1, .threshold = 2, .verdict = "merge"};
+  Decision d{.stage = "Merge",
+             .criterion = "cycle",
+             .equation = kOwnCycles,
+             .value = 1,
+             .threshold = 2,
+             .verdict = "merge"};
   d.group = 1;
   EXPECT_THAT(words.test(d), testing::HasSubstr("the rigid group of b ("));
   d.members = 0;

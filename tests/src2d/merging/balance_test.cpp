@@ -29,7 +29,7 @@ TEST(Balance, WhatFallsSlowlyFallsOn) {
 /// The record names the test that decided: a box in balance on which a force has just begun to act
 /// waits until that has been steady for a second.
 TEST(Balance, ALoadThatIsNotSteadyYetIsWhatKeepsAwake) {
-  World world(sceneOf("gravity = [0, -10]\n[[body]]\nname = \"ground\"\npinned = true\n"
+  World world(sceneOf("gravity = [0, -10]\n[[body]]\nname = \"ground\"\nmotion = \"pinned\"\n"
                       "box = [9, 1]\nat = [0, -0.5]\n[[body]]\nname = \"b\"\nbox = [1, 1]\n"
                       "at = [0, 0.5]\n[[force]]\nbody = \"b\"\nforce = [1, 0]\n"),
               {.mode = Mode::Sleep, .timings = false, .decisions = true});
