@@ -25,8 +25,8 @@ constexpr const char* kExplainExamples = R"(Examples:
   merge2d explain books --at 3 --json
 
 Each sentence comes from the tests that the time step made, with value, threshold, source (an
-equation of the paper, or a page of ours), and count. docs/records.md lists the tests. Without --all, at most a dozen of a kind are
-told; --json always tells all.)";
+equation of the paper, or a page of ours) and count. docs/records.md lists the tests. Without
+--all, at most a dozen of a kind are told; --json always tells all.)";
 
 struct ExplainOptions : SceneOptions {
   std::optional<std::int64_t> at;

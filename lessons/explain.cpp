@@ -25,9 +25,6 @@ bool has(const std::vector<Decision>& tests, std::string_view verdict) {
   return std::ranges::any_of(tests, [&](const Decision& d) { return d.verdict == verdict; });
 }
 
-/// Above its threshold by how much: 1 is just there.
-double closeness(const Decision& d) { return d.threshold > 0.0 ? d.value / d.threshold : 0.0; }
-
 /// The order of several decisions of one outcome: first those that lost their count, and
 /// those near their thresholds, on either side.
 double interest(const Explanation& e) {
@@ -314,6 +311,11 @@ std::vector<Explanation> explainStep(const Words& words, const Snapshot& after) 
     return x.outcome != y.outcome ? x.outcome < y.outcome : interest(x) > interest(y);
   });
   return all;
+}
+
+double closeness(const Decision& d) {
+  const bool is_time = d.criterion == "patience" || d.criterion == "steady";
+  return is_time || d.threshold <= 0.0 ? 0.0 : d.value / d.threshold;
 }
 
 const Decision* nearestTest(const std::vector<Decision>& tests) {

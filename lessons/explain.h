@@ -46,6 +46,10 @@ struct Explanation {
 /// within one what lost its count or is near its threshold first.
 std::vector<Explanation> explainStep(const Words& words, const Snapshot& after);
 
+/// How far a test is above its threshold: 1 is just there; 0 for waits and times, which are no
+/// measure of motion.
+double closeness(const Decision& test);
+
 /// The test with the largest value / threshold. Null when there is none.
 const Decision* nearestTest(const std::vector<Decision>& tests);
 

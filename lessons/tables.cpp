@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lessons/explain.h"
 #include "lessons/lookup.h"
 
 namespace merge2d {
@@ -99,7 +100,7 @@ class StageTables {
       if (!filter_.wants(d.a, d.b)) continue;
       const bool calm = d.verdict == "keep" || d.verdict == "below" || d.verdict == "wait" ||
                         d.verdict == "carried" || d.verdict == "passed";
-      const double ratio = d.threshold > 0.0 ? std::min(d.value / d.threshold, 10.0) : 0.0;
+      const double ratio = std::min(closeness(d), 10.0);
       const std::string count = d.needed > 0 ? fmt::format("{}/{}", d.count, d.needed) : "";
       table.add({a(d.a), d.a == d.b ? "" : a(d.b), std::string(d.verdict), count,
                  d.at.isZero() ? "" : place(d.at), words_.test(d)},

@@ -96,8 +96,10 @@ std::string edge(const Decision& d) {
     return fmt::format("{}, about to slide ({})", allOnEdge(d.threshold), equationName(d.equation));
   }
   if (d.value == 0.0) {
-    return fmt::format("none of {} that press could slide on the edge of its friction cone ({})",
-                       contacts(d.threshold), equationName(d.equation));
+    return d.threshold == 1.0 ? cited("the one contact that presses is not about to slide", d)
+                              : cited(fmt::format("none of {} that press is about to slide",
+                                                  contacts(d.threshold)),
+                                      d);
   }
   return fmt::format("{:.0f} of {} that press {} on the edge of the friction cone ({})", d.value,
                      contacts(d.threshold), d.value > 1.0 ? "are" : "is", equationName(d.equation));
@@ -151,8 +153,10 @@ std::string patience(const Decision& d) {
 }
 
 std::string steady(const Decision& d) {
-  return fmt::format("it has been slow under steady loads for {} of {} s ({})",
-                     shortNumber(d.value), shortNumber(d.threshold), equationName(d.equation));
+  const char* form = d.value < d.threshold
+                         ? "it has been slow under steady loads for {} of {} s"
+                         : "it has been slow under steady loads for {} s, at least {} s";
+  return cited(fmt::format(fmt::runtime(form), shortNumber(d.value), shortNumber(d.threshold)), d);
 }
 
 std::string belt(const Decision& d) {

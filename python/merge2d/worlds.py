@@ -251,8 +251,9 @@ class World(_merge2d.World):
     def decisions(self):
         """Each test of a criterion in the last step: a, b, value, threshold, count, needed, before,
         stage, criterion, equation (of the paper, "(17)" or "Section 5.1", or the page of a
-        criterion of our own), verdict. A record about a collection has its first body as `a` and `b`. docs/records.md tells which criteria
-        count something else than steps. InputError when the step did not note them."""
+        criterion of our own), verdict. A record about a collection has its first body as `a`
+        and `b`. docs/records.md tells which criteria count something else than steps.
+        InputError when the step did not note them."""
         return super().decisions().astype(_DECISION)
 
     def why(self, a, b):

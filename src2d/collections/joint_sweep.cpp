@@ -12,8 +12,8 @@ Vec2 centerOf(const State& state, const Joint& joint, bool of_b) {
 }
 
 /// The rows of a joint in `frame`; bodies keep their own masses.
-JointBlock bodyBlock(const State& state, std::uint32_t i, const Pose& frame, JointRows rows,
-                     const SolverVelocity& a, const SolverVelocity& b) {
+JointBlock memberJointBlock(const State& state, std::uint32_t i, const Pose& frame, JointRows rows,
+                            const SolverVelocity& a, const SolverVelocity& b) {
   const Joint& joint = state.joints[i];
   const JointPlace place =
       placeOf(state, joint, frame, centerOf(state, joint, false), centerOf(state, joint, true));
@@ -48,9 +48,9 @@ void layOutJoints(const State& state, Collection& c) {
   c.joints.clear();
   for (const std::uint32_t i : jointsInside(state, c)) {
     const Joint& joint = state.joints[i];
-    c.joints.push_back(bodyBlock(state, i, state[c.rigid].frame(), JointRows::Keeping,
-                                 memberMasses(state, c, bodyIndexA(joint)),
-                                 memberMasses(state, c, bodyIndexB(state, joint))));
+    c.joints.push_back(memberJointBlock(state, i, state[c.rigid].frame(), JointRows::Keeping,
+                                        memberMasses(state, c, bodyIndexA(joint)),
+                                        memberMasses(state, c, bodyIndexB(state, joint))));
   }
 }
 
@@ -64,7 +64,7 @@ void listSweepJoints(const State& state, Scratch& scratch) {
         state.isAwakeMember(joint.a) || (!joint.to_world && state.isAwakeMember(joint.b));
     const std::uint32_t a = bodyIndexA(joint), b = bodyIndexB(state, joint);
     if (!swept || (u[a].inv_mass == 0.0 && u[b].inv_mass == 0.0)) continue;
-    scratch.sweep_joints.push_back(bodyBlock(state, i, {}, JointRows::Removing, u[a], u[b]));
+    scratch.sweep_joints.push_back(memberJointBlock(state, i, {}, JointRows::Removing, u[a], u[b]));
     for (const std::uint32_t body : {a, b}) {
       if (body < state.bodies.size()) scratch.near_collection[body] = 1;
     }
@@ -86,7 +86,8 @@ void warmStartSweepJoints(const State& state, Scratch& scratch) {
       return body < state.bodies.size() && scratch.near_collection[body] != 0;
     };
     if (!holds(state, joint) || isInside(state, joint) || (!near(a) && !near(b))) continue;
-    applyJointImpulses(bodyBlock(state, i, {}, JointRows::Removing, u[a], u[b]), {}, u[a], u[b]);
+    applyJointImpulses(memberJointBlock(state, i, {}, JointRows::Removing, u[a], u[b]), {}, u[a],
+                       u[b]);
   }
 }
 

@@ -66,7 +66,7 @@ bool isHidden(const State& state, const Scratch& scratch, const Joint& joint) {
   return isInside(state, joint) && !open(joint.a) && (joint.to_world || !open(joint.b));
 }
 
-JointBlock outerBlock(const State& state, const Scratch& scratch, const Joint& joint) {
+JointBlock outerJointBlock(const State& state, const Scratch& scratch, const Joint& joint) {
   const std::uint32_t a = moverA(state, scratch, joint), b = moverB(state, scratch, joint);
   const Vec2 x_b = joint.to_world ? Vec2(Vec2::Zero()) : state.rigids[b].x;
   const JointPlace place = placeOf(state, joint, {}, state.rigids[a].x, x_b);
@@ -177,7 +177,7 @@ void buildJointBlocks(State& state, Scratch& scratch) {
     while (island->root != order.island) ++island;
     if (island->first_joint == island->last_joint) island->first_joint = island->last_joint = here;
     island->last_joint += 1;
-    scratch.joint_blocks.push_back(outerBlock(state, scratch, joint));
+    scratch.joint_blocks.push_back(outerJointBlock(state, scratch, joint));
     JointBlock& k = scratch.joint_blocks.back();
     k.joint = order.joint;
     measureError(joint, placeOf(state, joint, {}, Vec2::Zero(), Vec2::Zero()));

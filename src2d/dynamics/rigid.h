@@ -52,7 +52,7 @@ struct Rigid {
   bool floating() const { return anchor == kFloating; }
   bool still() const { return v == Vec2::Zero() && omega == 0.0; }
   /// Fixed to a frame that moves.
-  bool isCarried() const { return anchor > kWorldFrame && !still(); }
+  bool isOnMovingFrame() const { return anchor > kWorldFrame && !still(); }
   /// It must come to rest anew before it may sleep.
   void stir() { slow_steps = quiet_steps = 0; }
   Vec2 exactCenter() const { return x + rest; }

@@ -77,7 +77,7 @@ class BounceSpread {
 
 /// No bounce arrives at the bodies of a weld: bodies that bounce are followed hit by hit, each on
 /// its own (dynamics/hits.h).
-Criterion isReachedByNone(const State& state, const Weld& weld,
+Criterion noBounceArrives(const State& state, const Weld& weld,
                           const std::vector<double>& arrives) {
   return bouncesNot(state, weld.a, weld.b,
                     std::max(arrives[index(weld.a)], arrives[index(weld.b)]));
@@ -89,7 +89,7 @@ bool cutBouncing(const State& state, const Scratch& scratch, Collection& c,
   bool any = false;
   for (Weld& weld : c.welds) {
     if (weld.joints > 0) continue;
-    const Criterion stays = isReachedByNone(state, weld, arrives);
+    const Criterion stays = noBounceArrives(state, weld, arrives);
     if (stays.holds) continue;
     weld.cut = any = true;
     weld.reason = EventReason::RelativeMotion;

@@ -145,7 +145,7 @@ void noteReached(State& state, Scratch& scratch) {
 }
 
 void openWhatFramesDrag(const State& state, Scratch& scratch) {
-  const auto moves = [&](BodyId b) { return state.rigid(b).isCarried(); };
+  const auto moves = [&](BodyId b) { return state.rigid(b).isOnMovingFrame(); };
   const auto open = [&](BodyId body) {
     if (!state.isMember(body)) return;
     const Collection& c = state.collection(state[body].rigid);

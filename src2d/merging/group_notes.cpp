@@ -52,7 +52,7 @@ class GroupList {
 };
 
 /// Section 8.2, or docs/cycles.md: a pair with fewer than two contacts needs its group.
-Criterion isHeld(const State& state, const ReadyPair& edge, bool by_group) {
+Criterion isHeldByGroup(const State& state, const ReadyPair& edge, bool by_group) {
   const bool by_cycles = state.settings.merging.cycles == CycleCriterion::Triangle;
   return {"cycle", by_cycles ? "Section 8.2" : kOwnCycles, static_cast<double>(edge.contacts), 2.0,
           by_group};
@@ -79,7 +79,7 @@ void noteGroups(const State& state, Scratch& scratch, const Groups& group) {
   }
   groups.write();
   for (const ReadyPair& edge : scratch.ready) {
-    const Criterion test = isHeld(state, edge, held(edge));
+    const Criterion test = isHeldByGroup(state, edge, held(edge));
     Decision* d = recordMerge(state, scratch.notes, edge.pair, test);
     if (d && test.holds) groups.nameIn(*d, group[edge.node_a]);
   }

@@ -27,7 +27,7 @@ void forEachBox(const State& state, const BodyPair& pair, F&& f) {
 
 /// The naive metric: the fastest of a pair's contact points, which misses a beam that turns about
 /// one.
-double fastestContactOf(const State& state, const BodyPair& pair) {
+double fastestContactPoint(const State& state, const BodyPair& pair) {
   const Pose pose = state.pose(pair.a);
   double fastest = 0.0;
   for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
@@ -45,7 +45,7 @@ double fastestContactOf(const State& state, const BodyPair& pair) {
 }  // namespace
 
 double relativeMotion(const State& state, const BodyPair& pair) {
-  if (isNaive(state, pair)) return fastestContactOf(state, pair);
+  if (isNaive(state, pair)) return fastestContactPoint(state, pair);
   const VelocityField a = motionField(state.rigid(pair.a)), b = motionField(state.rigid(pair.b));
   double fastest = 0.0;
   forEachBox(state, pair, [&](const OrientedBox& box) {

@@ -76,8 +76,8 @@ Criterion isSteady(const Candidate& c) {
 }
 
 /// The test that decides whether it stays at rest: balance, where a load on it must have been
-/// steady as well. For a thing that contacts hold steadiness is enough: nothing came of its
-/// acceleration.
+/// steady as well. For a thing that contacts or joints hold steadiness is enough: nothing came of
+/// its acceleration.
 Criterion staysAtRest(const Candidate& c, const SolverVelocity& u) {
   const Criterion balanced = isBalanced(c, u), steady = isSteady(c);
   if (balanced.holds) return c.ties.loaded ? steady : balanced;

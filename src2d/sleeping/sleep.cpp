@@ -42,18 +42,18 @@ void markRestless(State& state, Scratch& scratch) {
   sumLoads(state, scratch, mark);
   for (const Collection& c : state.collections) {
     if (c.id == kNoCollection || state[c.rigid].floating()) continue;
-    if (state[rigidOf(c.anchor)].isCarried()) restless[index(c.rigid)] = 1;
+    if (state[rigidOf(c.anchor)].isOnMovingFrame()) restless[index(c.rigid)] = 1;
   }
   for (const BodyPair& pair : scratch.pairs) {
     const Rigid &a = state.rigid(pair.a), &b = state.rigid(pair.b);
-    if (a.isCarried()) mark(pair.b);
-    if (b.isCarried()) mark(pair.a);
+    if (a.isOnMovingFrame()) mark(pair.b);
+    if (b.isOnMovingFrame()) mark(pair.a);
   }
   for (const std::uint32_t i : state.joint_lists.present) {
     const Joint& joint = state.joints[i];
     if (joint.to_world || !holds(state, joint)) continue;
-    if (state.rigid(joint.a).isCarried()) mark(joint.b);
-    if (state.rigid(joint.b).isCarried()) mark(joint.a);
+    if (state.rigid(joint.a).isOnMovingFrame()) mark(joint.b);
+    if (state.rigid(joint.b).isOnMovingFrame()) mark(joint.a);
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace {
 
-/// On 64-bit machines. Where one changes, the soname must.
+/// On 64-bit machines. Where one changes after a release, the soname must.
 TEST(PublicLayout, IsThatOfTheSoname) {
   EXPECT_EQ(sizeof(m2_vec), 16U);
   EXPECT_EQ(sizeof(m2_shape), 72U);

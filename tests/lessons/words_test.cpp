@@ -130,9 +130,11 @@ TEST_F(WordsTest, CitesThePageOfARigidGroupAndOfTwoFrames) {
       "(docs/decisions/cures.md#when-to-merge)");
 }
 
-TEST_F(WordsTest, SaysOfAWedgedPairThatNothingCanSlide) {
+TEST_F(WordsTest, SaysThatNothingIsAboutToSlide) {
   EXPECT_EQ(said({.criterion = "edge", .equation = "(20)", .value = 0, .threshold = 2}),
-            "none of 2 contacts that press could slide on the edge of its friction cone (Eq. 20)");
+            "none of 2 contacts that press is about to slide (Eq. 20)");
+  EXPECT_EQ(said({.criterion = "edge", .equation = "(20)", .value = 0, .threshold = 1}),
+            "the one contact that presses is not about to slide (Eq. 20)");
 }
 
 TEST_F(WordsTest, TellsForHowLongLoadsHaveBeenSteady) {
@@ -142,6 +144,12 @@ TEST_F(WordsTest, TellsForHowLongLoadsHaveBeenSteady) {
                   .value = 0.3,
                   .threshold = 1.0}),
             "it has been slow under steady loads for 0.30 of 1.00 s (Section 7)");
+  EXPECT_EQ(said({.stage = "AccumulateRelativeMotion",
+                  .criterion = "steady",
+                  .equation = "Section 7",
+                  .value = 12.0,
+                  .threshold = 1.0}),
+            "it has been slow under steady loads for 12.0 s, at least 1.00 s (Section 7)");
 }
 
 TEST(WordsOfGroups, AreAllTheBodiesOrSomeOfMany) {
