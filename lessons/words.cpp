@@ -91,6 +91,11 @@ std::string allOnEdge(double contacts_pressed) {
                      contacts(contacts_pressed));
 }
 
+/// The sentence with the source of its criterion, where that has one.
+std::string cited(const std::string& sentence, const Decision& d) {
+  return d.equation.empty() ? sentence : fmt::format("{} ({})", sentence, equationName(d.equation));
+}
+
 std::string edge(const Decision& d) {
   if (d.verdict == "apart") {
     return fmt::format("{}, about to slide ({})", allOnEdge(d.threshold), equationName(d.equation));
@@ -103,11 +108,6 @@ std::string edge(const Decision& d) {
   }
   return fmt::format("{:.0f} of {} that press {} on the edge of the friction cone ({})", d.value,
                      contacts(d.threshold), d.value > 1.0 ? "are" : "is", equationName(d.equation));
-}
-
-/// The sentence with the source of its criterion, where that has one.
-std::string cited(const std::string& sentence, const Decision& d) {
-  return d.equation.empty() ? sentence : fmt::format("{} ({})", sentence, equationName(d.equation));
 }
 
 /// `group` names its bodies. A joint counts as one contact or as two.
