@@ -270,6 +270,20 @@ test('titles and names stay text', async () => {
   await close();
 });
 
+test('at Unmerge the card shows the test that was made, and cites what the record cites', async () => {
+  const { page, close } = await open('unmerging');
+  const unmerge = await page.$eval('#data', (data) =>
+    JSON.parse(data.textContent).traces[0].head.events.find(([, type]) => type === 'unmerge')[0]);
+  await page.locator('.slider').fill(String(unmerge));
+  await page.click('.stage:nth-child(6)');
+  assert.match(await page.textContent('.equation-card'), /motion, docs\/decisions\/decided\.md#decision, for .*: the weld is cut/);
+  assert.doesNotMatch(await page.textContent('.equation-card'), /Eqs?\. \((17|19|20)\)/);
+  await page.locator('.slider').fill('1');
+  await page.click('.stage:nth-child(6)');
+  assert.ok(await page.isHidden('.equation-card'), 'no weld is tested in a quiet step');
+  await close();
+});
+
 test('a symbol of an equation lights up its number', async () => {
   const { page, close } = await open('contact-forces');
   await page.locator('.equation math >> nth=0').locator('[data-symbol="λn"]').first().hover();
