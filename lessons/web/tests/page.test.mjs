@@ -270,7 +270,7 @@ test('titles and names stay text', async () => {
   await close();
 });
 
-test('at Unmerge the card shows the test that was made, and cites what the record cites', async () => {
+test('at Unmerge the card shows the test that was made, with the source in its record', async () => {
   const { page, close } = await open('unmerging');
   const unmerge = await page.$eval('#data', (data) =>
     JSON.parse(data.textContent).traces[0].head.events.find(([, type]) => type === 'unmerge')[0]);
