@@ -9,6 +9,7 @@
 #include "src2d/proofs/decided_settings.h"
 #include "src2d/relaxation/block_sweeps.h"
 #include "src2d/relaxation/open_region.h"
+#include "src2d/relaxation/open_solve.h"
 #include "src2d/relaxation/reached_rows.h"
 #include "src2d/relaxation/region_members.h"
 #include "src2d/relaxation/relaxation.h"
@@ -117,7 +118,10 @@ void relaxOpen(State& state, Scratch& scratch, OpenRegion& region) {
   auto& trial_u = scratch.sweeps.front().trial_u;
   trial_u.resize(state.bodies.size() + 1);
   trial_u.back() = {};
-  if (!local) addOthers(state, scratch, region);  // a load that lasts may move any member
+  if (!local) {  // a load that lasts may move any member
+    showRest(state, scratch, c);
+    addOthers(state, scratch, region);
+  }
   for (const std::uint32_t m : region.members) {
     const SolverVelocity& u = scratch.sweep_u[index(c.members[m])];
     const Vec2 v = back * Vec2(Vec2(u.vx, u.vy) - one.at(armOf(state, c, c.members[m])));

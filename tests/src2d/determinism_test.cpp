@@ -6,6 +6,7 @@
 
 #include "tests/support/fingerprint.h"
 #include "tests/support/scenes.h"
+#include "tests/support/tapped_walls.h"
 
 namespace merge2d {
 namespace {
@@ -168,6 +169,12 @@ TEST(Determinism, AskingForDecisionsChangesNothing) {
     EXPECT_EQ(firstDifference(run(medley(), asking, 250), run(medley(), inMode(mode), 250)), -1)
         << name(mode);
   }
+}
+
+TEST(Determinism, AskingForDecisionsAboutALargeOpenCollectionChangesNothing) {
+  const WorldOptions asking{.mode = Mode::Merge, .timings = false, .decisions = true};
+  const auto asked = run(tappedWalls(), asking, 230);
+  EXPECT_EQ(firstDifference(asked, run(tappedWalls(), inMode(Mode::Merge), 230)), -1);
 }
 
 TEST(Determinism, CapturingNowAndThenChangesNothing) {

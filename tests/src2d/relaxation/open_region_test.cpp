@@ -5,6 +5,7 @@
 
 #include "src2d/proofs/decided_settings.h"
 #include "tests/src2d/relaxation/merged_testing.h"
+#include "tests/support/tapped_walls.h"
 
 namespace merge2d {
 namespace {
@@ -27,6 +28,17 @@ box = [1, 1]
 repeat = {{ count = [{}, 1], spacing = [1, 1] }}
 )",
                      count);
+}
+
+/// A large collection that is open though nothing hits it is solved by rows that are all open in
+/// the end: each of its members must begin with its own velocity, not with that of an earlier step.
+TEST(OpenRegion, ATapOnWhatStandsBesideALargeWallPartsNothingOnAMovingFrame) {
+  Simulation run(tappedWalls(), Mode::Merge);
+  run.until(1.9);
+  ASSERT_TRUE(run.merged("b[15,13]"));
+  const int before = run.count(EventType::Unmerge);
+  run.until(2.5);
+  EXPECT_EQ(run.count(EventType::Unmerge), before);
 }
 
 /// No box of the row stands on a fixed foot: all of the impulse goes into its boxes, but for what
