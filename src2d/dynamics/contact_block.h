@@ -355,7 +355,8 @@ inline void fillMasses(ContactBlock& k, double softness, const SolverVelocity& a
   const double det = k.k11 * k.k22 - k.k12 * k.k12;
   if (det < 1e-6 * k.k11 * k.k22) {
     k.count = 1;
-    k.lambda_n(1) = k.lambda_t(1) = k.bias[1] = 0.0;
+    k.lambda_n(1) = k.lambda_t(1) = k.bias[1] = k.k12 = k.k22 = k.inv_kt[1] = 0.0;
+    k.arm_an[1] = k.arm_bn[1] = k.arm_at[1] = k.arm_bt[1] = 0.0;
   } else {
     k.inv_det = 1.0 / det;
   }

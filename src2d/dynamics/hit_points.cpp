@@ -35,8 +35,9 @@ double loadOf(const HitIsland& island, const ContactBlock& k, int row, double w)
   return std::clamp((w_start - w) / state.h, -most, most);
 }
 
-HitPoint hitPoint(const HitIsland& island, std::uint32_t block, int row, const Contact& contact) {
+HitPoint hitPoint(const HitIsland& island, std::uint32_t block, int row) {
   const State& state = island.state();
+  const Contact& contact = state.contacts.contactOf(island.sourceOf(block).points[0]);
   const ContactBlock& k = island.blocks()[block];
   const ContactKey& key = contact.key;
   HitPoint p{.block = block, .row = row};
@@ -58,17 +59,31 @@ HitPoint hitPoint(const HitIsland& island, std::uint32_t block, int row, const C
   return p;
 }
 
+/// Inside an open collection. No bounce arrives there: such welds are cut before
+/// (merging/bounces.h).
+HitPoint innerPoint(const HitIsland& island, std::uint32_t block, int row) {
+  const RowSource& source = island.sourceOf(block);
+  const Collection& c = island.state().collections[source.slot()];
+  const InternalContact& contact = c.contacts[c.block_contact[source.block()]];
+  const bool bilateral = island.blocks()[block].bilateral;
+  HitPoint p{.block = block, .row = row};
+  p.gap = contact.gap[static_cast<std::size_t>(row)];
+  p.still = bilateral ? HitPoint::kStill : HitPoint::kSoft;
+  p.touching = touchingGap(island.state(), contact.key);
+  p.holds = bilateral || p.gap <= p.touching;
+  if (p.gap <= p.touching) p.allowed = std::min(0.0, island.velocityOf(p));
+  return p;
+}
+
 }  // namespace
 
 std::vector<HitPoint> hitPoints(const HitIsland& island) {
   std::vector<HitPoint> points;
   points.reserve(2 * island.blocks().size());
   for (std::uint32_t block = 0; block < island.blocks().size(); ++block) {
-    const RowSource& source = island.sourceOf(block);
-    if (source.isInner()) continue;
-    const Contact& contact = island.state().contacts.contactOf(source.points[0]);
     for (int row = 0; row < island.blocks()[block].count; ++row) {
-      points.push_back(hitPoint(island, block, row, contact));
+      points.push_back(island.isInner(block) ? innerPoint(island, block, row)
+                                             : hitPoint(island, block, row));
     }
   }
   return points;

@@ -51,6 +51,8 @@ class HitIsland {
   const RowSource& sourceOf(std::uint32_t block) const {
     return scratch_.row_sources[scratch_.block_order[first_ + block].source()];
   }
+  /// Whether a block stands inside an open collection, and its points not in the contact table.
+  bool isInner(std::uint32_t block) const { return sourceOf(block).isInner(); }
   ContactPoint& pointOf(const HitPoint& p) const {
     return state_.contacts.point(sourceOf(p.block).points[static_cast<std::size_t>(p.row)]);
   }
@@ -66,8 +68,8 @@ class HitIsland {
   std::uint32_t first_;
 };
 
-/// The points of an island, in the order of its blocks, after the full solve. Those inside an open
-/// collection are left out: the solve has held them, and it is to be closed again.
+/// The points of an island, in the order of its blocks, after the full solve; also those inside an
+/// open collection, which bear at a hit as they would apart.
 std::vector<HitPoint> hitPoints(const HitIsland& island);
 
 }  // namespace merge2d

@@ -38,6 +38,7 @@ void HitSolver::solve(std::span<HitPoint> points) {
   // Without restitution a point that has met stays in touch, and bears the hits to come.
   for (HitPoint& p : points) p.holds |= p.meets && p.e == 0.0;
   for (const HitPoint& p : points) {
+    if (island_.isInner(p.block)) continue;
     island_.pointOf(p).struck += static_cast<float>(part * impulseOf(p));
   }
 }

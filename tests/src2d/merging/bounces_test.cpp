@@ -1,5 +1,7 @@
 /// Welds that a bounce ends, and the records of all welds that end.
 
+#include <fmt/format.h>
+
 #include "src2d/merging/merge_criteria.h"
 #include "tests/support/merging_testing.h"
 
@@ -94,6 +96,84 @@ box = [0.5, 0.5]
   EXPECT_EQ(belt->verdict, "apart");
   EXPECT_EQ(belt->value, 0.5);
   EXPECT_EQ(belt->equation, kOwnMerging);
+}
+
+/// How high a disc of that mass rises that falls by 1.5 m on a merged stack of boxes of 1 kg [m].
+/// The boxes do not bounce.
+double riseAfterAFall(int boxes, double mass, const Overrides& overrides = {}) {
+  const double top = 0.5 * boxes;
+  Simulation run(kGround + fmt::format(R"(
+[[body]]
+name = "box"
+at = [0, 0.25]
+box = [1, 0.5]
+mass = 1
+repeat = {{ count = [1, {}], spacing = [1, 0.5] }}
+[[body]]
+name = "disc"
+at = [0, {}]
+circle = 0.2
+mass = {}
+restitution = 0.8
+pinned_until = 1.0
+)",
+                                       boxes, top + 0.2 + 1.5, mass),
+                 Mode::Merge, overrides);
+  run.until(1.0);
+  EXPECT_TRUE(run.anchored(fmt::format("box[0,{}]", boxes - 1)));
+  run.until(1.6);  // it falls for 0.553 s
+  double highest = 0.0;
+  run.steps(80, [&] { highest = std::max(highest, run.body("disc").x.y() - top - 0.2); });
+  return highest;
+}
+
+/// A stack on the ground bears a bounce, whether its bodies are merged or not.
+TEST(Bounces, ADiscBouncesOffAMergedStackByItsRestitution) {
+  for (const int boxes : {1, 3, 6}) {
+    for (const double mass : {0.01, 1.0, 5.0}) {
+      EXPECT_NEAR(riseAfterAFall(boxes, mass), 0.8 * 0.8 * 1.5, 0.01) << boxes << ", " << mass;
+    }
+  }
+}
+
+/// Two boxes in free space that forces press together; a disc flies at them.
+const std::string kRaft = R"(
+format = 1
+gravity = [0, 0]
+[[body]]
+name = "a"
+at = [0, 0]
+box = [1, 1]
+mass = 2
+[[body]]
+name = "b"
+at = [1, 0]
+box = [1, 1]
+mass = 2
+[[force]]
+body = "a"
+force = [2, 0]
+[[force]]
+body = "b"
+force = [-1, 0]
+[[body]]
+name = "disc"
+at = [-8, 0]
+circle = 0.3
+mass = 1
+velocity = [4, 0]
+restitution = 0.8
+)";
+
+TEST(Bounces, ADiscBouncesOffAMergedRaftAsOffTwoBoxes) {
+  Simulation merged(kRaft, Mode::Merge), reference(kRaft, Mode::Reference);
+  merged.until(1.5);
+  EXPECT_TRUE(merged.merged("b"));
+  for (Simulation* run : {&merged, &reference}) run->until(5.0);
+  for (const char* body : {"a", "b", "disc"}) {
+    EXPECT_NEAR(merged.body(body).v.x(), reference.body(body).v.x(), 0.01) << body;
+    EXPECT_NEAR(merged.body(body).x.x(), reference.body(body).x.x(), 0.01) << body;
+  }
 }
 
 }  // namespace
