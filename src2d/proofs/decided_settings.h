@@ -17,8 +17,9 @@ struct DecidedSettings {
   /// 5,000 on a swinging platform takes hundreds of times as long on average, and the wagon's books
   /// part twice as often. With 1 `bench/tilts` has 5 late walls of 80 instead of 2.
   double settling_rate = 2.0;
-  /// Bodies of a weld that gain velocity against each other faster than this part [m/s²]: a
-  /// two-thousandth of gravity. A see-saw that is 0.7 mm out of balance gains 0.008.
+  /// Bodies of a weld that gain velocity against each other faster than this part under the gravity
+  /// of the earth [m/s²], and in proportion under another: a two-thousandth of it. In a world
+  /// without weight as under 1 m/s². A see-saw that is 0.7 mm out of balance gains 0.008.
   double cut_acceleration = 0.005;
   /// In a step in which something hits, a slip may go on that friction ends within this way [m]: of
   /// a weld with friction 0.6 one of 5 mm/s. Without, rain on a wall of 5,000 takes six times as
@@ -102,7 +103,11 @@ inline bool opensInPart(const State& state, const Collection& c) {
 }
 
 /// The speed at which bodies of a collection part [m/s].
-inline double cutSpeed(const State& state) { return kDecided.cut_acceleration * state.h; }
+inline double cutSpeed(const State& state) {
+  constexpr double kEarth = 9.81;
+  const double gravity = state.gravity.norm();
+  return kDecided.cut_acceleration * ((gravity > 0.0 ? gravity : 1.0) / kEarth) * state.h;
+}
 
 /// The speed at which the bodies of a weld part [m/s].
 inline double cutSpeed(const State& state, const Collection& c, const Weld& weld) {
@@ -124,8 +129,6 @@ inline double stepsUntilSeen(const State& state, double gain) {
 }
 
 /// Below this residual a search has converged [m/s].
-inline double toleratedResidual(const State& state) {
-  return kDecided.tolerance * kDecided.cut_acceleration * state.h;
-}
+inline double toleratedResidual(const State& state) { return kDecided.tolerance * cutSpeed(state); }
 
 }  // namespace merge2d
