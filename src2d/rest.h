@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "src2d/contact/parking.h"
 #include "src2d/setup.h"
 
 namespace merge2d {
@@ -28,7 +29,7 @@ class Rest {
   bool known_ = false;
   std::vector<Load> loads_;            ///< under which it rests
   std::optional<std::uint64_t> seen_;  ///< the state after the last step, but for the time
-  int wait_ = 0;                       ///< steps until it is compared again
+  int wait_ = kStepsUntilParked;       ///< steps until it is compared again; by then all is parked
   int next_wait_ = 1;
 };
 

@@ -10,7 +10,7 @@
 namespace merge2d {
 namespace {
 
-constexpr std::uint8_t kSteps = 4;      ///< for which a rigid thing must have slept
+constexpr std::uint8_t kSteps = kStepsUntilParked;
 constexpr std::int64_t kInterval = 64;  ///< steps until the others are looked at anew
 
 /// A body that stands still by itself, pinned or at rest in its script: it never sleeps, and does

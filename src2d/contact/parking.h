@@ -11,6 +11,9 @@
 
 namespace merge2d {
 
+/// Steps for which a rigid thing must have slept.
+inline constexpr int kStepsUntilParked = 4;
+
 /// Parks the bodies that have slept for long enough. To be called between two steps.
 void parkSleepers(State& state, Scratch& scratch);
 
