@@ -59,6 +59,11 @@ double changeOfLoad(const State& state, const BodyPair& pair) {
   return change > 0.0 ? change / (state.h * std::max(now.norm(), before.norm())) : 0.0;
 }
 
+/// The paper's thresholds hold for bodies of usual size: those of smaller ones are ours.
+std::string_view sourceOf(const PairInContact& pair, std::string_view paper) {
+  return pair.scale < 1.0 ? kOwnMerging : paper;
+}
+
 }  // namespace
 
 bool isWatched(const State& state, BodyId one, BodyId other) {
@@ -111,12 +116,12 @@ Criterion pressed(const PairInContact& pair) {
 
 Criterion slidesSlowly(const PairInContact& pair) {
   const double most = pair.scale * pair.state.settings.merging.sliding;
-  return below("sliding", "(18)", pair.fastest_slip, most);
+  return below("sliding", sourceOf(pair, "(18)"), pair.fastest_slip, most);
 }
 
 Criterion hardlyBreathes(const PairInContact& pair) {
   const double most = pair.scale * pair.state.settings.merging.breathing;
-  return below("breathing", "Section 5.3", pair.largest_breath, most);
+  return below("breathing", sourceOf(pair, "Section 5.3"), pair.largest_breath, most);
 }
 
 Criterion isNotAboutToSlide(const PairInContact& pair) {
@@ -130,7 +135,8 @@ Criterion hasSettledLoad(const PairInContact& pair) {
 
 Criterion movesAsOne(const PairInContact& pair) {
   const double most = pair.scale * pair.state.settings.merging.velocity;
-  const std::string_view source = isNaive(pair.state, pair.pair) ? kOwnMerging : "(17)";
+  const std::string_view source =
+      isNaive(pair.state, pair.pair) ? kOwnMerging : sourceOf(pair, "(17)");
   return below("relative-motion", source, relativeMotion(pair.state, pair.pair), most);
 }
 

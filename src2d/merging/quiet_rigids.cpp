@@ -55,10 +55,11 @@ struct Candidate {
   double velocity;  ///< the threshold for things of its size [m/s]
 };
 
-/// Section 7, against the inertial frame.
+/// Section 7, against the inertial frame; the threshold of small things is ours.
 Criterion rests(const Candidate& c) {
   const double motion = fastestCorner(c.box, motionField(c.rigid), {});
-  return below("rest", "Section 7", motion, c.velocity);
+  const bool usual = c.velocity == c.state.settings.sleeping.velocity;
+  return below("rest", usual ? "Section 7" : kOwnSleeping, motion, c.velocity);
 }
 
 /// Forces and gravity balance.

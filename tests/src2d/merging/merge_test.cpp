@@ -91,6 +91,26 @@ TEST(Merge, EveryMergedPairWasBelowAllThresholdsForTheGivenSteps) {
   EXPECT_GT(run.count(EventType::Merge), 5);
 }
 
+/// The source of the test of relative motion of a box of that width on the ground.
+std::string_view sourceForABoxOf(double width) {
+  Scene scene = onGround();
+  add(scene, box(width, width, {0.0, 0.5 * width}));
+  Simulation run(scene, Mode::Merge, true);
+  std::string_view source;
+  run.steps(5, [&] {
+    for (const Decision& d : run.world().notes().decisions) {
+      if (d.criterion == "relative-motion") source = d.equation;
+    }
+  });
+  return source;
+}
+
+/// Thresholds of small bodies are a part of the paper's.
+TEST(Merge, ThresholdsOfSmallBodiesAreNotCitedAsThePapers) {
+  EXPECT_EQ(sourceForABoxOf(1.0), "(17)");
+  EXPECT_EQ(sourceForABoxOf(0.005), kOwnMerging);
+}
+
 TEST(Merge, WaitsWhileTheContactBreathes) {
   const std::int64_t strict = mergeStep(kPile, "b[1,3]", {{"merging.breathing", "1e-6"}});
   const std::int64_t normal = mergeStep(kPile, "b[1,3]");
