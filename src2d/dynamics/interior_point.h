@@ -173,17 +173,20 @@ class InteriorPoint {
   void start(double tolerance) {
     const std::vector<Twist>& free = rows_.freeVelocities();
     momenta_.assign(rows_.bodies(), {});
-    double fastest = 0.0;
     for (const RowGroup& g : groups_) {
       push(g, unknowns_[g.unknown].x, g.isCone() ? unknowns_[g.unknown + 1].x : 0.0, momenta_);
-      const auto w = along(g, free), b = bias(g);
-      for (std::uint32_t i = 0; i < g.size(); ++i)
-        fastest = std::max(fastest, std::abs(w[i] + b[i]));
     }
-    exact_ = std::max(tolerance, kExact * fastest);
     u_now_ = free;
     for (std::size_t i = 0; i < u_now_.size(); ++i)
       addTo(u_now_[i], rows_.velocity(i, momenta_[i]), 1.0);
+    double fastest = 0.0;  // without impulses or with those: a brake may bear a load that has gone
+    for (const RowGroup& g : groups_) {
+      const auto w = along(g, free), now = along(g, u_now_), b = bias(g);
+      for (std::uint32_t i = 0; i < g.size(); ++i) {
+        fastest = std::max({fastest, std::abs(w[i] + b[i]), std::abs(now[i] + b[i])});
+      }
+    }
+    exact_ = std::max(tolerance, kExact * fastest);
     double off = 0.0;
     forEachUnknown([&](const RowGroup& g, std::uint32_t i, BoundedImpulse& x) {
       off = std::max(off, residualOf(g, x, along(g, u_now_)[i] + bias(g)[i]));

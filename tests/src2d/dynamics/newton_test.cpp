@@ -174,5 +174,35 @@ TEST(Newton, ReachesTheSameBytesInEachRun) {
   }
 }
 
+/// In the step after its load has gone a brake has impulses of the step before, and nothing moves.
+TEST(Newton, ABrakeOutlivesTheEndOfItsLoad) {
+  World world = newtonWorld(R"(
+gravity = [0, 0]
+[[body]]
+name = "post"
+motion = "pinned"
+at = [-0.25, 0]
+box = [0.5, 0.5]
+[[body]]
+name = "arm"
+at = [1, 0]
+box = [2, 0.2]
+mass = 1
+[[joint]]
+kind = "revolute"
+bodies = ["post", "arm"]
+at = [0, 0]
+motor = { speed = 0, torque = 20 }
+[[force]]
+body = "arm"
+force = [0, -15]
+from = 0.2
+until = 0.4
+)",
+                            0.01);
+  runSteps(world, 100);
+  EXPECT_NEAR(world.capture().bodies[1].omega, 0.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace merge2d
