@@ -30,8 +30,8 @@ void gatherMass(State& state, RigidId id);
 /// Makes welds, blocks and boxes anew of all collections whose contacts changed.
 void layOutCollections(State& state);
 
-/// The same for floating collections alone: the solver needs nothing of anchored ones, which may
-/// change once more before the next sweep.
+/// The same for floating collections and those with proofs: the solver needs nothing of the other
+/// anchored ones, which may change once more before the next sweep.
 void layOutFloating(State& state);
 
 /// Lists the welds of each member. A layout leaves that empty, and the first reader calls this.

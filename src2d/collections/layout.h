@@ -18,10 +18,10 @@ ContactBlock innerBlock(const State& state, const Collection& collection,
 
 /// Where a few bodies have joined a large collection with proofs since its last layout, and nothing
 /// has left: puts the new members, contacts, welds and blocks behind the others, which keep their
-/// places, at the cost of the new ones. While a collection forms it has no proofs, and all its
-/// blocks are in the order of a sweep; later it is laid out as a whole once more than a part of it
-/// stands behind. False where that is so; nothing is done then. Its impulses must stand in the
-/// blocks.
+/// places, at little more than the cost of the new ones. While a collection forms it has no proofs,
+/// and all its blocks are in the order of a sweep; later it is laid out as a whole once more than a
+/// part of it stands behind. False where that is so; the layout is as it was then. Its impulses
+/// must stand in the blocks.
 bool layOutGrowth(State& state, Collection& collection);
 
 }  // namespace merge2d

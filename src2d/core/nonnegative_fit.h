@@ -68,15 +68,18 @@ class NonNegativeFit {
     }
     const Weights z = solveSymmetric(g, b, m);
     double step = 1.0;
+    std::size_t first = m;  // the one that is bound first
     for (std::size_t i = 0; i < m; ++i) {
       const double w = w_[of[i]];
-      if (z[i] <= 0.0) step = std::min(step, w / (w - z[i]));
+      if (z[i] > 0.0 || w >= step * (w - z[i])) continue;
+      step = w / (w - z[i]);
+      first = i;
     }
     bool feasible = true;
     for (std::size_t i = 0; i < m; ++i) {
       const std::size_t p = of[i];
       w_[p] += step * (z[i] - w_[p]);
-      if (z[i] <= 0.0 && w_[p] <= 1e-14) {
+      if (i == first || (z[i] <= 0.0 && w_[p] <= 0.0)) {
         w_[p] = 0.0;
         free_[p] = false;
         feasible = false;

@@ -145,7 +145,8 @@ struct Witness {
 
 /// A search for the impulses that carry a load, over several steps.
 struct ProofSearch {
-  Witness load;              ///< with the impulses found so far
+  /// With the impulses found so far where it looks ahead, and else with those before the search.
+  Witness load;
   std::vector<Twist> start;  ///< per member: the velocity that the load gives; empty: no search
   NncgBuffers nncg;          ///< of the sweeps so far
   NewtonIterate newton;      ///< of a direct solve that is under way

@@ -196,9 +196,9 @@ struct OuterLoad {
 /// Why the forces inside a collection are sought in this step.
 enum class Doubt : std::uint8_t {
   None,     ///< its proofs cover the load
-  Search,   ///< a proof is being sought for a load that was not covered
-  Reached,  ///< a hit on something free may reach it: the solve of the step tells
-  Open,     ///< they do not cover it, or something hits it
+  Search,   ///< impulses are sought, for a load that they do not cover or for one beyond it
+  Reached,  ///< a hit may reach it through others: the solve of the step tells
+  Open,     ///< its contacts may not carry the load: it is hit, dragged, or a search found motion
 };
 
 /// The part of an open collection whose members the full solve takes on their own

@@ -24,7 +24,7 @@ void uniteNone(const Collection&, PartFinder&) {}
 CycleCriterion asSet(const MergingSettings& settings) { return settings.cycles; }
 
 void countStep(ProofSearch& search) {
-  constexpr std::int16_t kMost = 1 << 14;  // the last power of two that fits
+  constexpr std::int16_t kMost = (1 << 14) + 1;  // no power of two, as these stand for an event
   if (search.steps < kMost) ++search.steps;
 }
 

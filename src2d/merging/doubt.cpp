@@ -100,11 +100,12 @@ void recordFinding(const State& state, const Scratch& scratch, const Collection&
 /// contacts can pass its new part on.
 Finding seek(State& state, const Scratch& scratch, Collection& c, Finding finding,
              const CollectionLoad& load) {
-  const LoadCertificate& proof = c.certificate.front();
+  LoadCertificate& proof = c.certificate.front();
   finding.doubt = Doubt::Search;
   finding.verdict = "search";
   if (proof.search.isUnderWay() && !proof.in_doubt && leadsTo(state, c, load)) return finding;
   bringBlocksBack(state, c);
+  proof.last_doubt = state.step;
   writeImpulses(c);
   if (passesOn(state, scratch, c, load)) {
     c.settled = true;
@@ -167,10 +168,11 @@ void clearDoubts(const State& state, Scratch& scratch) {
   for (const std::uint32_t slot : state.collections.active()) scratch.doubts[slot] = Doubt::None;
 }
 
-/// Nothing has been sought inside for so long that its blocks are put away in this step.
+/// Nothing has been sought inside for so long that its blocks are put away.
 bool isLongQuiet(const State& state, const Collection& c) {
   const LoadCertificate& proof = c.certificate.front();
-  return state.step - std::max(proof.last_doubt, proof.since) == kDecided.patience;
+  return !areBlocksAway(c) &&
+         state.step - std::max(proof.last_doubt, proof.since) >= kDecided.patience;
 }
 
 /// Asks each collection about its load, but for those that frames drag.

@@ -80,7 +80,7 @@ class WeldCutter {
 
   /// Section 6.4.
   void askMotion(Weld& weld) {
-    constexpr int kMost = 10'000;  // steps that are counted
+    constexpr int kMost = 30'000;  // steps that are counted, as many as the setting may be
     const UnmergingSettings& settings = state_.settings.unmerging;
     const Criterion slow = movesSlowly(settings, motionOf(weld));
     const int before = weld.moving;

@@ -34,6 +34,7 @@ double worthOf(const LoadCertificate& proof, std::size_t which, double rounding)
     b[n++] = proof.gram[i * all + which];
   }
   const double xx = proof.gram[which * all + which];
+  if (xx <= rounding * rounding) return 0.0;  // a load of nothing
   return project(gram, b, n, xx, rounding).left / xx;
 }
 
@@ -112,6 +113,8 @@ void forgetProofs(Collection& c) {
     proof.witnesses.clear();
     proof.inherited = 0;
     proof.gram.clear();
+    proof.columns.clear();
+    proof.weights = {};
     proof.in_doubt = true;
     proof.search = {};
   }

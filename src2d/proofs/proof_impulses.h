@@ -10,7 +10,8 @@ void readImpulses(const Collection& c, Witness& to);
 void swapImpulses(Collection& c, Witness& with);
 
 /// The impulses that would carry a load if they were linear in it: extrapolated from those of the
-/// witnesses, and brought back to their limits. None without witnesses.
+/// witnesses, and brought back to their limits. None without witnesses found
+/// since the layout.
 void predictImpulses(const Collection& c, Witness& load);
 
 /// Writes the impulses that belong to the weights into blocks, or contacts without one, and joints.

@@ -33,6 +33,7 @@ std::vector<std::uint32_t> overloadedMembers(State& state, const Scratch& scratc
   const CollectionLoad load = loadOn(state, scratch, c);
   if (!isStruck(state, c, load) || coverageOf(state, c, load).carried.holds) return {};
   bringBlocksBack(state, c);
+  c.certificate.front().last_doubt = state.step;
   writeImpulses(c);
   listWeldsOfMembers(c);
   if (state[c.rigid].floating()) return membersActedOn(load);
@@ -67,7 +68,6 @@ bool openReached(State& state, Scratch& scratch, OpenRegion& region) {
   }
   scratch.doubts[region.slot] = Doubt::Open;
   scratch.opened.push_back(c.rigid);
-  c.certificate.front().last_doubt = state.step;
   recordOpened(state, scratch, c);
   if (!opensInPart(state, c)) {
     addAll(state, scratch, region);

@@ -34,7 +34,7 @@ void forEachSetting(S& settings, F&& f) {
   f("unmerging", "rule", unmerging.rule, kAnyNumber);
   f("unmerging", "velocity", unmerging.velocity, kNotNegative);
   f("unmerging", "sliding", unmerging.sliding, kNotNegative);
-  f("unmerging", "steps", unmerging.steps, kAtLeastOne);
+  f("unmerging", "steps", unmerging.steps, kCountedSteps);
   f("unmerging", "sweeps", unmerging.sweeps, kAtLeastOne);
   f("unmerging", "ordering", unmerging.ordering, kAnyNumber);
 
