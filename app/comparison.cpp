@@ -175,6 +175,7 @@ class Comparison::Lane {
     if (timings) timed_.emplace(scene, mode);
     run_.mode = mode;
     world().capture(now_);
+    run_.last = now_.stats;
     tipping_.update(now_, world().bodies(), run_.tipping_times);
   }
 

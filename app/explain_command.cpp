@@ -167,11 +167,16 @@ class StepReport {
   /// Why there is nothing to tell at all.
   std::string stillness() const {
     const Stats& stats = world_.stats();
+    if (!merges(world_.mode())) {
+      return fmt::format("In the mode {} nothing merges, so nothing was tested.",
+                         name(world_.mode()));
+    }
     return stats.asleep > 0 && stats.asleep == stats.bodies
                ? "Everything is asleep, so nothing was tested."
            : stats.internal_contacts > 0
                ? "No motion was found inside collections, so nothing was tested."
-               : "No two bodies touch, so nothing was tested.";
+           : stats.contacts > 0 ? "No pair was about to merge, so nothing was tested."
+                                : "No two bodies touch, so nothing was tested.";
   }
 
   /// Why there is nothing to tell of a pair.

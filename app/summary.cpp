@@ -44,8 +44,8 @@ std::string Summary::table(const Simulation& simulation, bool timings) const {
   row("bodies", fmt::format("{}, {} asleep", stats.bodies, stats.asleep));
   row("active bodies", fmt::format("{}", stats.active_bodies));
   row("collections", fmt::format("{}", stats.collections));
-  row("contacts",
-      fmt::format("{}, {} more inside collections", stats.contacts, stats.internal_contacts));
+  row("contacts", fmt::format("{} solved, {} inside collections that are awake", stats.contacts,
+                              stats.internal_contacts));
   row("merges", fmt::format("{}", merges_));
   row("unmerges", fmt::format("{}", unmerges_));
   if (!world.scene().joints.empty()) row("broken joints", fmt::format("{}", broken_joints_));

@@ -36,6 +36,14 @@ std::string sleepResult(const Snapshot& after) {
   return "nothing to do";
 }
 
+std::string warmStartResult(const StepRecord& record) {
+  const std::size_t swept = record[Stage::WarmStart].own.size();
+  if (swept > 0) return counted(swept, "body", "bodies");
+  const std::size_t opened = openedCollections(record), searched = searchedCollections(record);
+  if (opened > 0) return fmt::format("{} opened", opened);
+  return searched > 0 ? fmt::format("{} searched", searched) : "nothing to sweep";
+}
+
 /// The largest change of a normal impulse.
 std::string sweepResult(const StepRecord& record) {
   if (record[Stage::SingleIterationPGS].own.empty()) return "nothing to sweep";
@@ -99,16 +107,14 @@ std::string result(const StepRecord& record, Stage stage) {
       return orderResult(record.notes);
     case Stage::SleepAndWake:
       return sleepResult(after);
-    case Stage::WarmStart: {
-      const std::size_t swept = record[stage].own.size();
-      return swept == 0 ? "nothing to sweep" : counted(swept, "body", "bodies");
-    }
+    case Stage::WarmStart:
+      return warmStartResult(record);
     case Stage::SingleIterationPGS:
       return sweepResult(record);
     case Stage::Unmerge:
       return unmergeResult(after);
     case Stage::SolveLCP: {
-      const int solved = record.after.stats.contacts;
+      const auto solved = std::ranges::count(after.contacts, false, &ContactView::internal);
       return solved == 0 ? "nothing to solve" : fmt::format("{} solved", solved);
     }
     case Stage::AdvanceVelocities:

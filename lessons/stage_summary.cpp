@@ -39,10 +39,9 @@ std::string solveSummary(const StepRecord& record) {
     sliding += c.state == ContactState::Sliding;
     open += c.state == ContactState::Broken;
   }
-  const Stats& stats = record.after.stats;
-  return fmt::format("{} solved: {} stick, {} slide, {} carry nothing; residual {}",
-                     counted(static_cast<std::size_t>(stats.contacts), "contact", "contacts"),
-                     sticking, sliding, open, shortNumber(stats.residual));
+  return fmt::format("{} between them: {} stick, {} slide, {} carry nothing; residual {}",
+                     counted(sticking + sliding + open, "contact", "contacts"), sticking, sliding,
+                     open, shortNumber(record.after.stats.residual));
 }
 
 /// How many bodies moved, and how far at most.
@@ -85,9 +84,15 @@ std::string sleepSummary(const Snapshot& after) {
 
 std::string warmStartSummary(const StepRecord& record) {
   const auto& own = record[Stage::WarmStart].own;
-  if (own.empty()) return "no new load inside collections, so there is nothing to sweep";
-  return fmt::format("{} start from the impulses of the last step",
-                     counted(own.size(), "body", "bodies"));
+  if (!own.empty()) {
+    return fmt::format("{} start from the impulses of the last step",
+                       counted(own.size(), "body", "bodies"));
+  }
+  const auto collections = [](std::size_t n) { return counted(n, "collection", "collections"); };
+  const std::size_t opened = openedCollections(record), searched = searchedCollections(record);
+  if (opened > 0) return collections(opened) + " open: their bodies are solved one by one";
+  if (searched > 0) return "the forces inside " + collections(searched) + " are sought";
+  return "no new load inside collections, so there is nothing to sweep";
 }
 
 std::string sweepSummary(const Snapshot& before, const Snapshot& after) {

@@ -89,8 +89,7 @@ std::string WeldStory::ending() const {
   }
   if (tested_ == 0) {
     return fmt::format(
-        "Up to step {} {} never touched each other without being welded, so nothing "
-        "was tested.",
+        "Up to step {} {} did not touch, or were welded all the time, so nothing was tested.",
         last_step_, who);
   }
   std::string text = fmt::format("After step {} {} are not welded. Tested in {}", last_step_, who,

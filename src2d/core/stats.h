@@ -36,10 +36,10 @@ struct Stats {
   int bodies = 0;         ///< alive, dynamic
   int active_bodies = 0;  ///< |B|: free bodies and collections that are simulated, awake
   int collections = 0;
-  int asleep = 0;                         ///< bodies asleep
-  int contacts = 0;                       ///< contact points in the full solve
-  int internal_contacts = 0;              ///< contact points inside awake collections
-  double residual = 0.0;                  ///< of the full solve after its last sweep: |Δλ| / |λ|
+  int asleep = 0;             ///< bodies asleep
+  int contacts = 0;           ///< contact points in the full solve, those of opened collections too
+  int internal_contacts = 0;  ///< contact points inside awake collections
+  double residual = 0.0;      ///< of the full solve after its last sweep: |Δλ| / |λ|
   double max_penetration = 0.0;           ///< [m]
   double kinetic_energy = 0.0;            ///< [J]
   double potential_energy = 0.0;          ///< of gravity about y = 0 and of springs [J]

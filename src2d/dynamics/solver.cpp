@@ -214,7 +214,9 @@ void solveAllRows(State& state, Scratch& scratch) {
   std::ranges::sort(scratch.hit_ways, {}, &HitWay::id);
   scratch.stats.contacts = 0;
   for (const RowSource& source : scratch.row_sources) {
-    if (!source.isInner()) scratch.stats.contacts += source.count();
+    scratch.stats.contacts += source.isInner()
+                                  ? state.collections[source.slot()].blocks[source.block()].count
+                                  : source.count();
   }
   storeJointImpulses(state, scratch);
   scratch.stats.residual = all.total > 0.0 ? std::sqrt(all.squared / all.total) : 0.0;

@@ -71,6 +71,11 @@ TEST_F(ExplainCommand, SaysWhyThereIsNothingToTell) {
   EXPECT_THAT(outcome.out, HasSubstr("ground and box[0,2] do not touch, so nothing was tested."));
 }
 
+TEST_F(ExplainCommand, SaysThatNothingMergesInModesWithoutMerging) {
+  const Outcome outcome = run({"explain", "stack.toml", "--at", "6", "--mode", "reference"});
+  EXPECT_THAT(outcome.out, HasSubstr("In the mode reference nothing merges, so nothing was"));
+}
+
 TEST_F(ExplainCommand, SuggestsWhatWasMeant) {
   expectError({"explain", "stack.toml", "--at", "10", "--pair", "ground", "bx[0,0]"}, kWrongUsage,
               "the scene has no body 'bx[0,0]' (did you mean 'box[0,0]'?)");
