@@ -170,9 +170,9 @@ PageContent contentOf(const Lesson& lesson, const Console& console) {
 }
 
 void refuseSceneOptions(const LessonOptions& options) {
-  if (!options.overrides.empty() || options.steps || options.seconds) {
+  if (!options.overrides.empty() || options.steps || options.seconds || options.has_mode) {
     throw UsageError(
-        "a lesson says itself how its scene is run; --set, --seed, --steps and "
+        "a lesson says itself how its scene is run; --mode, --set, --seed, --steps and "
         "--seconds are for scenes");
   }
 }
@@ -258,7 +258,7 @@ void addLessonCommand(CLI::App& program, Action& action) {
       *command, "-o,--output", "FILE.html",
       [options](const std::string& s) { options->output = readPath("--output", s); },
       "The page; by default frames/NAME/lesson.html; - is the standard output. Of --course: a "
-      "folder");
+      "folder, by default course");
   command->add_flag("--course", options->course, "All lessons, and a page that lists them");
   addOption(
       *command, "--language", "en|de|fr",

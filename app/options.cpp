@@ -46,7 +46,11 @@ void addSimulationOptions(CLI::App& command, SceneOptions& options) {
       "Simulated time in seconds, instead of --steps")
       ->group(kGroup);
   addOption(
-      command, "--mode", "MODE", [&](const std::string& s) { options.mode = readMode(s); },
+      command, "--mode", "MODE",
+      [&](const std::string& s) {
+        options.mode = readMode(s);
+        options.has_mode = true;
+      },
       "reference, sleep, merge or merge+sleep (default)")
       ->group(kGroup);
   command
@@ -71,7 +75,8 @@ void addSimulationOptions(CLI::App& command, SceneOptions& options) {
   addOption(
       command, "--memory-limit", "SIZE",
       [](const std::string& s) { limitMemory(readMemory("--memory-limit", s)); },
-      "End with an error rather than use more memory, such as 2GB (default: 75% of the machine)")
+      "End with an error where the data need more memory, such as 2GB (default: 75% of the "
+      "machine)")
       ->group(kGroup);
 }
 

@@ -26,6 +26,7 @@ struct SceneOptions : MessageOptions {
   std::optional<std::int64_t> steps;  ///< --steps
   std::optional<double> seconds;      ///< --seconds
   Mode mode = Mode::MergeSleep;
+  bool has_mode = false;  ///< --mode was given
   bool force = false;
 };
 

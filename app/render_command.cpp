@@ -44,8 +44,8 @@ constexpr const char* kRenderExamples = R"(Examples:
 The pictures are called frame_000000.png, frame_000001.png and so on; frame k shows the time k /
 fps, and the last one the end of the run. Beside them, run.json tells how they were made and
 captions.vtt what happens; those of --stages have captions in step_000599.vtt, a second for each
-picture. A folder is used only when it is empty or holds an earlier rendering, which is replaced;
---force puts the frames among other files.)";
+picture. A folder is used only when it is empty or holds an earlier rendering, whose frames are
+replaced; --force puts the frames among other files.)";
 
 using RenderClock = std::chrono::steady_clock;
 

@@ -46,6 +46,9 @@ void check(const RunOptions& options) {
   if (options.decisions && options.trace.empty()) {
     throw UsageError("--decisions go into the trace; name it with --trace FILE.jsonl");
   }
+  if (!options.reference_folder.empty() && !options.reference_error) {
+    throw UsageError("--reference-folder keeps what --reference-error simulates; give both");
+  }
   if (options.reference_error && !options.resume.empty()) {
     throw UsageError("--reference-error simulates from the start, and --resume does not");
   }

@@ -58,6 +58,18 @@ inline std::size_t distanceToMeant(std::string_view word, std::string_view known
                    editDistance(pluralOf(word), known)});
 }
 
+/// A word of other programs, and ours for the same.
+struct Synonym {
+  std::string_view theirs, ours;
+};
+inline constexpr Synonym kSynonyms[] = {
+    {"position", "at"},    {"pos", "at"},       {"rotation", "angle"},
+    {"radius", "circle"},  {"disc", "circle"},  {"width", "box"},
+    {"height", "box"},     {"size", "box"},     {"vertices", "polygon"},
+    {"vel", "velocity"},   {"omega", "spin"},   {"type", "motion"},
+    {"static", "pinned"},  {"fixed", "pinned"}, {"kinematic", "scripted"},
+    {"hinge", "revolute"}, {"pin", "revolute"}, {"slider", "prismatic"}};
+
 /// The candidate nearest to `word`, or nothing when none is near enough to be meant. The first one
 /// wins a tie.
 template <class Words>
@@ -73,6 +85,10 @@ std::string_view nearest(std::string_view word, const Words& candidates) {
       least = distance;
       best = candidate;
     }
+  }
+  for (const Synonym& synonym : kSynonyms) {
+    const bool meant = editDistance(word, synonym.theirs) == 0;
+    if (meant && best.empty() && isAmong(synonym.ours, candidates)) return synonym.ours;
   }
   return best;
 }

@@ -16,6 +16,7 @@
 #include "src2d/core/error.h"
 #include "src2d/core/trig.h"
 #include "src2d/scene/cover.h"
+#include "src2d/scene/drawing_doubts.h"
 #include "src2d/scene/file.h"
 #include "src2d/scene/ink.h"
 #include "src2d/scene/load.h"
@@ -85,7 +86,7 @@ class Drawing {
     for (const Patch& patch : patches) addBody(patch);
     setCamera();
     warnOfMixtures();
-    warnOfDoubts();
+    for (const std::string& doubt : doubtsAboutColours(image_)) warn(doubt);
   }
 
   /// `scene` is what became of the drawing, after all that --set changes.
@@ -309,32 +310,6 @@ class Drawing {
         "#{:02x}{:02x}{:02x} at ({}, {}), and is not pinned: a body is pinned where all "
         "of it is blue; draw the rest in blue, or leave a white gap to what touches it{}",
         mixture_.x, mixture_.y, p.r, p.g, p.b, beside_.x, beside_.y, more));
-  }
-
-  void warnOfDoubts() {
-    struct Doubt {
-      Cell first;
-      int count = 0;
-    };
-    std::map<std::pair<Ink, Ink>, Doubt> doubts;
-    for (int y = 0; y < image_.height; ++y) {
-      for (int x = 0; x < image_.width; ++x) {
-        const auto other = doubtfulInk(image_.at(x, y));
-        if (!other) continue;
-        Doubt& doubt = doubts[{ink({x, y}), *other}];
-        if (doubt.count++ == 0) doubt.first = {x, y};
-      }
-    }
-    for (const auto& [inks, doubt] : doubts) {
-      const Image::Pixel& p = image_.at(doubt.first.x, doubt.first.y);
-      const std::string more =
-          doubt.count == 1 ? "" : fmt::format(" ({} such pixels)", doubt.count);
-      warn(
-          fmt::format("pixel ({}, {}) of colour #{:02x}{:02x}{:02x} is taken as {}, but is nearly "
-                      "{}{}",
-                      doubt.first.x, doubt.first.y, p.r, p.g, p.b, describe(inks.first),
-                      describe(inks.second), more));
-    }
   }
 
   /// The camera sees the picture, not the whole ground.

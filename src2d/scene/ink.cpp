@@ -62,6 +62,17 @@ std::optional<Ink> doubtfulInk(const Image::Pixel& pixel) {
   return std::nullopt;
 }
 
+bool isBlend(const Image::Pixel& pixel, const Image::Pixel& one, const Image::Pixel& other) {
+  const Ink ink = inkOf(pixel), a = inkOf(one), b = inkOf(other);
+  if (a == b || ink == a || ink == b) return false;
+  const Color p = onPaper(pixel), from = onPaper(one), to = onPaper(other);
+  const double r = to.r - from.r, g = to.g - from.g, blue = to.b - from.b;
+  const double part = (r * (p.r - from.r) + g * (p.g - from.g) + blue * (p.b - from.b)) /
+                      (r * r + g * g + blue * blue);
+  const Color on_line{from.r + part * r, from.g + part * g, from.b + part * blue};
+  return part > 0.0 && part < 1.0 && distance(p, on_line) <= kUsual.pure;
+}
+
 double darkness(const Image::Pixel& pixel) {
   const Color c = onPaper(pixel);
   return std::clamp(1.0 - (0.30 * c.r + 0.59 * c.g + 0.11 * c.b), 0.0, 1.0);

@@ -25,6 +25,9 @@ Ink inkOf(const Image::Pixel& pixel);
 /// The other ink that the pixel might mean, when it is near the border of two.
 std::optional<Ink> doubtfulInk(const Image::Pixel& pixel);
 
+/// Whether a pixel of a third meaning lies between two others, as those of a smoothed border do.
+bool isBlend(const Image::Pixel& pixel, const Image::Pixel& one, const Image::Pixel& other);
+
 /// Mass relative to black, 1 - (0.30 r + 0.59 g + 0.11 b): between 0 and 1.
 double darkness(const Image::Pixel& pixel);
 

@@ -44,6 +44,15 @@ std::string bracketsHint(std::string_view kind, std::string_view word, std::stri
   return fmt::format(" (a number stands in brackets: {}[{}]{})", kind, word, rest);
 }
 
+/// " (it is a copy of 'brick'; all have one description: body.brick.mass)" for `brick[0,1].mass`.
+std::string copiesHint(std::string_view kind, std::string_view word, std::string_view rest,
+                       const std::vector<std::string_view>& names) {
+  const std::string_view stem = word.substr(0, word.find('['));
+  if (stem == word || !isAmong(stem, names)) return "";
+  return fmt::format(" (it is a copy of '{0}'; all have one description: {1}.{0}{2})", stem, kind,
+                     rest);
+}
+
 /// `[3].mass` after `body`.
 Target byNumber(toml::array& array, std::string_view rest, std::string_view kind,
                 const std::string& place) {
@@ -82,7 +91,8 @@ Target byName(toml::array& array, std::string_view rest, std::string_view kind,
     const std::size_t dot = rest.find('.');
     if (dot == std::string_view::npos) failForm(place, kind);
     const std::string_view word = rest.substr(0, dot);
-    const std::string hint = bracketsHint(kind, word, rest.substr(dot));
+    std::string hint = bracketsHint(kind, word, rest.substr(dot));
+    if (hint.empty()) hint = copiesHint(kind, word, rest.substr(dot), names);
     fail(place, fmt::format("no {} is called '{}'{}", kind, word,
                             hint.empty() ? didYouMean(word, names) : hint));
   }

@@ -104,7 +104,7 @@ class SyntaxError {
     const auto first = static_cast<unsigned char>(word_.empty() ? ' ' : word_.front());
     if (std::isdigit(first) != 0 || first == '-' || first == '+') {
       moveToWord();
-      return fmt::format("'{}' is not a number (numbers have no units)", word_);
+      return noNumber();
     }
     return "letters beyond a-z stand in \"quotes\" or after a #";
   }
@@ -186,6 +186,7 @@ class SyntaxError {
     const auto first = static_cast<unsigned char>(word_.front());
     if (first == '(') return "a list stands in square brackets: [1, 2]";
     if (std::isalpha(first) != 0 || first == '/' || first == '_') {
+      if (lower == "pi" || lower.find('*') != std::string::npos) return noNumber();
       return fmt::format("a text needs quotes: \"{}\"", word_);
     }
     const bool beyond_double = says("floating-point: '") && says("could not be interpreted");
@@ -194,7 +195,16 @@ class SyntaxError {
     if (says("decimal digit, saw '.'") || word_.ends_with('.')) {
       return "a number has digits on both sides of its point: 0.5, 1.0";
     }
-    return fmt::format("'{}' is not a number (numbers have no units)", word_);
+    return noNumber();
+  }
+
+  std::string noNumber() const {
+    const std::size_t end = word_.find_first_not_of("+-.0123456789");
+    const bool unit = end != std::string_view::npos && end > 0 &&
+                      std::isdigit(static_cast<unsigned char>(word_[end - 1])) != 0 &&
+                      word_.find_first_of("*/+()", end) == std::string_view::npos;
+    return fmt::format("'{}' is not a number ({})", word_,
+                       unit ? "numbers have no units" : "nothing is computed here");
   }
 
   const SourceText& source_;

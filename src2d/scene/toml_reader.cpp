@@ -39,6 +39,7 @@ std::string homeOf(std::string_view key) {
   forEachSetting(settings, [&](std::string_view table, std::string_view setting, auto&, auto&) {
     if (setting == key) homes += fmt::format("{}[{}]", homes.empty() ? "" : " or ", table);
   });
+  if (homes == "[material]") homes = "the [[body]], or for all bodies in [material]";
   return homes.empty() ? "" : fmt::format(" (it belongs in {})", homes);
 }
 

@@ -141,6 +141,14 @@ TEST_F(Usage, OptionsThatContradictEachOtherAreRefused) {
   expectError({"render", "books", "-t", "--format", "mp4"}, kWrongUsage, "--format apng can");
 }
 
+TEST_F(Usage, OptionsWithoutAnEffectAreRefused) {
+  expectError({"lesson", "one-step", "--mode", "reference"}, kWrongUsage,
+              "a lesson says itself how its scene is run; --mode, --set");
+  expectError({"run", "books", "--reference-folder", "ends"}, kWrongUsage, "--reference-error");
+  expectError({"render", "books", "--stages", "--at", "99999"}, kWrongUsage,
+              "--at 99999: the run has 800 steps");
+}
+
 TEST_F(Usage, SetNeedsAKeyAndAValue) {
   expectError({"run", "books", "--set", "merging.velocity"}, kWrongUsage, "--set needs key=value");
   expectError({"run", "books", "--set", "=1"}, kWrongUsage, "--set needs key=value");

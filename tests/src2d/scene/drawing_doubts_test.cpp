@@ -1,7 +1,10 @@
 /// What drawings say when they are wrong, or seldom meant: the pixel, and what to do.
 
+#include "src2d/scene/drawing_doubts.h"
+
 #include <fmt/format.h>
 
+#include "src2d/scene/ink.h"
 #include "tests/src2d/scene/drawing_testing.h"
 
 namespace merge2d {
@@ -76,6 +79,28 @@ TEST(DrawingDoubts, DoubtfulColoursAreWarnedAboutWithTheirFirstPixelAndTheirNumb
       scene.warnings[1],
       HasSubstr("drawn.png: pixel (4, 1) of colour #ed1c24 is taken as plain matter, but is "
                 "nearly a spring (red)"));
+}
+
+/// A red line between white and white, and one of its pixels is half way to white.
+TEST(DrawingDoubts, MixturesOfNeighboursAreWarnedAbout) {
+  EXPECT_TRUE(isBlend({255, 128, 128, 255}, {255, 255, 255, 255}, {255, 0, 0, 255}));
+  EXPECT_FALSE(isBlend({128, 128, 128, 255}, {255, 255, 255, 255}, {0, 0, 0, 255}));  // matter
+  EXPECT_FALSE(isBlend({255, 255, 0, 255}, {255, 255, 255, 255}, {255, 0, 0, 255}));
+  const std::string warning = doubtsAboutColours({3,
+                                                  3,
+                                                  {{255, 255, 255, 255},
+                                                   {255, 255, 255, 255},
+                                                   {255, 255, 255, 255},
+                                                   {255, 255, 255, 255},
+                                                   {255, 128, 128, 255},
+                                                   {255, 0, 0, 255},
+                                                   {255, 255, 255, 255},
+                                                   {255, 255, 255, 255},
+                                                   {255, 255, 255, 255}}})
+                                  .at(0);
+  EXPECT_EQ(warning,
+            "pixel (1, 1) of colour #ff8080 is taken as plain matter, but is a mixture of what is "
+            "beside it: draw without smoothed borders (anti-aliasing)");
 }
 
 TEST(DrawingDoubts, WrongOverridesAreNamed) {

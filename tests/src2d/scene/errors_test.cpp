@@ -57,6 +57,23 @@ TEST(Errors, AKeyInTheWrongTableIsSentHome) {
   });
 }
 
+TEST(Errors, WordsOfOtherProgramsAreUnderstood) {
+  expectErrors({
+      {"[[body]]\nposition = [0, 1]",
+       "2:1: unknown key 'position' in [[body]] (did you mean 'at'?)"},
+      {"[[body]]\nRadius = 1", "2:1: unknown key 'Radius' in [[body]] (did you mean 'circle'?)"},
+      {"[[body]]\nmotion = \"static\"\ncircle = 1",
+       "2:10: 'motion' in [[body]] must be one of \"dynamic\", \"pinned\", \"scripted\", but "
+       "is \"static\" (did you mean 'pinned'?)"},
+  });
+}
+
+TEST(Errors, AKeyOfTheMaterialInAShapeBelongsInItsBody) {
+  expectErrors({{"[[body]]\nshapes = [{ box = [1, 1], friction = 2 }]",
+                 "2:27: unknown key 'friction' in 'shapes[0]' of [[body]] (it belongs in the "
+                 "[[body]], or for all bodies in [material])"}});
+}
+
 TEST(Errors, TheFirstUnknownKeyOfATableIsReported) {
   EXPECT_EQ(firstLineOf("[[body]]\nzzz = 1\naaa = 2\n"),
             "s.toml:2:1: unknown key 'zzz' in [[body]]");

@@ -102,6 +102,11 @@ TEST(Override, MistakesNameTheOptionAsTyped) {
   EXPECT_EQ(error("spring.0.stiffness", "2"),
             "--set spring.0.stiffness=2: no spring is called '0' (a number stands in brackets: "
             "spring[0].stiffness)");
+  EXPECT_EQ(errorOf("[[body]]\nname = \"brick\"\nbox = [1, 1]\nrepeat = { count = [2, 2], "
+                    "spacing = [1, 1] }\n",
+                    {{"body.brick[0,1].mass", "2"}}),
+            "--set body.brick[0,1].mass=2: no body is called 'brick[0,1]' (it is a copy of "
+            "'brick'; all have one description: body.brick.mass)");
   EXPECT_EQ(error("body.mass", "2"), "--set body.mass=2: write body[3].key or body.NAME.key");
   EXPECT_EQ(error("body[2].mass", "1"),
             "--set body[2].mass=1: there is no body[2]; the scene has "

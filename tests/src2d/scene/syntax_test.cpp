@@ -54,6 +54,9 @@ TEST(Errors, SyntaxErrorsSayWhatToDo) {
       {"step = 1\n[+x]\nseed = 1", "2:1: a line is key = value, or a [heading]"},
       {"x = “abc”", "1:5: use plain quotes: \"…\""},
       {"x = 45°", "1:5: '45°' is not a number (numbers have no units)"},
+      {"x = 90*2", "1:5: '90*2' is not a number (nothing is computed here)"},
+      {"x = pi", "1:5: 'pi' is not a number (nothing is computed here)"},
+      {"x = pi*2", "1:5: 'pi*2' is not a number (nothing is computed here)"},
       {"grün = 3", "1:3: letters beyond a-z stand in \"quotes\" or after a #"},
       {"= 3", "1:1: a line is key = value, or a [heading]"},
   });
