@@ -122,7 +122,16 @@ class LegendEntries {
       addArrow("friction", theme.friction_force);
       if (merges(scene_.style.mode)) addArrow("internal", theme.internal_force);
     }
-    if (scene_.shows(Overlay::Velocities)) addArrow("velocity", theme.velocity);
+    if (scene_.shows(Overlay::Velocities)) addVelocity();
+  }
+
+  /// With a round speed, and the arrow of a body that moves so fast.
+  void addVelocity() {
+    constexpr float kLongest = 30.0F;
+    const double length = scene_.style.velocity_scale * scene_.view.scale / scene_.px(1.0F);
+    const double speed = roundLength(kLongest / length);
+    addArrow(fmt::format("velocity, {:g} m/s", speed), scene_.theme().velocity,
+             static_cast<float>(speed * length));
   }
 
   void addMark(const char* meaning, void (*mark)(Painter&, const FrameScene&, Pixel, float)) {
@@ -136,9 +145,9 @@ class LegendEntries {
            p.line(left, left + Pixel{scene_.px(18.0F), 0.0F}, scene_.px(width), color);
          }});
   }
-  void addArrow(const char* meaning, Color color) {
-    entries.push_back({meaning, 22.0F, [this, color](Painter& p, Pixel left) {
-                         p.arrow(left, left + Pixel{scene_.px(22.0F), 0.0F},
+  void addArrow(std::string meaning, Color color, float length = 22.0F) {
+    entries.push_back({std::move(meaning), length, [this, color, length](Painter& p, Pixel left) {
+                         p.arrow(left, left + Pixel{scene_.px(length), 0.0F},
                                  {.color = color, .width = scene_.px(2.2F)});
                        }});
   }
@@ -146,20 +155,30 @@ class LegendEntries {
   const FrameScene& scene_;
 };
 
-/// From left to right, as many as fit before `right`.
+/// From left to right, as many as fit before `right` in one row, or in two where one is too short.
 void drawLegend(Painter& painter, const FrameScene& scene, float right) {
   const LegendEntries legend(scene);
   const Font font = scene.font(13.0F);
-  const float y = scene.layout.footer.y + 0.5F * scene.layout.footer.height;
-  const float baseline = std::round(y + 0.5F * painter.text().capHeight(font));
-  float x = scene.px(kTextMargin);
-  for (const LegendEntry& entry : legend.entries) {
-    const float sample = scene.px(entry.width) + scene.px(6.0F);
-    const float width = sample + painter.text().width(entry.meaning, font);
-    if (x + width > right) break;
-    entry.draw(painter, {std::round(x), y});
-    painter.write(entry.meaning, font, {x + sample, baseline}, scene.theme().ink_soft);
-    x += width + scene.px(17.0F);
+  const float margin = scene.px(kTextMargin), gap = scene.px(17.0F);
+  const auto sampleOf = [&](const LegendEntry& e) { return scene.px(e.width) + scene.px(6.0F); };
+  const auto widthOf = [&](const LegendEntry& e) {
+    return sampleOf(e) + painter.text().width(e.meaning, font);
+  };
+  float all = margin - gap;
+  for (const LegendEntry& entry : legend.entries) all += widthOf(entry) + gap;
+  std::vector<float> rows{0.5F};  // of the footer's height
+  if (all > right) rows = {0.3F, 0.72F};
+  auto entry = legend.entries.begin();
+  for (const float row : rows) {
+    const float y = std::round(scene.layout.footer.y + row * scene.layout.footer.height);
+    const float baseline = std::round(y + 0.5F * painter.text().capHeight(font));
+    for (float x = margin; entry != legend.entries.end(); ++entry) {
+      const float width = widthOf(*entry);
+      if (x + width > right) break;
+      entry->draw(painter, {std::round(x), y});
+      painter.write(entry->meaning, font, {x + sampleOf(*entry), baseline}, scene.theme().ink_soft);
+      x += width + gap;
+    }
   }
 }
 
@@ -192,7 +211,8 @@ std::vector<Count> countsOf(const Snapshot& snapshot, Mode mode) {
   if (sleeps(mode)) counts.push_back({s.asleep, "asleep", "asleep"});
   counts.push_back({s.contacts, "contact", "contacts"});
   if (merges(mode)) {
-    counts.push_back({s.internal_contacts, "merged contact", "merged contacts"});
+    const auto merged = std::ranges::count(snapshot.contacts, true, &ContactView::internal);
+    counts.push_back({static_cast<int>(merged), "merged contact", "merged contacts"});
   }
   return counts;
 }
