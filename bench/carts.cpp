@@ -1,7 +1,7 @@
 /// Random towers on carts that move, and random columns on ground that turns and stays: when do
 /// they topple, merged and in the reference? Only those that topple in the reference count.
 ///
-///   carts [--family carts|columns] [--cases N] [--seed N] [--rule default|paper|decided] [--quiet]
+///   carts [--family carts|columns] [--cases N] [--seed N] [--rule default|paper] [--quiet]
 ///
 /// A cart floats on springs, hangs on two rods, stands on springs or is pulled by a force. The
 /// reference is a converged one: contacts ten times as hard, 100 sweeps. A softer one can topple

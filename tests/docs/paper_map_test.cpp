@@ -53,7 +53,7 @@ TEST(PaperMap, NoLineAndNoEquationIsMissing) {
 /// The stages of the page stand in the step in the same order.
 TEST(PaperMap, TheStepCallsTheFunctionsOfAlgorithm1InOrder) {
   const std::string world = read(kRoot / "src2d/world.cpp");
-  std::size_t at = world.find("void World::Impl::step()");
+  std::size_t at = world.find("void World::Impl::runStages()");
   ASSERT_NE(at, std::string::npos);
   for (const Row& row : mapRows()) {
     if (!row[0].starts_with("Line ") || row[0] == "Line 1") continue;
