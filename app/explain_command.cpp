@@ -217,12 +217,7 @@ void explainOneStep(const ExplainOptions& options, const Console& console) {
   World world(loadScene(options, console), {.mode = options.mode, .timings = false});
   const Words words(world.bodies());
   if (!options.pair.empty()) bodiesOf(words, options.pair);  // better now than after a long run
-  if (const std::int64_t last = stepCount(world.scene()); *options.at > last) {
-    throw UsageError(fmt::format(
-        "--at {}: the run of '{}' ends at step {}; --set duration={:.10g} makes it long enough",
-        *options.at, world.scene().name, last,
-        static_cast<double>(*options.at) * world.scene().step));
-  }
+  requireStep(world.scene(), *options.at);
   Progress progress(console, "step", *options.at);
   while (world.steps() < *options.at) {
     stopIfInterrupted();

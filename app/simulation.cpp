@@ -10,6 +10,7 @@
 #include "app/doubts.h"
 #include "app/interrupt.h"
 #include "app/lesson_source.h"
+#include "app/usage_error.h"
 #include "src2d/core/error.h"
 #include "src2d/scene/builtin.h"
 
@@ -66,6 +67,14 @@ std::int64_t stepCount(const Scene& scene) {
   }
   const double rounding = std::min(0.5, 1e-9 * std::max(1.0, exact));  // 0.3 / 0.1 is 3, not 4
   return static_cast<std::int64_t>(std::ceil(exact - rounding));
+}
+
+void requireStep(const Scene& scene, std::int64_t at) {
+  const std::int64_t last = stepCount(scene);
+  if (at <= last) return;
+  throw UsageError(fmt::format(
+      "--at {}: the run of '{}' ends at step {}; --set duration={:.10g} makes it long enough", at,
+      scene.name, last, static_cast<double>(at) * scene.step));
 }
 
 void Simulation::step() {

@@ -24,6 +24,9 @@ inline constexpr std::int64_t kMostSteps = 1'000'000'000;
 /// How many time steps cover the scene's duration.
 std::int64_t stepCount(const Scene& scene);
 
+/// Throws UsageError where `--at` names a step after the last one.
+void requireStep(const Scene& scene, std::int64_t at);
+
 /// A world, the steps it is to take, and how long they took.
 class Simulation {
  public:

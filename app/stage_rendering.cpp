@@ -13,7 +13,6 @@
 #include "app/run_file.h"
 #include "app/simulation.h"
 #include "app/stage_pictures.h"
-#include "app/usage_error.h"
 #include "app/web_vtt.h"
 #include "render/contact_sheet.h"
 #include "render/png.h"
@@ -129,9 +128,7 @@ class StageFiles {
 void renderStages(const RenderOptions& options) {
   const Console console(options);
   const Scene scene = loadScene(options, console);
-  if (const std::int64_t last = stepCount(scene); *options.at > last) {
-    throw UsageError(fmt::format("--at {}: the run has {} steps", *options.at, last));
-  }
+  requireStep(scene, *options.at);
   StageFiles files(options, console, scene);
   files.write();
   if (options.json) {

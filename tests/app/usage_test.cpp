@@ -146,7 +146,7 @@ TEST_F(Usage, OptionsWithoutAnEffectAreRefused) {
               "a lesson says itself how its scene is run; --mode, --set");
   expectError({"run", "books", "--reference-folder", "ends"}, kWrongUsage, "--reference-error");
   expectError({"render", "books", "--stages", "--at", "99999"}, kWrongUsage,
-              "--at 99999: the run has 800 steps");
+              "--at 99999: the run of 'books' ends at step 800");
 }
 
 TEST_F(Usage, SetNeedsAKeyAndAValue) {
