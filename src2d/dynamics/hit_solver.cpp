@@ -4,6 +4,7 @@
 
 #include "src2d/dynamics/hit_rows.h"
 #include "src2d/dynamics/nncg.h"
+#include "src2d/dynamics/point_impact.h"
 
 namespace merge2d {
 namespace {
@@ -21,6 +22,13 @@ void holdJoint(const HitIsland& island, JointBlock& k) {
 /// Touches and bears, now that hits have begun.
 bool bears(const HitIsland& island, const HitPoint& p) {
   return p.holds && (island.blocks()[p.block].bilateral || p.gap <= p.touching);
+}
+
+/// The rows of a block that act.
+void solveActive(ContactBlock& k, SolverVelocity& a, SolverVelocity& b) {
+  const bool first = k.bias[0] < kNeverActs, second = k.count == 2 && k.bias[1] < kNeverActs;
+  if (first == second || k.bilateral) return solveBlock(k, k.nx, k.ny, a, b);
+  solvePoint(k, first ? 0 : 1, a, b);
 }
 
 }  // namespace
@@ -110,7 +118,7 @@ void HitSolver::solveRows(std::span<const HitPoint> points) {
       struck_.size(), [&](std::size_t i) -> SolverVelocity& { return island_.u(struck_[i]); },
       [&] {
         for (JointBlock& k : joints_) solveJoint(k, {}, island_.u(k.a), island_.u(k.b));
-        for (ContactBlock& k : rows_) solveBlock(k, k.nx, k.ny, island_.u(k.a), island_.u(k.b));
+        for (ContactBlock& k : rows_) solveActive(k, island_.u(k.a), island_.u(k.b));
       },
       island_.scratch().sweeps.front().nncg);
   constexpr std::size_t kFewRows = 8;
@@ -144,6 +152,9 @@ double HitSolver::weaken(std::span<const HitPoint> points) {
       along += k.lambda_n(i) * was.n + k.lambda_t(i) * was.t;
       change += 0.5 * (k.lambda_n(i) * (was.n + now.n) + k.lambda_t(i) * (was.t + now.t));
     }
+    const double turned = old_b.omega - old_a.omega, turns = b.omega - a.omega;
+    along += k.lambda_r() * turned;
+    change += 0.5 * k.lambda_r() * (turned + turns);
   }
   for (const HitPoint& p : points) by_loads += 0.5 * impulseOf(p) * p.extra;
   if (change <= by_loads + 1e-14 * std::abs(along) || change <= along) return 1.0;

@@ -26,23 +26,12 @@ class HitPath {
     }
   }
 
+  /// Where bounces have no end, those that are still to come are plastic: bodies that waited would
+  /// gain speed from their weight without falling.
   void follow() {
-    const double h = island_.state().h;
-    HitSolver solver(island_);
-    const std::size_t most = kFewHits + 2 * std::min(points_.size(), kManyPoints);
-    std::size_t hits = 0;
-    for (std::size_t looks = 0; hits < most && looks < kLooks * most; ++looks) {
-      const double wait = timeToNext();
-      if (time_ + wait >= (1.0 - kEndOfStep) * h) return advance(h - time_);
-      advance(wait);
-      if (someAreLater()) continue;
-      ++hits;
-      moveArms();
-      for (HitPoint& p : points_) aim(p, kMet);
-      for (std::size_t i = 1; i < points_.size(); ++i) meetTogether(points_[i - 1], points_[i]);
-      solver.solve(points_);
-    }
-    // After so many hits the bodies stay where they are until the next step.
+    if (reachesTheEnd()) return;
+    for (HitPoint& p : points_) p.e = 0.0;
+    reachesTheEnd();
   }
 
   void keepWays(std::vector<HitWay>& ways) const {
@@ -59,6 +48,29 @@ class HitPath {
   struct Ends {
     std::uint32_t a = HitIsland::kFixed, b = HitIsland::kFixed;
   };
+
+  /// From hit to hit. False after too many: the bodies stay where they are until the next step.
+  bool reachesTheEnd() {
+    const double h = island_.state().h;
+    HitSolver solver(island_);
+    const std::size_t most = kFewHits + 2 * std::min(points_.size(), kManyPoints);
+    std::size_t hits = 0;
+    for (std::size_t looks = 0; hits < most && looks < kLooks * most; ++looks) {
+      const double wait = timeToNext();
+      if (time_ + wait >= (1.0 - kEndOfStep) * h) {
+        advance(h - time_);
+        return true;
+      }
+      advance(wait);
+      if (someAreLater()) continue;
+      ++hits;
+      moveArms();
+      for (HitPoint& p : points_) aim(p, kMet);
+      for (std::size_t i = 1; i < points_.size(); ++i) meetTogether(points_[i - 1], points_[i]);
+      solver.solve(points_);
+    }
+    return false;
+  }
 
   static bool approaches(const HitPoint& p, double w) { return w < p.allowed - p.still; }
 
