@@ -123,6 +123,14 @@ void fix(State& state, RigidId id, FrameId frame, const Rigid& anchor) {
 
 }  // namespace
 
+void reserveCollections(State& state, std::size_t more) {
+  const std::size_t slots = state.collections.size() + more;
+  state.collections.reserve(slots);
+  reserveTightly(state.rigids, state.bodies.size() + slots);
+  reserveTightly(state.extents, state.extents.size() + more);
+  reserveTightly(state.broadphase.shape_trees, state.broadphase.shape_trees.size() + more);
+}
+
 RigidId newCollection(State& state) {
   std::size_t slot = state.used_slots;
   while (slot < state.collections.size() && state.collections[slot].id != kNoCollection) ++slot;
@@ -164,7 +172,6 @@ void dropFreeSlots(State& state) {
   std::size_t used = state.collections.size();
   while (used > 0 && state.collections[used - 1].id == kNoCollection) --used;
   const std::size_t gone = state.collections.size() - used;
-  if (gone == 0) return;
   const auto shorten = [&](auto& slots) {
     slots.resize(slots.size() - gone);
     if (slots.capacity() - slots.size() > slots.size() / 32) slots.shrink_to_fit();
@@ -174,6 +181,7 @@ void dropFreeSlots(State& state) {
   shorten(state.rigids);
   shorten(state.extents);
   shorten(state.broadphase.shape_trees);
+  if (gone == 0) return;
   std::erase_if(state.broadphase.near,
                 [&](const NearPair& p) { return index(p.b) >= state.rigids.size(); });
 }

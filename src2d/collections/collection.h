@@ -54,6 +54,8 @@ void putBlocksAway(Collection& collection);
 /// Makes them anew, in their order.
 void bringBlocksBack(const State& state, Collection& collection);
 
+/// Makes room for that many collections more at once.
+void reserveCollections(State& state, std::size_t more);
 /// A new, empty collection that has neither place nor members yet.
 RigidId newCollection(State& state);
 /// Gives it the place and the motion of a rigid thing that it takes over from, or is a part of.

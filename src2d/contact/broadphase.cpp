@@ -220,6 +220,29 @@ double wayOf(const NearPair& p, const std::array<Vec2, 4>& corners) {
   return std::sqrt(longest);
 }
 
+/// The distance of a thing's points from the centre of its turns, at most [m].
+double reachOf(const State& state, RigidId id) {
+  return farthestFrom(state.extent(id).bounds, state[id].center);
+}
+
+/// The larger one of a near pair, from which the corners of the other one are seen: those of a long
+/// ground would fly about where something small turns on it.
+RigidId largerOf(const State& state, const NearPair& p) {
+  return reachOf(state, p.a) >= reachOf(state, p.b) ? p.a : p.b;
+}
+
+/// How far the corners of a near pair can have gone in the last step, in which no point went
+/// farther than State::moved: a turn carries those beyond the larger thing farther [m].
+double wayInStep(const State& state, const NearPair& p) {
+  const RigidId large = largerOf(state, p);
+  double farthest = 0.0;
+  for (const Vec2& corner : p.corners) {
+    farthest = std::max(farthest, (corner - state[large].center).norm());
+  }
+  const double times = (farthest + static_cast<double>(p.way)) / reachOf(state, large);
+  return (1.0 + std::max(1.0, times)) * state.moved;
+}
+
 /// Pairs shapes anew where two rigid things have moved against each other, or will in this step.
 /// Most have not: nothing has gone as far since the last look.
 void refineNearPairs(State& state, Scratch& scratch, const Approaches& approaches) {
@@ -232,13 +255,14 @@ void refineNearPairs(State& state, Scratch& scratch, const Approaches& approache
   for (std::size_t i = 0; i < near.size(); ++i) {
     NearPair& p = near[i];
     const bool still = !moves(state[p.a]) && !moves(state[p.b]);
-    if (!still) p.way += static_cast<float>(2.0 * state.moved);
+    if (!still && p.way < kNear) p.way += static_cast<float>(wayInStep(state, p));
     if (!p.fresh && approaches.farthest() <= kNear && p.way < (1.0 - kRounding) * kNear) continue;
     if (!p.fresh && !canTouch(state, p.a, p.b)) continue;
     const bool a_hosts = hasShapeTree(state, p.a);
     const RigidId host = a_hosts ? p.a : p.b, guest = a_hosts ? p.b : p.a;
-    const auto corners = cornersSeenFrom(state[host].frame().toLocal(state[guest].frame()),
-                                         state.extent(guest).bounds);
+    const RigidId large = largerOf(state, p), small = large == p.a ? p.b : p.a;
+    const auto corners = cornersSeenFrom(state[large].frame().toLocal(state[small].frame()),
+                                         state.extent(small).bounds);
     const double ahead = approaches.between(p.a, p.b);
     const double way = wayOf(p, corners);
     p.way = static_cast<float>(way);

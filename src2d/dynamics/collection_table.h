@@ -43,6 +43,7 @@ class CollectionTable {
     bringBack(slots_.size());
     appendTightly(slots_);
   }
+  void reserve(std::size_t slots) { reserveTightly(slots_, slots); }
   /// Drops the last `count` slots, which must not be parked.
   void dropLast(std::size_t count) {
     for (std::size_t i = slots_.size() - count; i < slots_.size(); ++i) setAside(i);

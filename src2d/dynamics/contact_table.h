@@ -96,11 +96,11 @@ struct BodyPair {
   std::uint32_t first = 0, count = 0;
 };
 
-/// Two rigid things near each other of which at least one has several shapes: where the second was
-/// seen from the first when their shapes were last paired.
+/// Two rigid things near each other of which at least one has several shapes: where the smaller one
+/// was seen from the larger one when their shapes were last paired.
 struct NearPair {
   RigidId a{}, b{};
-  std::array<Vec2, 4> corners{};  ///< of b's bounds in a's frame
+  std::array<Vec2, 4> corners{};  ///< of the bounds of the one in the frame of the other
   /// That these can have gone since, at most [m]; no result depends on it.
   float way = std::numeric_limits<float>::infinity();
   bool fresh = true;

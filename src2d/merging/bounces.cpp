@@ -100,21 +100,55 @@ bool cutBouncing(const State& state, const Scratch& scratch, Collection& c,
   return any;
 }
 
+/// The speed that an impulse gives the fastest corner of a body on its own [m/s].
+double speedBy(const State& state, const Kick& kick) {
+  const Body& body = state[kick.body];
+  const Vec2 center = state.pose(kick.body).position;
+  const double turn = std::abs(cross(kick.at - center, kick.impulse)) / body.inertia;
+  return kick.impulse.norm() / body.mass + turn * state.extent(rigidOf(kick.body)).box.half.norm();
+}
+
+/// Whether something bounces off one of the bodies at which a speed arrives.
+bool anyBounces(const State& state, const Scratch& scratch, const std::vector<double>& arrives) {
+  if (arrives.empty()) return false;
+  const auto bounces = [&](const auto& pair) {
+    const bool arrived = arrives[index(pair.a)] > 0.0 || arrives[index(pair.b)] > 0.0;
+    return arrived && restitutionOf(state, pair.a, pair.b) > 0.0;
+  };
+  return std::ranges::any_of(scratch.pairs, bounces) ||
+         std::ranges::any_of(state.collections, [&](const Collection& c) {
+           return std::ranges::any_of(c.welds, bounces);
+         });
+}
+
 }  // namespace
 
 std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch) {
   std::vector<double> arrives;
   if (state.collections.empty()) return arrives;
+  const auto arrive = [&](BodyId b, double speed) {
+    if (!state.responds(b)) return;
+    if (arrives.empty()) arrives.assign(state.bodies.size(), 0.0);
+    arrives[index(b)] = std::max(arrives[index(b)], speed);
+  };
   for (const Meeting& meeting : scratch.meetings) {
     const BodyPair& pair = scratch.pairs[meeting.pair];
     if (restitutionOf(state, pair.a, pair.b) == 0.0) continue;
-    if (arrives.empty()) arrives.assign(state.bodies.size(), 0.0);
-    for (const BodyId b : {pair.a, pair.b}) {
-      if (state.responds(b)) arrives[index(b)] = std::max(arrives[index(b)], meeting.speed);
-    }
+    arrive(pair.a, meeting.speed);
+    arrive(pair.b, meeting.speed);
   }
-  if (!arrives.empty()) BounceSpread(state, scratch, arrives).spread();
+  for (const Kick& kick : scratch.kicks) arrive(kick.body, speedBy(state, kick));
+  if (!anyBounces(state, scratch, arrives)) return {};
+  BounceSpread(state, scratch, arrives).spread();
   return arrives;
+}
+
+bool bounceAtWelds(const State& state, const std::vector<double>& arrives) {
+  if (arrives.empty()) return false;
+  return std::ranges::any_of(state.collections, [&](const Collection& c) {
+    return std::ranges::any_of(
+        c.welds, [&](const Weld& weld) { return !noBounceArrives(state, weld, arrives).holds; });
+  });
 }
 
 void releaseBouncing(State& state, Scratch& scratch, const std::vector<double>& arrives) {

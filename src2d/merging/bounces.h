@@ -13,6 +13,9 @@ namespace merge2d {
 /// collections. To be asked before collections are split.
 std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch);
 
+/// Whether bounces arrive at welds.
+bool bounceAtWelds(const State& state, const std::vector<double>& arrives);
+
 /// Cuts the welds at which bounces arrive, and splits their collections.
 void releaseBouncing(State& state, Scratch& scratch, const std::vector<double>& arrives);
 

@@ -6,6 +6,7 @@
 #include "src2d/dynamics/thread_memory.h"
 #include "src2d/merging/decided_unmerge.h"
 #include "src2d/merging/doubt.h"
+#include "src2d/merging/doubt_spread.h"
 #include "src2d/merging/merge.h"
 #include "src2d/relaxation/open_solve.h"
 #include "src2d/relaxation/proof_search.h"
@@ -70,6 +71,7 @@ void goOnWithSearches(State& state, Scratch& scratch) {
 /// Where a search has found motion, the full solve of the same step finds the moving welds.
 void solveDoubted(State& state, Scratch& scratch) {
   goOnWithSearches(state, scratch);
+  askJoined(state, scratch);
   const auto asksTheSolve = [&](const Collection& c) {
     const Doubt doubt = doubtAbout(state, scratch, c);
     return doubt == Doubt::Open || doubt == Doubt::Reached;

@@ -8,6 +8,7 @@
 #include "src2d/collections/collection.h"
 #include "src2d/merging/disturbance.h"
 #include "src2d/proofs/decided_settings.h"
+#include "src2d/relaxation/open_solve.h"
 
 namespace merge2d {
 namespace {
@@ -102,9 +103,27 @@ bool passesBlows(const State& state, BodyId b) {
   return !r.asleep && (r.floating() || state.isMember(b));
 }
 
+void unite(const State& state, Scratch& scratch, BodyId a, BodyId b) {
+  if (!passesBlows(state, a) || !passesBlows(state, b)) return;
+  scratch.sets.unite(static_cast<std::uint32_t>(state[a].rigid),
+                     static_cast<std::uint32_t>(state[b].rigid));
+}
+
+/// The rigid things that hang together by joints.
+void uniteJoined(const State& state, Scratch& scratch) {
+  scratch.sets.reset(state.rigids.size());
+  for (const std::uint32_t i : state.joint_lists.present) {
+    const Joint& joint = state.joints[i];
+    if (!joint.to_world && holds(state, joint)) unite(state, scratch, joint.a, joint.b);
+  }
+}
+
+enum class Way { Joints, Contacts };
+
 /// Has the solve asked about the collections, floating or not, that hang together with one of
-/// these.
-void markReached(State& state, Scratch& scratch, std::span<const RigidId> struck, bool floating) {
+/// these; by joints also about one in which impulses are sought for the load that there was.
+void markReached(State& state, Scratch& scratch, std::span<const RigidId> struck, bool floating,
+                 Way by) {
   const auto setOf = [&](RigidId id) { return scratch.sets.find(static_cast<std::uint32_t>(id)); };
   SetNames reached;
   for (const RigidId id : struck) reached.add(setOf(id));
@@ -113,10 +132,10 @@ void markReached(State& state, Scratch& scratch, std::span<const RigidId> struck
     if (!isSwept(state, c) || state[c.rigid].floating() != floating) continue;
     if (!reached.contains(setOf(c.rigid))) continue;
     Doubt& doubt = scratch.doubts[state.collections.slotOf(c)];
-    const bool carried = doubt == Doubt::Search && c.settled;  // a search looks ahead
-    if (doubt == Doubt::None || (floating && carried)) {
+    const bool sought = by == Way::Joints && doubt == Doubt::Search;
+    if (doubt == Doubt::None || (sought && (!floating || c.settled))) {  // or it looks ahead
       doubt = Doubt::Reached;
-    } else if (floating && doubt == Doubt::Search) {
+    } else if (sought) {
       doubt = Doubt::Open;
       c.hits.blow = state.step;
     }
@@ -128,20 +147,24 @@ void markReached(State& state, Scratch& scratch, std::span<const RigidId> struck
 void noteReached(State& state, Scratch& scratch) {
   std::vector<RigidId> struck = struckRigids(state, scratch);
   if (struck.empty()) return;
-  scratch.sets.reset(state.rigids.size());
-  const auto unite = [&](BodyId a, BodyId b) {
-    if (!passesBlows(state, a) || !passesBlows(state, b)) return;
-    scratch.sets.unite(static_cast<std::uint32_t>(state[a].rigid),
-                       static_cast<std::uint32_t>(state[b].rigid));
-  };
-  for (const std::uint32_t i : state.joint_lists.present) {
-    const Joint& joint = state.joints[i];
-    if (!joint.to_world && holds(state, joint)) unite(joint.a, joint.b);
+  uniteJoined(state, scratch);
+  for (const bool floating : {true, false}) {
+    markReached(state, scratch, struck, floating, Way::Joints);
   }
-  markReached(state, scratch, struck, true);
-  for (const BodyPair& pair : scratch.pairs) unite(pair.a, pair.b);
+  for (const BodyPair& pair : scratch.pairs) unite(state, scratch, pair.a, pair.b);
   std::erase_if(struck, [&](RigidId id) { return state.isCollection(id); });
-  markReached(state, scratch, struck, false);
+  markReached(state, scratch, struck, false, Way::Contacts);
+}
+
+void askJoined(State& state, Scratch& scratch) {
+  if (state.joint_lists.present.empty()) return;
+  std::vector<RigidId> open;
+  for (const Collection& c : state.collections) {
+    if (doubtAbout(state, scratch, c) == Doubt::Open) open.push_back(c.rigid);
+  }
+  if (open.empty()) return;
+  uniteJoined(state, scratch);
+  markReached(state, scratch, open, false, Way::Joints);
 }
 
 void openWhatFramesDrag(const State& state, Scratch& scratch) {

@@ -66,6 +66,7 @@ void weldPairs(State& state, Scratch& scratch, const std::vector<BodyPair>& pair
 
 void weldPairs(State& state, Scratch& scratch, const std::vector<BodyPair>& pairs,
                const OnFloor& on_floor) {
+  reserveCollections(state, pairs.size() + 1);  // two bodies are one each for a moment
   for (const BodyPair& pair : pairs) {
     if (!weld(state, pair, on_floor)) continue;
     const RigidId id = state.isMember(pair.a) ? state[pair.a].rigid : state[pair.b].rigid;

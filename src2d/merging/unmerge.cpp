@@ -22,8 +22,10 @@ void finishSplits(State& state, Scratch& scratch) {
 
 void unmerge(State& state, Scratch& scratch) {
   const std::vector<double> arrives = arrivingSpeeds(state, scratch);
+  const bool bounce = bounceAtWelds(state, arrives);
   if (scratch.sweeping) unmergingMethod(state).unmerge(state, scratch);
   releaseBouncing(state, scratch, arrives);
+  if (bounce) scratch.solved = false;  // inside open collections nothing has bounced
   finishSplits(state, scratch);
   if (scratch.sweeping) forgetExpectedContacts(state, scratch);
 }

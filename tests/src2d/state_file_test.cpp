@@ -177,6 +177,41 @@ TEST(StateFile, AWallOnWhichBoxesFallGoesOnTheSameFromAnyStep) {
   }
 }
 
+/// The ends of the ground, as seen from a pair that turns, move faster than anything else.
+TEST(StateFile, APairThatTurnsAboveALongGroundGoesOnTheSameFromAnyStep) {
+  const Scene scene = parseScene(R"(
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [4000, 1]
+[[body]]
+name = "a"
+at = [0, 0.55]
+box = [1, 1]
+spin = 2
+[[body]]
+name = "b"
+at = [1, 0.55]
+box = [1, 1]
+[[joint]]
+kind = "weld"
+bodies = ["a", "b"]
+at = [0.5, 0.55]
+)",
+                                 "pair.toml");
+  World world = start(scene, Mode::Merge);
+  World resumed = start(scene, Mode::Merge);
+  for (int step = 1; step <= 60; ++step) {
+    const std::string bytes = world.save();
+    world.step();
+    resumed.restore(bytes, "test");
+    resumed.step();
+    ASSERT_TRUE(resumed.save() == world.save()) << step;
+  }
+  EXPECT_FALSE(world.capture().collections.empty());
+}
+
 /// A pair that is listed twice was refused as damage.
 TEST(StateFile, TwoBodiesMayHaveTwoJoints) {
   const Scene scene = parseScene(R"(

@@ -176,5 +176,134 @@ TEST(Bounces, ADiscBouncesOffAMergedRaftAsOffTwoBoxes) {
   }
 }
 
+/// A stack of boxes of 1 kg, all of which bounce.
+std::string bouncingStack(int boxes, double e) {
+  return fmt::format(R"(
+format = 1
+[material]
+restitution = {}
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [400, 1]
+[[body]]
+name = "box"
+at = [0, 0.2]
+box = [1, 0.4]
+mass = 1
+repeat = {{ count = [1, {}], spacing = [1, 0.4] }}
+)",
+                     e, boxes);
+}
+
+/// How high the highest body rises in the second after now [m].
+double riseOf(Simulation& run, const std::string& body) {
+  double highest = -1e9;
+  run.steps(100, [&] { highest = std::max(highest, run.body(body).x.y()); });
+  return highest;
+}
+
+/// J/m comes back from the ground as e J/m.
+TEST(Bounces, AMergedBoxThatIsKickedDownRisesByItsRestitution) {
+  for (const double e : {0.5, 1.0}) {
+    Simulation run(bouncingStack(1, e), Mode::Merge);
+    run.until(1.0);
+    EXPECT_TRUE(run.anchored("box[0,0]"));
+    run.kick("box[0,0]", {0, -2});
+    const double v = 2.0 * e;
+    EXPECT_NEAR(riseOf(run, "box[0,0]"), 0.2 + v * v / (2.0 * kGravity), 0.012) << e;
+  }
+}
+
+/// As in Newton's cradle: the last one has it all, also where a kick stands for the first ball.
+TEST(Bounces, AKickGoesThroughAMergedRowToTheLastBox) {
+  const std::string row = R"(
+format = 1
+[material]
+restitution = 1
+friction = 0.05
+[[body]]
+name = "ground"
+motion = "pinned"
+at = [0, -0.5]
+box = [400, 1]
+[[body]]
+name = "box"
+at = [0, 0.2]
+box = [0.6, 0.4]
+mass = 1
+repeat = { count = [4, 1], spacing = [0.6, 1] }
+)";
+  Simulation run(row, Mode::Merge);
+  run.until(1.0);
+  EXPECT_TRUE(run.anchored("box[3,0]"));
+  run.kick("box[0,0]", {2, 0});
+  run.until(8.0);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(run.body(fmt::format("box[{},0]", i)).x.x(), 0.6 * i, 0.01) << i;
+  }
+  EXPECT_NEAR(run.body("box[3,0]").x.x(), 1.8 + 4.0 / (2.0 * 0.05 * kGravity), 0.05);
+}
+
+/// Hits go on between the ball, the boxes and the ground in the step in which it arrives.
+TEST(Bounces, AStackOfWhichEachBoxBouncesIsHitAsInTheReference) {
+  for (const int boxes : {1, 2, 3}) {
+    for (const double e : {0.3, 0.5, 1.0}) {
+      const double top = 0.4 * boxes;
+      const std::string toml = bouncingStack(boxes, e) + fmt::format(R"(
+[[body]]
+name = "disc"
+at = [0, {:.3f}]
+circle = 0.2
+mass = 1
+pinned_until = 1.0
+)",
+                                                                     top + 2.0);
+      Simulation merged(toml, Mode::Merge), reference(toml, Mode::Reference);
+      for (Simulation* run : {&merged, &reference}) run->until(1.7);
+      EXPECT_NEAR(riseOf(merged, "disc"), riseOf(reference, "disc"), 0.01) << boxes << ", " << e;
+    }
+  }
+}
+
+/// Nothing outside acts on them, so that their angular momentum stays.
+TEST(Bounces, MergedBodiesThatFloatKeepTheirAngularMomentumAtABounce) {
+  const std::string pair = R"(
+format = 1
+gravity = [0, 0]
+[material]
+restitution = 0.5
+friction = 1
+[[body]]
+name = "a"
+at = [0, 0]
+box = [0.6, 0.3]
+mass = 1
+[[body]]
+name = "b"
+at = [0, 0.3]
+box = [0.6, 0.3]
+mass = 1
+[[spring]]
+body = "a"
+anchor = [0, 0]
+to_body = "b"
+stiffness = 60
+[[body]]
+name = "disc"
+at = [3, 0.0285]
+circle = 0.15
+mass = 1.7
+velocity = [-2.789, 0]
+)";
+  Simulation run(pair, Mode::Merge);
+  run.until(0.8);
+  EXPECT_TRUE(run.merged("a"));
+  const double before = run.now().stats.angular_momentum;
+  run.until(1.2);
+  EXPECT_NEAR(run.now().stats.angular_momentum, before, 1e-9);
+}
+
 }  // namespace
 }  // namespace merge2d
