@@ -79,11 +79,13 @@ Json jsonOf(const Words& words, const Decision& d, const std::vector<Group>& gro
 Json jsonOf(const Words& words, const Explanation& e) {
   Json tests = Json::array();
   for (const Decision& d : e.tests) tests.push_back(jsonOf(words, d, e.groups));
-  return {{"a", words.name(e.a)},
-          {"b", words.name(e.b)},
-          {"outcome", name(e.outcome)},
-          {"text", e.text},
-          {"tests", tests}};
+  Json out{{"a", words.name(e.a)},
+           {"b", words.name(e.b)},
+           {"outcome", name(e.outcome)},
+           {"text", e.text},
+           {"tests", tests}};
+  if (e.reason != EventReason::None) out["reason"] = name(e.reason);
+  return out;
 }
 
 Json jsonHead(const World& world) {

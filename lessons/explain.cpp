@@ -25,12 +25,27 @@ bool has(const std::vector<Decision>& tests, std::string_view verdict) {
   return std::ranges::any_of(tests, [&](const Decision& d) { return d.verdict == verdict; });
 }
 
-/// The order of several decisions of one outcome: first those that lost their count, and
-/// those near their thresholds, on either side.
+/// The state of the contacts of a weld that ended by its motion.
+std::string_view contactsAtTheEnd(EventReason reason) {
+  switch (reason) {
+    case EventReason::Broken:
+      return "; none of its contacts pressed (broken)";
+    case EventReason::Sliding:
+      return "; a contact was on the edge of its friction cone (sliding)";
+    case EventReason::RelativeMotion:
+      return "; its contacts pressed and did not slide (relative motion)";
+    default:
+      return "";
+  }
+}
+
+/// The order of several decisions of one outcome: of welds that ended the fastest first; of others
+/// those that lost their count, and those near their thresholds, on either side.
 double interest(const Explanation& e) {
   const Decision* nearest = nearestTest(e.tests);
   if (nearest == nullptr) return 0.0;
   const double ratio = closeness(*nearest);
+  if (e.outcome == Outcome::CameApart) return ratio;
   const double near = ratio > 1.0 ? 1.0 / ratio : ratio;
   return e.outcome == Outcome::Apart ? e.tests.back().before + near : near;
 }
@@ -70,6 +85,7 @@ class Explainer {
     return {.a = e.a,
             .b = e.b,
             .outcome = Outcome::CameApart,
+            .reason = e.reason,
             .text = fmt::format("{} came apart {}: the scene let go of one of them.",
                                 words_.pair(e.a, e.b), atStep()),
             .tests = {},
@@ -172,8 +188,11 @@ class Explainer {
     const std::string who = words_.pair(out.a, out.b);
     if (has(out.tests, "unmerge")) {
       out.outcome = Outcome::CameApart;
+      out.reason = reasonOf(out.a, out.b);
+      const bool moved = std::ranges::count(out.tests, "motion", &Decision::criterion) > 0;
       out.text =
-          fmt::format("{} came apart {}: {}.", who, atStep(), because(out.tests, {"unmerge"}));
+          fmt::format("{} came apart {}: {}{}.", who, atStep(), because(out.tests, {"unmerge"}),
+                      moved ? contactsAtTheEnd(out.reason) : "");
     } else if (has(out.tests, "cut")) {
       out.outcome = Outcome::Cut;
       out.text =
@@ -189,6 +208,15 @@ class Explainer {
       out.text = fmt::format("The weld of {} held {}. Nearest to its limit: {}.", who, atStep(),
                              nearest ? test(*nearest) : "nothing");
     }
+  }
+
+  /// Of the event in which a weld ended.
+  EventReason reasonOf(BodyId a, BodyId b) const {
+    for (const Event& e : after_.events) {
+      const bool same = std::minmax(e.a, e.b) == std::minmax(a, b);
+      if (e.type == EventType::Unmerge && same) return e.reason;
+    }
+    return EventReason::None;
   }
 
   /// "; this is step 2 of 3"
@@ -222,7 +250,7 @@ class Explainer {
               ? fmt::format("the count went back from {} of {} to 0", last.before, last.needed)
               : fmt::format("the count stays at 0 of {}", last.needed);
       out.text = fmt::format("{} stayed apart {}: {}; {}.", who, atStep(),
-                             because(out.tests, {"apart"}), count);
+                             because(out.tests, {"apart", "wait"}), count);
     } else if (out.tests.front().criterion == "patience") {
       out.outcome = Outcome::Waiting;
       out.text = fmt::format("{} wait {}: {}.", who, atStep(), test(out.tests.front()));

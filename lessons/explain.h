@@ -37,9 +37,10 @@ const char* heading(Outcome outcome);
 struct Explanation {
   BodyId a{}, b{};  ///< the pair; equal where one thing is meant
   Outcome outcome = Outcome::Held;
-  std::string text{};             ///< one sentence or two
-  std::vector<Decision> tests{};  ///< behind it, in the order they were made
-  std::vector<Group> groups{};    ///< of which the tests tell: what Decision::members indexes
+  EventReason reason = EventReason::None;  ///< of a weld that ended
+  std::string text{};                      ///< one sentence or two
+  std::vector<Decision> tests{};           ///< behind it, in the order they were made
+  std::vector<Group> groups{};  ///< of which the tests tell: what Decision::members indexes
 };
 
 /// Explains all decisions of the step after which `after` was captured; by outcome, and

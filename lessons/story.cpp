@@ -34,6 +34,9 @@ void WeldStory::add(const Snapshot& after) {
     remember(e, after.step);
     told |= e.outcome == Outcome::CameApart || e.outcome == Outcome::Merged;
   }
+  tests_.touched |= std::ranges::any_of(after.contacts, [&](const ContactView& contact) {
+    return contact.gap <= 0.0 && concerns(contact.a, contact.b);
+  });
   const bool now = std::ranges::any_of(
       after.welds, [&](const WeldView& weld) { return concerns(weld.a, weld.b); });
   if (now != welded_ && !told) {
@@ -49,11 +52,16 @@ void WeldStory::add(const Snapshot& after) {
                           .text = fmt::format(fmt::runtime(text), words_.pair(a_, b_), after.step),
                           .tests = {}}});
   }
+  if (now != welded_) {
+    tests_ = {};
+    apart_since_ = after.step;
+  }
   welded_ = now;
 }
 
 void WeldStory::remember(const Explanation& e, std::int64_t step) {
   last_ = e;
+  last_decided_ = step;
   const bool chapter = e.outcome == Outcome::CameApart || e.outcome == Outcome::Merged ||
                        e.outcome == Outcome::Hit || e.outcome == Outcome::Cut;
   // A weld that stays cut is found cut again in each step.
@@ -61,17 +69,17 @@ void WeldStory::remember(const Explanation& e, std::int64_t step) {
                      chapters_.back().what.outcome == Outcome::Cut;
   if (chapter && !again) chapters_.push_back({step, e});
   if (e.outcome != Outcome::Apart && e.outcome != Outcome::Waiting) return;
-  ++tested_;
-  needed_ = e.tests.back().needed;
+  ++tests_.steps;
+  tests_.needed = e.tests.back().needed;
   const int count = std::ranges::max(e.tests, {}, &Decision::count).count;
-  if (count > best_count_) {
-    best_count_ = count;
-    best_step_ = step;
+  if (count > tests_.best_count) {
+    tests_.best_count = count;
+    tests_.best_step = step;
   }
   for (const Decision& d : e.tests) {
     const bool refused = d.criterion == "cycle" || d.criterion == "freedoms";
     if (d.verdict != "apart" && !(d.verdict == "wait" && refused)) continue;
-    Obstacle& obstacle = obstacles_[std::string(d.criterion)];
+    Obstacle& obstacle = tests_.obstacles[std::string(d.criterion)];
     if (obstacle.steps == 0 || d.value < obstacle.nearest.value) {
       obstacle.nearest = d;
       obstacle.nearest_step = step;
@@ -83,31 +91,45 @@ void WeldStory::remember(const Explanation& e, std::int64_t step) {
 std::string WeldStory::ending() const {
   const std::string who = words_.pair(a_, b_);
   if (welded_) {
-    return fmt::format(
-        "After step {} {} are welded.{}", last_step_, who,
-        last_.outcome == Outcome::Held || last_.outcome == Outcome::Loose ? " " + last_.text : "");
+    const bool told = last_decided_ == last_step_ &&
+                      (last_.outcome == Outcome::Held || last_.outcome == Outcome::Loose);
+    return fmt::format("After step {} {} are welded.{}", last_step_, who,
+                       told ? " " + last_.text : "");
   }
-  if (tested_ == 0) {
-    return fmt::format(
-        "Up to step {} {} did not touch, or were welded all the time, so nothing was tested.",
-        last_step_, who);
-  }
-  std::string text = fmt::format("After step {} {} are not welded. Tested in {}", last_step_, who,
-                                 counted(static_cast<std::size_t>(tested_), "step", "steps"));
-  text += best_count_ > 0 ? fmt::format("; the count came up to {} of {}, at step {}.", best_count_,
-                                        needed_, best_step_)
-                          : fmt::format("; the count never left 0 of {}.", needed_);
+  std::string text = fmt::format("After step {} {} are not welded. ", last_step_, who);
+  if (tests_.steps == 0) return text + whyUntested();
+  text += fmt::format("Tested in {}{}",
+                      counted(static_cast<std::size_t>(tests_.steps), "step", "steps"),
+                      apart_since_ > 0 ? fmt::format(" since step {}", apart_since_) : "");
+  text += tests_.best_count > 0 ? fmt::format("; the count came up to {} of {}, at step {}.",
+                                              std::min(tests_.best_count, tests_.needed),
+                                              tests_.needed, tests_.best_step)
+                                : fmt::format("; the count never left 0 of {}.", tests_.needed);
+  return text + mainObstacle();
+}
+
+std::string WeldStory::whyUntested() const {
+  return fmt::format(
+      "{} was tested: they {}.",
+      apart_since_ > 0 ? fmt::format("Since step {} nothing", apart_since_) : "Nothing",
+      tests_.touched ? "touched only while pinned, asleep or parts of one collection"
+                     : "did not touch");
+}
+
+std::string WeldStory::mainObstacle() const {
   const auto worst = std::ranges::max_element(
-      obstacles_, {}, [](const auto& obstacle) { return obstacle.second.steps; });
-  if (worst != obstacles_.end()) {
-    const Obstacle& o = worst->second;
-    text += fmt::format(
-        " What mostly kept them apart, in {}: {} ({} at its nearest, at step {}). "
-        "They merge when every test is passed for {} steps.",
-        counted(static_cast<std::size_t>(o.steps), "step", "steps"), worst->first,
-        words_.test(o.nearest), o.nearest_step, needed_);
-  }
-  return text;
+      tests_.obstacles, {}, [](const auto& obstacle) { return obstacle.second.steps; });
+  if (worst == tests_.obstacles.end()) return "";
+  const Obstacle& o = worst->second;
+  static constexpr std::string_view kMeasured[] = {"sliding", "breathing", "relative-motion",
+                                                   "load"};
+  const bool measured = std::ranges::count(kMeasured, worst->first) > 0;
+  return fmt::format(
+      " What mostly kept them apart, in {}: {} ({}, {} step {}). They merge when every test is "
+      "passed for {} steps.",
+      counted(static_cast<std::size_t>(o.steps), "step", "steps"), worst->first,
+      words_.test(o.nearest), measured ? "nearest to it at" : "as at", o.nearest_step,
+      tests_.needed);
 }
 
 }  // namespace merge2d

@@ -37,7 +37,18 @@ class WeldStory {
     std::int64_t nearest_step = 0;
   };
 
+  /// The tests of the pair since it was welded last.
+  struct Tests {
+    bool touched = false;
+    int steps = 0;
+    int best_count = 0, needed = 0;
+    std::int64_t best_step = 0;
+    std::map<std::string, Obstacle> obstacles{};  ///< by criterion
+  };
+
   void remember(const Explanation& e, std::int64_t step);
+  std::string whyUntested() const;
+  std::string mainObstacle() const;
   bool concerns(BodyId a, BodyId b) const;
 
   const Words& words_;
@@ -46,11 +57,9 @@ class WeldStory {
   bool welded_ = false;
   std::int64_t last_step_ = 0;
   Explanation last_;  ///< of the last step that decided something
-
-  int tested_ = 0;  ///< steps in which the pair touched without being welded
-  int best_count_ = 0, needed_ = 0;
-  std::int64_t best_step_ = 0;
-  std::map<std::string, Obstacle> obstacles_;  ///< by criterion
+  std::int64_t last_decided_ = 0;
+  std::int64_t apart_since_ = 0;
+  Tests tests_;
 };
 
 }  // namespace merge2d

@@ -126,10 +126,10 @@ std::string cycle(const Decision& d, const std::string& group) {
 /// The load of a collection beside those that its contacts are known to carry.
 std::string proof(const Decision& d) {
   if (d.needed == 0) return cited("no load is known that its contacts carry", d);
-  const std::string what =
-      d.needed == 1
-          ? "the part that the one known load leaves over"
-          : fmt::format("the part that {} of the {} known loads leave over", d.count, d.needed);
+  const std::string what = d.needed == 1
+                               ? "the part that the one known load leaves over"
+                               : fmt::format("the part that {} of the {} known loads {} over",
+                                             d.count, d.needed, d.count == 1 ? "leaves" : "leave");
   return compared(what, d, "/s");
 }
 
@@ -284,7 +284,8 @@ std::string Words::test(const Decision& d, const std::vector<Group>& groups) con
   if (c == "freedoms") return freedoms(d);
   if (c == "load") return load(d);
   if (c == "broken") return "a contact of the weld carries no force any more (Section 6.3)";
-  return fmt::format("{} of {} steps passed (Section 5.1)", d.count, d.needed);  // "count"
+  // "count": it goes on where a group is waited for
+  return fmt::format("{} of {} steps passed (Section 5.1)", std::min(d.count, d.needed), d.needed);
 }
 
 std::string Words::event(const Event& e) const {

@@ -119,7 +119,7 @@ void drawUnmerge(StageSheet& s) {
   s.legend.line("near it", pens.heat(0.999));
   s.legend.cross("cut", pens.bad());
   if (untested) s.legend.line("asleep: not tested", pens.soft());
-  s.legend.words("colours: what is one now");
+  s.legend.words("one colour: one collection");
 }
 
 /// The reason that a pair does not merge, in a word or two.

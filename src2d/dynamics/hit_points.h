@@ -40,7 +40,7 @@ class HitIsland {
   const State& state() const { return state_; }
   Scratch& scratch() const { return scratch_; }
   std::span<ContactBlock> blocks() const { return blocks_; }
-  std::span<const JointBlock> joints() const { return joints_; }
+  std::span<JointBlock> joints() const { return joints_; }
   std::span<const std::uint32_t> bodies() const { return bodies_; }  ///< ascending
 
   SolverVelocity& u(std::uint32_t rigid) const { return scratch_.u[rigid]; }
@@ -63,7 +63,7 @@ class HitIsland {
   State& state_;
   Scratch& scratch_;
   std::span<ContactBlock> blocks_;
-  std::span<const JointBlock> joints_;
+  std::span<JointBlock> joints_;
   std::span<const std::uint32_t> bodies_;
   std::uint32_t first_;
 };

@@ -9,13 +9,20 @@
 namespace merge2d {
 namespace {
 
-/// A joint keeps the velocity that it has, and its motor does not act at once.
+/// A joint keeps the velocity that it has, as far as it is rigid; its motor does not act at once. A
+/// limit allows no faster approach where it is reached, and else as much as in the full solve.
 void holdJoint(const HitIsland& island, JointBlock& k) {
+  const bool at_limit = k.isAtLimit();
   k.lambda = {};
   k.motor = false;
   k.forEachRow([&](std::size_t i) {
-    k.rows[i].softness = 0.0;
-    k.rows[i].bias = -jointVelocity(k.rows[i], {}, island.u(k.a), island.u(k.b));
+    JointRow& row = k.rows[i];
+    const double w = jointVelocity(row, {}, island.u(k.a), island.u(k.b));
+    if (i != kLimitRow) {
+      row.bias = -w;
+    } else if (at_limit) {
+      row.bias = -(row.lower == 0.0 ? std::min(0.0, w) : row.upper == 0.0 ? std::max(0.0, w) : w);
+    }
   });
 }
 
@@ -155,6 +162,14 @@ double HitSolver::weaken(std::span<const HitPoint> points) {
     const double turned = old_b.omega - old_a.omega, turns = b.omega - a.omega;
     along += k.lambda_r() * turned;
     change += 0.5 * k.lambda_r() * (turned + turns);
+  }
+  for (const JointBlock& k : joints_) {
+    k.forEachRow([&](std::size_t i) {
+      const double was = jointVelocity(k.rows[i], {}, before(k.a), before(k.b));
+      const double now = jointVelocity(k.rows[i], {}, island_.u(k.a), island_.u(k.b));
+      along += k.lambda[i] * was;
+      change += 0.5 * k.lambda[i] * (was + now);
+    });
   }
   for (const HitPoint& p : points) by_loads += 0.5 * impulseOf(p) * p.extra;
   if (change <= by_loads + 1e-14 * std::abs(along) || change <= along) return 1.0;

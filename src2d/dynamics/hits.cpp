@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "src2d/dynamics/hit_points.h"
 #include "src2d/dynamics/hit_rows.h"
@@ -18,9 +19,8 @@ class HitPath {
  public:
   explicit HitPath(const HitIsland& island)
       : island_(island), points_(hitPoints(island)), ways_(island.bodies().size()) {
-    for (const ContactBlock& k : island.blocks()) {
-      ends_.push_back({island.placeOf(k.a), island.placeOf(k.b)});
-    }
+    for (const ContactBlock& k : island.blocks()) ends_.push_back(endsOf(k));
+    for (const JointBlock& k : island.joints()) joint_ends_.push_back(endsOf(k));
     for (HitPoint& p : points_) {
       if (p.round && !isSwept(p)) meetAnew(p);
     }
@@ -159,21 +159,42 @@ class HitPath {
 
   Vec2 wayOf(std::size_t place) const { return {ways_[place].vx, ways_[place].vy}; }
 
+  template <class Block>
+  Ends endsOf(const Block& k) const {
+    return {island_.placeOf(k.a), island_.placeOf(k.b)};
+  }
+
+  /// From the centre of a block's first body to that of the second; none where one is fixed.
+  template <class Block>
+  std::optional<Vec2> apartNow(const Block& k, const Ends& ends) const {
+    if (ends.a == HitIsland::kFixed || ends.b == HitIsland::kFixed) return std::nullopt;
+    const auto& rigids = island_.state().rigids;
+    return rigids[k.b].x - rigids[k.a].x + wayOf(ends.b) - wayOf(ends.a);
+  }
+
   /// Lever arms where the bodies are now: both are pushed at one place, that on the first, or the
   /// impulse would change their angular momentum.
   void moveArms() {
-    const auto& rigids = island_.state().rigids;
     for (std::size_t block = 0; block < ends_.size(); ++block) {
       ContactBlock& k = island_.blocks()[block];
-      const Ends& ends = ends_[block];
-      if (ends.a == HitIsland::kFixed || ends.b == HitIsland::kFixed) continue;
-      const Vec2 apart = rigids[k.b].x - rigids[k.a].x + wayOf(ends.b) - wayOf(ends.a);
-      const double across = k.nx * apart.y() - k.ny * apart.x();
-      const double along = k.nx * apart.x() + k.ny * apart.y();
+      const auto apart = apartNow(k, ends_[block]);
+      if (!apart) continue;
+      const double across = k.nx * apart->y() - k.ny * apart->x();
+      const double along = k.nx * apart->x() + k.ny * apart->y();
       for (int i = 0; i < k.count; ++i) {
         k.arm_bn[i] = k.arm_an[i] + across;
         k.arm_bt[i] = k.arm_at[i] - along;
       }
+    }
+    for (std::size_t joint = 0; joint < joint_ends_.size(); ++joint) {
+      JointBlock& k = island_.joints()[joint];
+      const auto apart = apartNow(k, joint_ends_[joint]);
+      if (!apart) continue;
+      k.forEachRow([&](std::size_t i) {
+        JointRow& row = k.rows[i];
+        if (!row.turns()) row.arm_b = row.arm_a + row.dx * apart->y() - row.dy * apart->x();
+      });
+      fillInverse(k, island_.u(k.a), island_.u(k.b));
     }
   }
 
@@ -197,7 +218,8 @@ class HitPath {
   const HitIsland& island_;
   double time_ = 0.0;  ///< since the step began [s]
   std::vector<HitPoint> points_;
-  std::vector<Ends> ends_;   ///< per block
+  std::vector<Ends> ends_;  ///< per block
+  std::vector<Ends> joint_ends_;
   std::vector<Twist> ways_;  ///< so far, per body [m, rad]
 };
 

@@ -9,8 +9,8 @@
 /// pair: an approach that these cause at contacts that touch already is a further hit at the same
 /// time, so that of a row of balls only the last one leaves. Contacts without restitution, slow
 /// ones, and joints hold meanwhile (w⁺ ≥ 0, w⁺ = w⁻), as do points without restitution after their
-/// own hit. Where hits have no end, the later ones of the step are plastic. The velocities after the
-/// last hit are those of the bodies; the way that they went is kept apart (Scratch::hit_ways).
+/// own hit. Where hits have no end, the later ones of the step are plastic. The velocities after
+/// the last hit are those of the bodies; the way that they went is kept apart (Scratch::hit_ways).
 ///
 /// Source: Newton's law at simultaneous contacts as generalised reflections, Smith, Kaufman, Vouga,
 /// Tamstorf, Grinspun 2012. The energy of hits never grows: the gain by friction at an oblique one

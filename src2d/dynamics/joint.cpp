@@ -71,7 +71,7 @@ class JointBuilder {
         distance();
         break;
     }
-    invert();
+    fillInverse(block_, a_, b_);
     return block_;
   }
 
@@ -144,28 +144,6 @@ class JointBuilder {
     row.softness = 1.0 / (h * (joint_.damping + h * k));
     row.bias = stretch * h * k * row.softness;
     block_.rows[static_cast<std::size_t>(block_.coupled++)] = row;
-  }
-
-  double coupling(const JointRow& r, const JointRow& s) const {
-    return (a_.inv_mass + b_.inv_mass) * (r.dx * s.dx + r.dy * s.dy) +
-           a_.inv_inertia * r.arm_a * s.arm_a + b_.inv_inertia * r.arm_b * s.arm_b;
-  }
-
-  void invert() {
-    Eigen::Matrix3d k = Eigen::Matrix3d::Identity();
-    for (int i = 0; i < block_.coupled; ++i) {
-      const JointRow& row = block_.rows[static_cast<std::size_t>(i)];
-      for (int j = 0; j < block_.coupled; ++j) {
-        k(i, j) = coupling(row, block_.rows[static_cast<std::size_t>(j)]);
-      }
-      k(i, i) += row.softness;
-    }
-    block_.inverse = k.inverse();
-    for (const std::size_t i : {kMotorRow, kLimitRow}) {
-      if (!(i == kMotorRow ? block_.motor : block_.limit)) continue;
-      JointRow& row = block_.rows[i];
-      row.inv_k = 1.0 / (coupling(row, row) + row.softness);
-    }
   }
 
   const State& state_;

@@ -81,6 +81,31 @@ inline void applyJointImpulse(const JointRow& r, const Rotation& turn, double p,
   b.omega += b.inv_inertia * r.arm_b * p;
 }
 
+/// J M⁻¹ Jᵀ of two rows.
+inline double coupling(const JointRow& r, const JointRow& s, const SolverVelocity& a,
+                       const SolverVelocity& b) {
+  return (a.inv_mass + b.inv_mass) * (r.dx * s.dx + r.dy * s.dy) +
+         a.inv_inertia * r.arm_a * s.arm_a + b.inv_inertia * r.arm_b * s.arm_b;
+}
+
+/// Fills `inverse` and `inv_k` of a block whose rows are known.
+inline void fillInverse(JointBlock& block, const SolverVelocity& a, const SolverVelocity& b) {
+  Eigen::Matrix3d k = Eigen::Matrix3d::Identity();
+  for (int i = 0; i < block.coupled; ++i) {
+    const JointRow& row = block.rows[static_cast<std::size_t>(i)];
+    for (int j = 0; j < block.coupled; ++j) {
+      k(i, j) = coupling(row, block.rows[static_cast<std::size_t>(j)], a, b);
+    }
+    k(i, i) += row.softness;
+  }
+  block.inverse = k.inverse();
+  for (const std::size_t i : {kMotorRow, kLimitRow}) {
+    if (!(i == kMotorRow ? block.motor : block.limit)) continue;
+    JointRow& row = block.rows[i];
+    row.inv_k = 1.0 / (coupling(row, row, a, b) + row.softness);
+  }
+}
+
 /// All impulses of a block at once: its warm start.
 inline void applyJointImpulses(const JointBlock& k, const Rotation& turn, SolverVelocity& a,
                                SolverVelocity& b) {

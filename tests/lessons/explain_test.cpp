@@ -276,7 +276,26 @@ TEST(WeldStory, TellsWhenItFormedAndWhyItBroke) {
     if (chapter.what.outcome != Outcome::CameApart) continue;
     EXPECT_GE(chapter.step, 200);
     EXPECT_THAT(chapter.what.tests, testing::Not(IsEmpty()));
+    EXPECT_NE(chapter.what.reason, EventReason::None);
+    EXPECT_THAT(chapter.what.text, HasSubstr("its contacts pressed and did not slide"));
   }
+}
+
+/// The tests before the weld tell nothing of why the pair is apart after it.
+TEST(WeldStory, CountsTheTestsSinceAWeldEnded) {
+  World world(pushedColumn(), kAsking);
+  const Words words(world.bodies());
+  const WeldStory story = storyOf(world, words, BodyId{2}, BodyId{3}, 215);
+  ASSERT_FALSE(story.welded());
+  EXPECT_THAT(story.ending(), HasSubstr(" since step 2"));
+  EXPECT_THAT(story.ending(), HasSubstr("the count never left 0 of 3"));
+}
+
+TEST(WeldStory, TellsThatAPairNeverTouched) {
+  World world(column(2), kAsking);
+  const Words words(world.bodies());
+  const WeldStory story = storyOf(world, words, BodyId{0}, BodyId{2}, 20);
+  EXPECT_THAT(story.ending(), HasSubstr("Nothing was tested: they did not touch."));
 }
 
 TEST(WeldStory, TellsWhatKeepsAWeldFromForming) {

@@ -1,4 +1,4 @@
-// Links to a moment: #part=4&step=402&stage=6&bodies=ball,brick[0,5]&do=… opens there.
+// Links to a moment: #part=4&step=402&stage=6&bodies=ball%26brick%5B0%2C5%5D&do=… opens there; %26 stands between two names.
 import type { LessonPanel } from './lesson_panel';
 import type { Picture } from './picture';
 import { kLast } from './stages';

@@ -1,0 +1,140 @@
+/// Joints while hits go on (dynamics/hits.h).
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/modes_and_steps.h"
+
+namespace merge2d {
+namespace {
+
+/// A ball that falls on a floor at 3 m/s, and a joint from it to a point on the left.
+std::string tetheredBall(double e, const std::string& joint) {
+  return fmt::format(R"(
+gravity = [0, 0]
+[material]
+friction = 0
+restitution = {}
+[[body]]
+name = "floor"
+motion = "pinned"
+at = [0, -0.5]
+box = [60, 1]
+[[body]]
+name = "ball"
+at = [0, 0.6]
+circle = 0.1
+mass = 1
+velocity = [0, -3]
+[[joint]]
+bodies = ["ball"]
+at = [0, 0.6]
+{}
+)",
+                     e, joint);
+}
+
+/// A limit that is far away is as none.
+TEST(JointHits, ALimitThatIsNotReachedIsNoPartOfAHit) {
+  for (const char* joint : {"kind = 'distance'\nto = [-1.6, 1.2]\nlimits = [0, 8]",
+                            "kind = 'distance'\nto = [-1.6, 1.2]\nlimits = [0.2, 9]",
+                            "kind = 'prismatic'\naxis = [0, 1]\nlimits = [-9, 9]"}) {
+    for (const double e : {0.5, 1.0}) {
+      SCOPED_TRACE(testing::Message() << joint << ", e = " << e);
+      for (const double h : kStepSizes) {
+        World world = worldOf(tetheredBall(e, joint), Mode::Reference, h);
+        runSeconds(world, 0.4);
+        EXPECT_NEAR(see(world, "ball").v.x(), 0.0, 1e-9);
+        EXPECT_NEAR(see(world, "ball").v.y(), 3.0 * e, 1e-9);
+      }
+    }
+  }
+}
+
+/// The one that hits the wall comes back at once; the other one has not heard of it yet.
+TEST(JointHits, ASoftSpringPassesNoHitOn) {
+  const std::string pair = R"(
+gravity = [0, 0]
+[material]
+restitution = 1
+friction = 0
+[[body]]
+name = "wall"
+motion = "pinned"
+at = [5, 0]
+box = [1, 10]
+[[body]]
+name = "front"
+at = [0, 0]
+circle = 0.2
+mass = 1
+velocity = [3, 0]
+[[body]]
+name = "back"
+at = [-1, 0]
+circle = 0.2
+mass = 1
+velocity = [3, 0]
+[[joint]]
+kind = "distance"
+bodies = ["front", "back"]
+at = [0, 0]
+to = [-1, 0]
+stiffness = 1
+)";
+  for (const double h : kStepSizes) {
+    World world = worldOf(pair, Mode::Reference, h);
+    while (see(world, "front").v.x() > 0.0 && world.time() < 3.0) world.step();
+    EXPECT_NEAR(see(world, "front").v.x(), -3.0, 0.05);
+    EXPECT_NEAR(see(world, "back").v.x(), 3.0, 0.05);
+  }
+}
+
+/// Hinged or on a rod, spinning: the joint's impulses act where the bodies are at the hit.
+TEST(JointHits, KeepTheAngularMomentum) {
+  for (const char* joint :
+       {"kind = 'distance'\nat = [0, 0]\nto = [1, 0]", "kind = 'revolute'\nat = [0.5, 0]",
+        "kind = 'weld'\nat = [0.5, 0]", "kind = 'prismatic'\nat = [0.5, 0]\naxis = [1, 0]"}) {
+    SCOPED_TRACE(joint);
+    for (const double h : kStepSizes) {
+      World world = worldOf(fmt::format(R"(
+gravity = [0, 0]
+[material]
+restitution = 0.8
+friction = 0.5
+[[body]]
+name = "a"
+at = [0, 0]
+box = [0.6, 0.3]
+mass = 1
+velocity = [0, -2]
+spin = 229
+[[body]]
+name = "b"
+at = [1, 0]
+box = [0.6, 0.3]
+mass = 2
+velocity = [0, 2]
+spin = 229
+[[joint]]
+bodies = ["a", "b"]
+{}
+[[body]]
+name = "shot"
+at = [0.2, 4]
+circle = 0.2
+mass = 3
+velocity = [0.1, -5]
+)",
+                                        joint),
+                            Mode::Reference, h);
+      const double before = world.capture().stats.angular_momentum;
+      runSeconds(world, 2.0);
+      EXPECT_GT(std::abs(see(world, "shot").v.y() + 5.0), 0.1);
+      EXPECT_NEAR(world.capture().stats.angular_momentum, before, 1e-9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace merge2d
