@@ -112,16 +112,6 @@ double farthestPoint(const InternalContact& inner) {
   return 1.001 * farthest;
 }
 
-/// What its points bear, as for a contact that was in the table in the last step.
-void rememberLoad(Contact& contact) {
-  contact.borne = {};
-  for (int i = 0; i < contact.count; ++i) {
-    const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
-    contact.borne[0] += static_cast<float>(point.lambda_n);
-    contact.borne[1] += static_cast<float>(point.lambda_t);
-  }
-}
-
 /// Contacts between the parts return to the table with their impulses and today's geometry.
 void releaseContacts(State& state, const std::vector<Released>& released) {
   std::vector<Contact> contacts;
@@ -130,7 +120,6 @@ void releaseContacts(State& state, const std::vector<Released>& released) {
     contact.quiet_steps = static_cast<std::int16_t>(-patience);
     contact.parting = parting;
     updateManifold(state, contact, farthestPoint(inner));
-    rememberLoad(contact);
   }
   std::ranges::sort(contacts, {}, &Contact::key);
   addContacts(state.contacts, contacts);

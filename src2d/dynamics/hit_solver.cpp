@@ -146,6 +146,19 @@ const SolverVelocity& HitSolver::before(std::uint32_t rigid) const {
   return place == HitIsland::kFixed ? island_.u(rigid) : start_[place];
 }
 
+HitSolver::Work HitSolver::workOfJoints() const {
+  Work work;
+  for (const JointBlock& k : joints_) {
+    k.forEachRow([&](std::size_t i) {
+      const double was = jointVelocity(k.rows[i], {}, before(k.a), before(k.b));
+      const double now = jointVelocity(k.rows[i], {}, island_.u(k.a), island_.u(k.b));
+      work.along += k.lambda[i] * was;
+      work.change += 0.5 * k.lambda[i] * (was + now);
+    });
+  }
+  return work;
+}
+
 /// Takes back the energy that the impulses would add. Where all of them are multiplied by `part`,
 /// the energy changes by part λ·w⁻ + part²/2 λ·Kλ. Returns that part.
 double HitSolver::weaken(std::span<const HitPoint> points) {
@@ -163,13 +176,11 @@ double HitSolver::weaken(std::span<const HitPoint> points) {
     along += k.lambda_r() * turned;
     change += 0.5 * k.lambda_r() * (turned + turns);
   }
-  for (const JointBlock& k : joints_) {
-    k.forEachRow([&](std::size_t i) {
-      const double was = jointVelocity(k.rows[i], {}, before(k.a), before(k.b));
-      const double now = jointVelocity(k.rows[i], {}, island_.u(k.a), island_.u(k.b));
-      along += k.lambda[i] * was;
-      change += 0.5 * k.lambda[i] * (was + now);
-    });
+  // A slow hit does less work than the errors of joints that are put right: it is no cause of it.
+  const Work joints = workOfJoints();
+  if (along + joints.along < 0.0) {
+    along += joints.along;
+    change += joints.change;
   }
   for (const HitPoint& p : points) by_loads += 0.5 * impulseOf(p) * p.extra;
   if (change <= by_loads + 1e-14 * std::abs(along) || change <= along) return 1.0;

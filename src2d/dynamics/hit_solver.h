@@ -26,6 +26,12 @@ class HitSolver {
   bool addThoseThatGiveWay(std::span<HitPoint> points, bool all) const;
   void solveRows(std::span<const HitPoint> points);
   double impulseOf(const HitPoint& p) const;
+  /// Of impulses [J]: with the velocities before them, and with the mean of those and the ones
+  /// after.
+  struct Work {
+    double along = 0.0, change = 0.0;
+  };
+  Work workOfJoints() const;
   double weaken(std::span<const HitPoint> points);
   const SolverVelocity& before(std::uint32_t rigid) const;
 

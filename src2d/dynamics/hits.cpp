@@ -26,12 +26,16 @@ class HitPath {
     }
   }
 
-  /// Where bounces have no end, those that are still to come are plastic: bodies that waited would
-  /// gain speed from their weight without falling.
+  /// Where bounces have no end, those that are still to come are plastic. Where these have none
+  /// either, the bodies go on with the approach that is left: if they waited, they would gain speed
+  /// from their weight without falling.
   void follow() {
     if (reachesTheEnd()) return;
-    for (HitPoint& p : points_) p.e = 0.0;
-    reachesTheEnd();
+    for (HitPoint& p : points_) {
+      p.e = 0.0;
+      p.still = HitPoint::kSoft;
+    }
+    if (!reachesTheEnd()) advance(island_.state().h - time_);
   }
 
   void keepWays(std::vector<HitWay>& ways) const {
@@ -49,7 +53,7 @@ class HitPath {
     std::uint32_t a = HitIsland::kFixed, b = HitIsland::kFixed;
   };
 
-  /// From hit to hit. False after too many: the bodies stay where they are until the next step.
+  /// From hit to hit. False after too many.
   bool reachesTheEnd() {
     const double h = island_.state().h;
     HitSolver solver(island_);
