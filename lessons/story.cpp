@@ -35,7 +35,7 @@ void WeldStory::add(const Snapshot& after) {
     told |= e.outcome == Outcome::CameApart || e.outcome == Outcome::Merged;
   }
   tests_.touched |= std::ranges::any_of(after.contacts, [&](const ContactView& contact) {
-    return contact.gap <= 0.0 && concerns(contact.a, contact.b);
+    return (contact.lambda_n > 0.0 || contact.gap <= 0.0) && concerns(contact.a, contact.b);
   });
   const bool now = std::ranges::any_of(
       after.welds, [&](const WeldView& weld) { return concerns(weld.a, weld.b); });

@@ -170,12 +170,8 @@ std::string freedoms(const Decision& d) {
                d);
 }
 
-/// An impulse that changes altogether in a step does so by 1/h of itself in a second.
+/// One that is new changes by 1/h of itself.
 std::string load(const Decision& d) {
-  constexpr double kAltogether = 50.0;  // in a second: steps are shorter than 1/50 s
-  if (d.value >= kAltogether) {
-    return cited("the impulse between them is new, or not the one of the last step at all", d);
-  }
   return fmt::format(
       "the impulse between them changes by {:.2g} of itself in a second, {} {:.2g} ({})", d.value,
       d.value < d.threshold ? "below" : "above", d.threshold, equationName(d.equation));

@@ -59,8 +59,8 @@ HitPoint hitPoint(const HitIsland& island, std::uint32_t block, int row) {
   return p;
 }
 
-/// Inside an open collection. No bounce arrives there: such welds are cut before
-/// (merging/bounces.h).
+/// Inside an open collection, where nothing bounces. Where a bounce arrives, the step is solved
+/// again without the welds (merging/bounces.h).
 HitPoint innerPoint(const HitIsland& island, std::uint32_t block, int row) {
   const RowSource& source = island.sourceOf(block);
   const Collection& c = island.state().collections[source.slot()];

@@ -10,6 +10,7 @@ namespace merge2d {
 
 /// A contact point while hits go on.
 struct HitPoint {
+  static constexpr double kMet = 1e-9;    ///< nearer than this two points have met [m]
   static constexpr double kStill = 1e-9;  ///< slower is no approach, where a point bounces [m/s]
   static constexpr double kSoft = 1e-5;   ///< the same without restitution: 0.1 µm a step [m/s]
 

@@ -9,20 +9,25 @@
 namespace merge2d {
 namespace {
 
-/// A joint keeps the velocity that it has, as far as it is rigid; its motor does not act at once. A
-/// limit allows no faster approach where it is reached, and else as much as in the full solve.
+/// The bias with which a limit that is reached ends an approach of `w`; a soft one goes on giving
+/// way.
+double biasAtLimit(const JointRow& row, double w) {
+  if (row.lower != 0.0 && row.upper != 0.0) return -w;  // no way is left
+  if (row.softness == 0.0) return 0.0;
+  return row.lower == 0.0 ? std::max(0.0, -w) : std::min(0.0, -w);
+}
+
+/// A joint keeps the velocity that it has, as far as it is rigid; its motor does not act at once,
+/// and its limit where it is reached.
 void holdJoint(const HitIsland& island, JointBlock& k) {
-  const bool at_limit = k.isAtLimit();
-  k.lambda = {};
+  const double gap = island.state().h * std::abs(k.rows[kLimitRow].bias);
+  k.limit = k.limit && (k.isAtLimit() || gap <= HitPoint::kMet);
   k.motor = false;
+  k.lambda = {};
   k.forEachRow([&](std::size_t i) {
     JointRow& row = k.rows[i];
     const double w = jointVelocity(row, {}, island.u(k.a), island.u(k.b));
-    if (i != kLimitRow) {
-      row.bias = -w;
-    } else if (at_limit) {
-      row.bias = -(row.lower == 0.0 ? std::min(0.0, w) : row.upper == 0.0 ? std::max(0.0, w) : w);
-    }
+    row.bias = i == kLimitRow ? biasAtLimit(row, w) : -w;
   });
 }
 

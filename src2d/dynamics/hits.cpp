@@ -12,8 +12,6 @@
 namespace merge2d {
 namespace {
 
-constexpr double kMet = 1e-9;  ///< nearer than this two points have met [m]
-
 /// The bodies of an island on their straight ways from hit to hit.
 class HitPath {
  public:
@@ -69,7 +67,7 @@ class HitPath {
       if (someAreLater()) continue;
       ++hits;
       moveArms();
-      for (HitPoint& p : points_) aim(p, kMet);
+      for (HitPoint& p : points_) aim(p, HitPoint::kMet);
       for (std::size_t i = 1; i < points_.size(); ++i) meetTogether(points_[i - 1], points_[i]);
       solver.solve(points_);
     }
@@ -97,9 +95,19 @@ class HitPath {
     double least = 1e300;
     for (const HitPoint& p : points_) {
       const double w = island_.velocityOf(p);
-      if (approaches(p, w)) least = std::min(least, p.gap <= kMet ? 0.0 : p.gap / -w);
+      if (approaches(p, w)) least = std::min(least, p.gap <= HitPoint::kMet ? 0.0 : p.gap / -w);
+    }
+    for (const JointBlock& k : island_.joints()) {
+      const double w = limitVelocity(k), h = island_.state().h;
+      const double wait = std::abs(w) > HitPoint::kSoft ? -h * k.rows[kLimitRow].bias / w : 0.0;
+      if (wait > 0.0) least = std::min(least, wait);
     }
     return least;
+  }
+
+  /// How fast a joint moves along its limit, if it has one.
+  double limitVelocity(const JointBlock& k) const {
+    return k.limit ? jointVelocity(k.rows[kLimitRow], {}, island_.u(k.a), island_.u(k.b)) : 0.0;
   }
 
   /// The gap along any normal is a lower bound of the distance. True when one that has closed along
@@ -107,9 +115,9 @@ class HitPath {
   bool someAreLater() {
     bool later = false;
     for (HitPoint& p : points_) {
-      if (!p.round || p.gap > kMet || !approaches(p, island_.velocityOf(p))) continue;
+      if (!p.round || p.gap > HitPoint::kMet || !approaches(p, island_.velocityOf(p))) continue;
       meetAnew(p);
-      later |= p.gap > kMet;
+      later |= p.gap > HitPoint::kMet;
     }
     return later;
   }
@@ -136,6 +144,9 @@ class HitPath {
   void advance(double dt) {
     if (dt == 0.0) return;
     for (HitPoint& p : points_) p.gap += dt * island_.velocityOf(p);
+    for (JointBlock& k : island_.joints()) {  // the bias of a limit is its gap per step
+      k.rows[kLimitRow].bias += dt / island_.state().h * limitVelocity(k);
+    }
     for (std::size_t i = 0; i < ways_.size(); ++i) {
       const SolverVelocity& v = island_.u(island_.bodies()[i]);
       ways_[i] = {ways_[i].vx + dt * v.vx, ways_[i].vy + dt * v.vy, ways_[i].omega + dt * v.omega};

@@ -8,9 +8,10 @@
 /// At each hit, Newton's law w⁺ = −e w⁻ holds at the points that have met and approach, pair by
 /// pair: an approach that these cause at contacts that touch already is a further hit at the same
 /// time, so that of a row of balls only the last one leaves. Contacts without restitution, slow
-/// ones, and joints hold meanwhile (w⁺ ≥ 0, w⁺ = w⁻), as do points without restitution after their
-/// own hit. Where hits have no end, the later ones of the step are plastic. The velocities after
-/// the last hit are those of the bodies; the way that they went is kept apart (Scratch::hit_ways).
+/// ones, and rigid joints hold meanwhile (w⁺ ≥ 0, w⁺ = w⁻), as do points without restitution and
+/// limits of joints after their own hit. Where hits have no end, the later ones of the step are
+/// plastic. The velocities after the last hit are those of the bodies; the way that they went is
+/// kept apart (Scratch::hit_ways).
 ///
 /// Source: Newton's law at simultaneous contacts as generalised reflections, Smith, Kaufman, Vouga,
 /// Tamstorf, Grinspun 2012. The energy of hits never grows: the gain by friction at an oblique one
@@ -23,8 +24,8 @@
 ///
 /// Without restitution hits are followed in small islands alone (contact/followed_hits.h).
 ///
-/// Guarded by tests/src2d/dynamics/hits_test.cpp, jammed_hits_test.cpp and
-/// restitution_test.cpp.
+/// Guarded by tests/src2d/dynamics/hits_test.cpp, jammed_hits_test.cpp, joint_hits_test.cpp,
+/// point_impact_test.cpp and restitution_test.cpp.
 
 #include "src2d/dynamics/hit_rows.h"
 

@@ -30,6 +30,12 @@ double passedOn(const State& state, BodyId from, BodyId to, double speed) {
   return (1.0 + e) * speed * state[from].mass / (state[from].mass + state[to].mass);
 }
 
+/// The speed that a body gets from one that a joint holds to it [m/s].
+double passedByJoint(const State& state, BodyId from, BodyId to, double speed) {
+  if (!state.responds(to) || speed <= state.settings.unmerging.velocity) return 0.0;
+  return speed * state[from].mass / (state[from].mass + state[to].mass);
+}
+
 /// Passes speeds on from body to body until none gets more.
 class BounceSpread {
  public:
@@ -39,6 +45,11 @@ class BounceSpread {
     for (const BodyPair& pair : scratch.pairs) touching_.emplace_back(pair.a, pair.b);
     for (const Collection& c : state.collections) {
       for (const Weld& weld : c.welds) touching_.emplace_back(weld.a, weld.b);
+    }
+    first_joint_ = touching_.size();
+    for (const std::uint32_t i : state.joint_lists.present) {
+      const Joint& joint = state.joints[i];
+      if (!joint.to_world && holds(state, joint)) touching_.emplace_back(joint.a, joint.b);
     }
     touching_of_.build(state.bodies.size(), [&](auto&& visit) {
       for (std::uint32_t i = 0; i < touching_.size(); ++i) {
@@ -61,7 +72,8 @@ class BounceSpread {
     for (const std::uint32_t i : touching_of_[index(from)]) {
       const auto [a, b] = touching_[i];
       const BodyId to = a == from ? b : a;
-      const double speed = passedOn(state_, from, to, arrives_[index(from)]);
+      const double speed =
+          (i < first_joint_ ? passedOn : passedByJoint)(state_, from, to, arrives_[index(from)]);
       if (speed <= kMore * arrives_[index(to)]) continue;
       arrives_[index(to)] = speed;
       queue_.push_back(to);
@@ -70,7 +82,8 @@ class BounceSpread {
 
   const State& state_;
   std::vector<double>& arrives_;
-  std::vector<std::pair<BodyId, BodyId>> touching_;
+  std::vector<std::pair<BodyId, BodyId>> touching_;  ///< then those that joints hold
+  std::size_t first_joint_ = 0;
   IndexRuns touching_of_;      ///< per body
   std::vector<BodyId> queue_;  ///< bodies at which more has arrived
 };
@@ -146,8 +159,9 @@ std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch) {
 bool bounceAtWelds(const State& state, const std::vector<double>& arrives) {
   if (arrives.empty()) return false;
   return std::ranges::any_of(state.collections, [&](const Collection& c) {
-    return std::ranges::any_of(
-        c.welds, [&](const Weld& weld) { return !noBounceArrives(state, weld, arrives).holds; });
+    return std::ranges::any_of(c.welds, [&](const Weld& weld) {
+      return weld.joints == 0 && !noBounceArrives(state, weld, arrives).holds;
+    });
   });
 }
 

@@ -1,7 +1,8 @@
 #include "src2d/merging/merge_criteria.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 #include "src2d/dynamics/solver.h"
 #include "src2d/merging/pair_metric.h"
@@ -12,37 +13,55 @@ namespace {
 
 constexpr double kPairOnEdge = 1.0 - 1e-6;
 
+/// The span of a few rows, as an orthonormal basis.
+struct RowSpan {
+  std::array<Eigen::Vector3d, 3> basis;
+  std::size_t rank = 0;
+
+  void add(Eigen::Vector3d row) {
+    constexpr double kRankTolerance = 1e-6;
+    for (std::size_t i = 0; i < rank; ++i) row -= basis[i].dot(row) * basis[i];
+    if (rank < 3 && row.squaredNorm() >= kRankTolerance) basis[rank++] = row.normalized();
+  }
+};
+
+/// Calls `visit` with the normal of each point that presses, its place as seen from b in units of
+/// `size`, and the point.
+template <class Visit>
+void forEachPressed(const State& state, const BodyPair& pair, double size, Visit&& visit) {
+  const Pose a = state.pose(pair.a);
+  const Vec2 center = state.pose(pair.b).position;
+  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& contact = state.contacts[state.contacts.order[i]];
+    const Vec2 n = a.rotation * contact.normal;
+    for (int k = 0; k < contact.count; ++k) {
+      const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
+      if (p.lambda_n > 0.0) visit(n, Vec2((a * p.position - center) / size), p);
+    }
+  }
+}
+
 /// All active contacts are on the edge of their cones: is there a motion of b against a, keeping
 /// all of them closed, in which every one slips against its friction? A body wedged into a corner
 /// is on the edge too, but goes nowhere. On ice any such motion goes on, however slow.
 bool aboutToSlide(const State& state, const BodyPair& pair) {
-  const Pose pose = state.pose(pair.b);
   const double size = state.extent(rigidOf(pair.b)).box.half.norm();
-  std::vector<Eigen::Vector3d> tangents;  // rows: slip by a motion (v, size · omega) of b
-  Eigen::Matrix3d closed = Eigen::Matrix3d::Zero();  // sum of the normals' rows, squared
-  for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-    const Contact& contact = state.contacts[state.contacts.order[i]];
-    const Pose a = state.pose(pair.a);
-    const Vec2 n = a.rotation * contact.normal, t = perpendicular(n);
-    for (int k = 0; k < contact.count; ++k) {
-      const ContactPoint& p = contact.points[static_cast<std::size_t>(k)];
-      if (p.lambda_n <= 0.0) continue;
-      const Vec2 arm = (a * p.position - pose.position) / size;
-      const Eigen::Vector3d normal(n.x(), n.y(), cross(arm, n));
-      closed += normal * normal.transpose();
-      tangents.push_back(Eigen::Vector3d(t.x(), t.y(), cross(arm, t)) *
-                         (p.lambda_t > 0.0 ? 1.0 : -1.0));
-    }
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(closed);
-  constexpr double kRankTolerance = 1e-6;
-  const auto free = (modes.eigenvalues().array() < kRankTolerance).count();
-  if (free != 1 || frictionOf(state, pair.a, pair.b) == 0.0) return free > 0;
-  const Eigen::Vector3d motion = modes.eigenvectors().col(0);
-  const auto along = [&](const Eigen::Vector3d& row) { return row.dot(motion); };
-  return std::all_of(tangents.begin(), tangents.end(),
-                     [&](const auto& r) { return along(r) > 0; }) ||
-         std::all_of(tangents.begin(), tangents.end(), [&](const auto& r) { return along(r) < 0; });
+  const auto row = [](const Vec2& d, const Vec2& arm) {  // of a motion (v, size · omega) of b
+    return Eigen::Vector3d(d.x(), d.y(), cross(arm, d));
+  };
+  RowSpan closed;
+  forEachPressed(state, pair, size, [&](const Vec2& n, const Vec2& arm, const ContactPoint&) {
+    closed.add(row(n, arm));
+  });
+  if (closed.rank != 2 || frictionOf(state, pair.a, pair.b) == 0.0) return closed.rank < 3;
+  const Eigen::Vector3d motion = closed.basis[0].cross(closed.basis[1]);
+  bool forwards = true, backwards = true;
+  forEachPressed(state, pair, size, [&](const Vec2& n, const Vec2& arm, const ContactPoint& p) {
+    const double slip = row(perpendicular(n), arm).dot(motion) * (p.lambda_t > 0.0 ? 1.0 : -1.0);
+    forwards &= slip > 0.0;
+    backwards &= slip < 0.0;
+  });
+  return forwards || backwards;
 }
 
 /// How fast the impulse between two bodies changes, seen from the first, as a part of itself [1/s]:

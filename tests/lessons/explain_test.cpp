@@ -287,7 +287,7 @@ TEST(WeldStory, CountsTheTestsSinceAWeldEnded) {
   const Words words(world.bodies());
   const WeldStory story = storyOf(world, words, BodyId{2}, BodyId{3}, 215);
   ASSERT_FALSE(story.welded());
-  EXPECT_THAT(story.ending(), HasSubstr(" since step 2"));
+  EXPECT_THAT(story.ending(), HasSubstr(" since step 201; "));
   EXPECT_THAT(story.ending(), HasSubstr("the count never left 0 of 3"));
 }
 

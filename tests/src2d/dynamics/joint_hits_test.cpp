@@ -90,6 +90,53 @@ stiffness = 1
   }
 }
 
+/// The one in front comes back from a wall, and the limit is reached half a millisecond or so
+/// later: both stop there, whatever the step.
+TEST(JointHits, ALimitIsReachedAfterAHitInTheSameStep) {
+  for (const char* limits : {"[0.985, 1.1]", "[0.999, 1.1]"}) {
+    const double least = limits[4] == '8' ? 0.985 : 0.999;
+    const std::string pair = fmt::format(R"(
+gravity = [0, 0]
+[material]
+restitution = 1
+friction = 0
+[[body]]
+name = "wall"
+motion = "pinned"
+at = [5, 0]
+box = [1, 10]
+[[body]]
+name = "front"
+at = [3, 0]
+circle = 0.2
+mass = 1
+velocity = [3, 0]
+[[body]]
+name = "back"
+at = [2, 0]
+circle = 0.2
+mass = 1
+velocity = [3, 0]
+[[joint]]
+kind = "distance"
+bodies = ["front", "back"]
+at = [3, 0]
+to = [2, 0]
+limits = {}
+)",
+                                         limits);
+    for (const double h : kStepSizes) {
+      World world = worldOf(pair, Mode::Reference, h);
+      runSeconds(world, 1.0);
+      const double way = 0.5 * (1.0 - least);  // of each, against the other, after the hit
+      EXPECT_NEAR(see(world, "front").x.x(), 4.3 - way, 1e-9);
+      EXPECT_NEAR(see(world, "back").x.x(), 3.3 + way, 1e-9);
+      EXPECT_NEAR(see(world, "front").v.x(), 0.0, 1e-9);
+      EXPECT_NEAR(see(world, "back").v.x(), 0.0, 1e-9);
+    }
+  }
+}
+
 /// Hinged or on a rod, spinning: the joint's impulses act where the bodies are at the hit.
 TEST(JointHits, KeepTheAngularMomentum) {
   for (const char* joint :

@@ -261,6 +261,8 @@ pinned_until = 1.0
 )",
                                                                      top + 2.0);
       Simulation merged(toml, Mode::Merge), reference(toml, Mode::Reference);
+      merged.until(1.0);
+      EXPECT_TRUE(merged.anchored(fmt::format("box[0,{}]", boxes - 1)));
       for (Simulation* run : {&merged, &reference}) run->until(1.7);
       EXPECT_NEAR(riseOf(merged, "disc"), riseOf(reference, "disc"), 0.01) << boxes << ", " << e;
     }
@@ -302,7 +304,38 @@ velocity = [-2.789, 0]
   EXPECT_TRUE(run.merged("a"));
   const double before = run.now().stats.angular_momentum;
   run.until(1.2);
+  EXPECT_GT(run.body("disc").v.x(), -2.5);
   EXPECT_NEAR(run.now().stats.angular_momentum, before, 1e-9);
+}
+
+/// A box beside the stack, which a slider holds to its lower box, has merged with the ground and
+/// leaves it too.
+TEST(Bounces, ABounceFreesThoseThatJointsHoldToTheStack) {
+  const std::string toml = bouncingStack(2, 0.5) + R"(
+[[body]]
+name = "far"
+at = [1.6, 0.2]
+box = [1, 0.4]
+mass = 1
+[[joint]]
+kind = "prismatic"
+bodies = ["box[0,0]", "far"]
+at = [0.8, 0.2]
+axis = [1, 0]
+[[body]]
+name = "disc"
+at = [0, 2.8]
+circle = 0.2
+mass = 1
+pinned_until = 1.0
+)";
+  Simulation merged(toml, Mode::Merge), reference(toml, Mode::Reference);
+  merged.until(1.0);
+  EXPECT_TRUE(merged.anchored("far"));
+  for (Simulation* run : {&merged, &reference}) run->until(1.7);
+  for (const char* body : {"disc", "far", "box[0,1]"}) {
+    EXPECT_NEAR(merged.body(body).v.y(), reference.body(body).v.y(), 0.05) << body;
+  }
 }
 
 }  // namespace
