@@ -151,14 +151,29 @@ const SolverVelocity& HitSolver::before(std::uint32_t rigid) const {
   return place == HitIsland::kFixed ? island_.u(rigid) : start_[place];
 }
 
-HitSolver::Work HitSolver::workOfJoints() const {
+HitSolver::Work HitSolver::workOfContacts() const {
+  Work work;
+  for (const ContactBlock& k : rows_) {
+    const SolverVelocity &a = island_.u(k.a), &b = island_.u(k.b);
+    const SolverVelocity &old_a = before(k.a), &old_b = before(k.b);
+    for (int i = 0; i < k.count; ++i) {
+      const ContactVelocity now = contactVelocity(k, i, k.nx, k.ny, a, b);
+      const ContactVelocity was = contactVelocity(k, i, k.nx, k.ny, old_a, old_b);
+      work.add(k.lambda_n(i), was.n, now.n);
+      work.add(k.lambda_t(i), was.t, now.t);
+    }
+    work.add(k.lambda_r(), old_b.omega - old_a.omega, b.omega - a.omega);
+  }
+  return work;
+}
+
+HitSolver::Work HitSolver::workOfJoints(bool of_limits) const {
   Work work;
   for (const JointBlock& k : joints_) {
     k.forEachRow([&](std::size_t i) {
-      const double was = jointVelocity(k.rows[i], {}, before(k.a), before(k.b));
-      const double now = jointVelocity(k.rows[i], {}, island_.u(k.a), island_.u(k.b));
-      work.along += k.lambda[i] * was;
-      work.change += 0.5 * k.lambda[i] * (was + now);
+      if ((i == kLimitRow) != of_limits) return;
+      work.add(k.lambda[i], jointVelocity(k.rows[i], {}, before(k.a), before(k.b)),
+               jointVelocity(k.rows[i], {}, island_.u(k.a), island_.u(k.b)));
     });
   }
   return work;
@@ -167,26 +182,13 @@ HitSolver::Work HitSolver::workOfJoints() const {
 /// Takes back the energy that the impulses would add. Where all of them are multiplied by `part`,
 /// the energy changes by part λ·w⁻ + part²/2 λ·Kλ. Returns that part.
 double HitSolver::weaken(std::span<const HitPoint> points) {
-  double along = 0.0, change = 0.0, by_loads = 0.0;
-  for (const ContactBlock& k : rows_) {
-    const SolverVelocity &a = island_.u(k.a), &b = island_.u(k.b);
-    const SolverVelocity &old_a = before(k.a), &old_b = before(k.b);
-    for (int i = 0; i < k.count; ++i) {
-      const ContactVelocity now = contactVelocity(k, i, k.nx, k.ny, a, b);
-      const ContactVelocity was = contactVelocity(k, i, k.nx, k.ny, old_a, old_b);
-      along += k.lambda_n(i) * was.n + k.lambda_t(i) * was.t;
-      change += 0.5 * (k.lambda_n(i) * (was.n + now.n) + k.lambda_t(i) * (was.t + now.t));
-    }
-    const double turned = old_b.omega - old_a.omega, turns = b.omega - a.omega;
-    along += k.lambda_r() * turned;
-    change += 0.5 * k.lambda_r() * (turned + turns);
-  }
+  Work work = workOfContacts();
+  work.add(workOfJoints(true));
   // A slow hit does less work than the errors of joints that are put right: it is no cause of it.
-  const Work joints = workOfJoints();
-  if (along + joints.along < 0.0) {
-    along += joints.along;
-    change += joints.change;
-  }
+  const Work rigid = workOfJoints(false);
+  if (work.along + rigid.along < 0.0) work.add(rigid);
+  const auto [along, change] = work;
+  double by_loads = 0.0;
   for (const HitPoint& p : points) by_loads += 0.5 * impulseOf(p) * p.extra;
   if (change <= by_loads + 1e-14 * std::abs(along) || change <= along) return 1.0;
   const double part = std::clamp((by_loads - along) / (change - along), 0.0, 1.0);

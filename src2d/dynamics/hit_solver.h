@@ -30,8 +30,18 @@ class HitSolver {
   /// after.
   struct Work {
     double along = 0.0, change = 0.0;
+
+    void add(double impulse, double was, double now) {
+      along += impulse * was;
+      change += 0.5 * impulse * (was + now);
+    }
+    void add(const Work& other) {
+      along += other.along;
+      change += other.change;
+    }
   };
-  Work workOfJoints() const;
+  Work workOfContacts() const;
+  Work workOfJoints(bool of_limits) const;
   double weaken(std::span<const HitPoint> points);
   const SolverVelocity& before(std::uint32_t rigid) const;
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <random>
+
 #include "tests/support/modes_and_steps.h"
 
 namespace merge2d {
@@ -179,6 +182,57 @@ velocity = [0.1, -5]
       runSeconds(world, 2.0);
       EXPECT_GT(std::abs(see(world, "shot").v.y() + 5.0), 0.1);
       EXPECT_NEAR(world.capture().stats.angular_momentum, before, 1e-9);
+    }
+  }
+}
+
+/// Six bodies in a box of 4 m by 5 m, which joints of all kinds hold to each other.
+std::string boxOfJoints(std::mt19937& random) {
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
+  };
+  std::string toml = R"(
+gravity = [0, 0]
+[material]
+restitution = 0.9
+friction = 0.3
+)";
+  const auto addWall = [&](double x, double y, double width, double height) {
+    toml += fmt::format("[[body]]\nmotion = 'pinned'\nat = [{}, {}]\nbox = [{}, {}]\n", x, y, width,
+                        height);
+  };
+  addWall(0.5, -1.5, 8, 1), addWall(0.5, 4.5, 8, 1), addWall(-2, 1.5, 1, 8), addWall(3, 1.5, 1, 8);
+  for (int i = 0; i < 6; ++i) {
+    toml += fmt::format(
+        "[[body]]\nname = 'b{}'\nat = [{}, {}]\n{}\nvelocity = [{:.3f}, {:.3f}]\nspin = {:.1f}\n",
+        i, i % 2, 1.5 * (i / 2), random() % 2 ? "circle = 0.3" : "box = [0.6, 0.4]", uniform(-5, 5),
+        uniform(-5, 5), uniform(-300, 300));
+  }
+  const std::array kinds{
+      "kind = 'distance'\nat = [0.0, {0}]\nto = [1.0, {0}]",
+      "kind = 'distance'\nat = [0.0, {0}]\nto = [1.0, {0}]\nlimits = [0.9, 1.1]",
+      "kind = 'distance'\nat = [0.0, {0}]\nto = [1.0, {0}]\nlimits = [0.1, 3]",
+      "kind = 'revolute'\nat = [0.5, {0}]",
+      "kind = 'prismatic'\nat = [0.5, {0}]\naxis = [1, 0]\nlimits = [-0.2, 0.3]"};
+  for (int row = 0; row < 3; ++row) {
+    toml += fmt::format("[[joint]]\nbodies = ['b{}', 'b{}']\n", 2 * row, 2 * row + 1) +
+            fmt::format(fmt::runtime(kinds[random() % kinds.size()]), 1.5 * row) + "\n";
+  }
+  return toml;
+}
+
+TEST(JointHits, AddNoEnergy) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 40; ++i) {
+    SCOPED_TRACE(i);
+    const std::string toml = boxOfJoints(random);
+    for (const double h : kStepSizes) {
+      World world = worldOf(toml, Mode::Reference, h);
+      const double before = world.capture().stats.kinetic_energy;
+      for (int step = 0; step < 300; ++step) {
+        world.step();
+        ASSERT_LE(world.capture().stats.kinetic_energy, 1.02 * before) << world.time();
+      }
     }
   }
 }
