@@ -151,6 +151,16 @@ const SolverVelocity& HitSolver::before(std::uint32_t rigid) const {
   return place == HitIsland::kFixed ? island_.u(rigid) : start_[place];
 }
 
+/// The kinetic energy of the island before the hit [J].
+double HitSolver::energyBefore() const {
+  double energy = 0.0;
+  for (const SolverVelocity& v : start_) {
+    energy += 0.5 * (v.vx * v.vx + v.vy * v.vy) / v.inv_mass;
+    if (v.inv_inertia > 0.0) energy += 0.5 * v.omega * v.omega / v.inv_inertia;
+  }
+  return energy;
+}
+
 HitSolver::Work HitSolver::workOfContacts() const {
   Work work;
   for (const ContactBlock& k : rows_) {
@@ -184,9 +194,11 @@ HitSolver::Work HitSolver::workOfJoints(bool of_limits) const {
 double HitSolver::weaken(std::span<const HitPoint> points) {
   Work work = workOfContacts();
   work.add(workOfJoints(true));
-  // A slow hit does less work than the errors of joints that are put right: it is no cause of it.
+  // A slow hit may do less work than the errors of joints that are put right meanwhile. Where that
+  // is little, too, it is no reason to leave the hit out.
+  constexpr double kLittle = 1e-6;  // of the energy of the island
   const Work rigid = workOfJoints(false);
-  if (work.along + rigid.along < 0.0) work.add(rigid);
+  if (work.along + rigid.along < 0.0 || rigid.along > kLittle * energyBefore()) work.add(rigid);
   const auto [along, change] = work;
   double by_loads = 0.0;
   for (const HitPoint& p : points) by_loads += 0.5 * impulseOf(p) * p.extra;

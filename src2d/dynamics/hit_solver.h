@@ -40,6 +40,7 @@ class HitSolver {
       change += other.change;
     }
   };
+  double energyBefore() const;
   Work workOfContacts() const;
   Work workOfJoints(bool of_limits) const;
   double weaken(std::span<const HitPoint> points);
