@@ -6,7 +6,8 @@
 /// the other (μ |K_nt| > K_nn), and the point bears nothing at all. So a point that is hit alone
 /// is solved by cases: parting, sticking, sliding either way. Letters: contact_block.h.
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
 
 #include "src2d/dynamics/contact_block.h"
 

@@ -16,7 +16,7 @@ void noteReached(State& state, Scratch& scratch);
 
 /// A collection on a frame stands like a wall in the solve, also for one that is open and joined to
 /// it: the two would bear each other's load in turn. So the solve tells what such a joint puts on
-/// it, too. Guarded by JoinedStacks.ARodPullsBothBodies.
+/// it, too. Guarded by JoinedStacks.APullMovesAllBodiesOfARow.
 void askJoined(State& state, Scratch& scratch);
 
 /// Between two things that are fixed to different frames the full solve has no row, and no load
