@@ -68,7 +68,10 @@ bool isScene(const std::string& word) {
     throw UsageError(
         fmt::format("'{}' is a scene, not a command; try 'merge2d run {}'", *command, *command));
   }
-  throw UsageError(fmt::format("unknown command '{}'{}", *command, didYouMean(*command, commands)));
+  const std::string near = didYouMean(*command, commands);
+  throw UsageError(fmt::format("unknown command '{}'{}", *command,
+                               near.empty() ? fmt::format(" (there are {})", fmt::join(commands, ", "))
+                                            : near));
 }
 
 /// A word that `command` could not make use of.
@@ -97,7 +100,9 @@ bool isScene(const std::string& word) {
 std::string explained(const CLI::ParseError& error) {
   const std::string text = error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return text;
-  return fmt::format("{} needs a value", text.substr(0, text.find(':')));
+  const std::string option = text.substr(0, text.find(':'));
+  const bool of_pair = option == "--pair" || option == "--weld";
+  return fmt::format("{} needs {}", option, of_pair ? "the names of two bodies" : "a value");
 }
 
 }  // namespace

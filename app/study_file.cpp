@@ -254,6 +254,7 @@ Study readStudy(const fs::path& file) {
   const SourceText source(nameOfFile(file), bytes);
   const toml::table table = parseToml(source);
   TableReader root(source, table, "the study");
+  if (table.contains("body")) root.failAt("body", "this is a scene; a study names its 'scenes'");
   Study study;
   study.name = source.name();
   study.text = bytes;

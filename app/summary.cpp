@@ -56,7 +56,9 @@ std::string Summary::table(const Simulation& simulation, bool timings) const {
   if (timings && !simulation.milliseconds().empty()) {
     row("time per step", fmt::format("{:.3g} ms, median {:.3g} ms", mean(simulation.milliseconds()),
                                      median(simulation.milliseconds())));
-    row("speed", fmt::format("{:.3g} x real time", realTimeFactor(simulation)));
+    const double speed = realTimeFactor(simulation);
+    const int digits = speed < 10.0 ? 2 : speed < 100.0 ? 1 : 0;
+    row("speed", fmt::format("{:.{}f} x real time", speed, digits));
   }
   return out;
 }

@@ -246,14 +246,15 @@ class Explainer {
     } else if (has(out.tests, "apart")) {
       out.outcome = Outcome::Apart;
       const std::string count =
-          last.before > 0
-              ? fmt::format("the count went back from {} of {} to 0", last.before, last.needed)
-              : fmt::format("the count stays at 0 of {}", last.needed);
-      out.text = fmt::format("{} stayed apart {}: {}; {}.", who, atStep(),
+          last.needed == 0 ? ""
+          : last.before > 0
+              ? fmt::format("; the count went back from {} of {} to 0", last.before, last.needed)
+              : fmt::format("; the count stays at 0 of {}", last.needed);
+      out.text = fmt::format("{} stayed apart {}: {}{}.", who, atStep(),
                              because(out.tests, {"apart", "wait"}), count);
-    } else if (out.tests.front().criterion == "patience") {
+    } else if (has(out.tests, "wait") && last.count <= 0) {  // nothing counts until they may merge
       out.outcome = Outcome::Waiting;
-      out.text = fmt::format("{} wait {}: {}.", who, atStep(), test(out.tests.front()));
+      out.text = fmt::format("{} wait {}: {}.", who, atStep(), because(out.tests, {"wait"}));
     } else if (last.criterion == "cycle" || last.criterion == "freedoms") {
       out.outcome = Outcome::Waiting;
       out.text = fmt::format("{} did not merge {}, though they passed every test for {} steps: {}.",

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "lessons/body_named.h"
+#include "lessons/words.h"
 #include "src2d/core/suggest.h"
 #include "src2d/trace/json_text.h"
 
@@ -16,8 +17,6 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kCriteria = {"motion", "relative-motion", "sliding",
                                                        "breathing"};
-
-std::string unitOf(std::string_view criterion) { return criterion == "breathing" ? "m" : "m/s"; }
 
 std::set<std::pair<BodyId, BodyId>> touchingPairs(const Recording& r, std::int64_t step) {
   std::set<std::pair<BodyId, BodyId>> pairs;
@@ -141,16 +140,13 @@ Question::Answer Question::aboveOrBelow(const Recording& r, std::int64_t step) c
     if (!sample) continue;
     const double value = std::abs(static_cast<double>(t.value[*sample]));
     const bool above = value >= t.threshold;
-    const double ratio = above ? value / t.threshold : t.threshold / std::max(value, 1e-12);
-    const std::string unit = unitOf(criterion_);
+    const Decision test{.criterion = t.criterion,
+                        .equation = t.equation,
+                        .value = value,
+                        .threshold = t.threshold};
     return {{{"above the limit", {}, above}, {"below the limit", {}, !above}},
             false,
-            fmt::format("It is {:.3g} {}, {} the limit of {:.3g} {}{} ({}).", value, unit,
-                        above ? "above" : "below", t.threshold, unit,
-                        ratio < 1e4 ? fmt::format(", {:.2g} times {}", ratio,
-                                                  above ? "as large" : "smaller")
-                                    : std::string(),
-                        t.equation.starts_with("(") ? "Eq. " + t.equation : t.equation)};
+            fmt::format("The answer: {}.", Words(r.bodies).test(test))};
   }
   place_->fail(fmt::format("'{}' is not tested for this pair at step {}", criterion_, step));
 }

@@ -115,6 +115,8 @@ std::string result(const StepRecord& record, Stage stage) {
       return unmergeResult(after);
     case Stage::SolveLCP: {
       const auto solved = std::ranges::count(after.contacts, false, &ContactView::internal);
+      const auto inside = after.stats.contacts - solved;  // of opened collections
+      if (inside > 0) return fmt::format("{} between, {} inside", solved, inside);
       return solved == 0 ? "nothing to solve" : fmt::format("{} solved", solved);
     }
     case Stage::AdvanceVelocities:

@@ -23,8 +23,8 @@ struct Condition {
     Wait,          ///< they may merge after `steps` more
     Hold,          ///< they merge when a second contact, or a rigid group, holds them
     Touch,         ///< only bodies that touch can merge
-    BreakOrSlide,  ///< they come apart when their contacts break, or slide
-    Above,         ///< … when `measure` is above `limit` for `steps`, or nothing presses
+    BreakOrSlide,  ///< they come apart when their contacts cannot hold them
+    Above,         ///< … when `measure` is above `limit` for `steps`, they slide, or nothing presses
     CutBetween,    ///< … when a weld on the way between them is cut
     OneFrame,      ///< they may merge once one of them comes free of its frame
   };

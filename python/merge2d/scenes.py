@@ -121,9 +121,8 @@ def joint_args(kind, a, b, at, to, axis, length, stiffness, damping, limits, mot
 
 def key_of(name):
     """merging_velocity is merging.velocity: names of tables have no underscore."""
-    tables = ("solver", "merging", "unmerging", "sleeping", "material", "drawing")
     table, _, key = name.partition("_")
-    return f"{table}.{key}" if table in tables and key else name
+    return f"{table}.{key}" if key and "." not in name else name
 
 
 def text_of(value):

@@ -93,6 +93,14 @@ void recordRest(const State& state, Scratch& scratch, RigidId id, const Criterio
              {before, state[id].quiet_steps, state.settings.sleeping.steps}));
 }
 
+/// So fast that it is not slow whatever its turn: no centre of mass is faster than every corner of a
+/// box around it.
+bool isFast(const State& state, const Rigid& r) {
+  constexpr double kRounding = 1e-6;
+  const double velocity = (1.0 + kRounding) * state.settings.sleeping.velocity;
+  return r.v.squaredNorm() > velocity * velocity;
+}
+
 }  // namespace
 
 void countQuietRigids(State& state, Scratch& scratch) {
@@ -101,6 +109,10 @@ void countQuietRigids(State& state, Scratch& scratch) {
   for (const RigidId id : state.present) {
     Rigid& r = state[id];
     if (r.asleep || !canSleep(state, id)) continue;
+    if (!scratch.notes && isFast(state, r)) {
+      r.stir();
+      continue;
+    }
     const OrientedBox box = worldBox(state, r);
     const double scale = thresholdScale(2.0 * box.half.minCoeff());
     const Candidate candidate{state, r, ties[index(id)], box, sleeping.velocity * scale};

@@ -53,7 +53,7 @@ TEST_F(ExplainCommand, TellsWhatWouldEndAWeldThatIsNotTested) {
   const Outcome outcome = run(
       {"explain", "stack.toml", "--mode", "merge", "--at", "40", "--pair", "ground", "box[0,0]"});
   EXPECT_THAT(outcome.out, HasSubstr("and no motion inside was found in this step. They come apart "
-                                     "when their contacts break, or slide."));
+                                     "when their contacts cannot hold them"));
 }
 
 TEST_F(ExplainCommand, TellsTheStoryOfAWeld) {

@@ -44,7 +44,7 @@ TEST_F(Usage, AMissingCommandIsWrongUsage) {
 
 TEST_F(Usage, AnUnknownCommandGetsASuggestion) {
   expectError({"rendr", "books"}, kWrongUsage, "unknown command 'rendr' (did you mean 'render'?)");
-  expectError({"frobnicate"}, kWrongUsage, "unknown command 'frobnicate'");
+  expectError({"frobnicate"}, kWrongUsage, "unknown command 'frobnicate' (there are ");
   expectError({"frobnicate", "--help"}, kWrongUsage, "unknown command 'frobnicate'");
 }
 
@@ -126,6 +126,8 @@ TEST_F(Usage, NumbersAreChecked) {
 
 TEST_F(Usage, AnOptionWithoutItsValueSaysSo) {
   expectError({"run", "books", "--steps"}, kWrongUsage, "--steps needs a value");
+  expectError({"explain", "books", "--at", "6", "--pair", "cookbook"}, kWrongUsage,
+              "--pair needs the names of two bodies");
   expectError({"run", "books", "--trace", "--json"}, kWrongUsage,
               "--trace needs the name of a file or folder, but got '--json'");
 }

@@ -16,6 +16,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 const WorldOptions kAsking{.mode = Mode::MergeSleep, .timings = false, .decisions = true};
 
@@ -117,6 +118,43 @@ TEST(Explain, SaysForHowLongAPairWaitsThatPartedSlowly) {
   EXPECT_EQ(conditionOf(all.at(0)).steps, 7);
 }
 
+TEST(Explain, NamesAllThatAPairWaitsFor) {
+  const Decision stopped{.a = BodyId{0},
+                         .b = BodyId{1},
+                         .stage = "AccumulateRelativeMotion",
+                         .criterion = "stopped",
+                         .value = 7e-3,
+                         .threshold = 1e-3,
+                         .verdict = "wait"};
+  Decision patience = stopped, slow = stopped;
+  patience.criterion = "patience", patience.value = 111.0, patience.threshold = 0.0;
+  slow.criterion = "relative-motion", slow.verdict = "below", slow.count = -110, slow.needed = 3;
+  slow.value = 0.0;
+  Snapshot after;
+  after.step = 20;
+  after.decisions = {stopped, patience, slow};
+  const World world(column(1));
+  const std::string text = textOf(explainStep(Words(world.bodies()), after), Outcome::Waiting);
+  EXPECT_THAT(text, HasSubstr("the motion of the waiting pair"));
+  EXPECT_THAT(text, HasSubstr("111 steps to wait"));
+  EXPECT_THAT(text, Not(HasSubstr("-110")));
+}
+
+TEST(Explain, CountsNothingForAPairOnABelt) {
+  const Decision belt{.a = BodyId{0},
+                      .b = BodyId{1},
+                      .stage = "AccumulateRelativeMotion",
+                      .criterion = "belt",
+                      .value = 1.0,
+                      .verdict = "apart"};
+  Snapshot after;
+  after.step = 20;
+  after.decisions = {belt};
+  const World world(column(1));
+  EXPECT_THAT(textOf(explainStep(Words(world.bodies()), after), Outcome::Apart),
+              Not(HasSubstr("count")));
+}
+
 /// A plank lies on a block on the ground and on a step on a platform, which drives away too slowly
 /// for any criterion to see. All that merges is on the ground: the platform and the step never do.
 Scene plankOnTwoFrames(double speed = 0.001) {
@@ -165,7 +203,7 @@ void expectToldAsItIs(const Scene& scene, int steps) {
     Pairs told;
     for (const Explanation& e : explainStep(words, after)) {
       if (e.outcome == Outcome::Waiting) {
-        EXPECT_THAT(e.text, testing::Not(HasSubstr("but only for 3 of 3"))) << e.text;
+        EXPECT_THAT(e.text, Not(HasSubstr("but only for 3 of 3"))) << e.text;
       }
       if (e.outcome != Outcome::Merged) continue;
       told.emplace(e.a, e.b);
@@ -275,7 +313,7 @@ TEST(WeldStory, TellsWhenItFormedAndWhyItBroke) {
   for (const Chapter& chapter : story.chapters()) {
     if (chapter.what.outcome != Outcome::CameApart) continue;
     EXPECT_GE(chapter.step, 200);
-    EXPECT_THAT(chapter.what.tests, testing::Not(IsEmpty()));
+    EXPECT_THAT(chapter.what.tests, Not(IsEmpty()));
     EXPECT_NE(chapter.what.reason, EventReason::None);
     EXPECT_THAT(chapter.what.text, HasSubstr("its contacts pressed and did not slide"));
   }

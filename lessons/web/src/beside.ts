@@ -45,7 +45,7 @@ export function beside(state: State, own: Picture, frame: HTMLElement): HTMLElem
     other.picture.lens.follow(own.lens);
     other.picture.draw(shown);
     const s = reference.stats(shown.step);
-    other.label.replaceChildren(h('strong', {}, nameOf(state)), h('span', {}, `${plural(s.active, 'body', 'bodies')}, ${plural(s.contacts, 'contact')} to solve`),
+    other.label.replaceChildren(h('strong', {}, nameOf(state)), h('span', {}, `${plural(s.active, 'simulated body', 'simulated bodies')}, ${plural(s.contacts, 'contact')} to solve`),
       h('span', {}, `largest offset ${(1000 * offset(state.trace, reference, shown.step)).toFixed(0)} mm`));
   });
   return root;

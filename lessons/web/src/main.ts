@@ -114,7 +114,7 @@ function counts(state: State): HTMLElement {
     root.hidden = state.veiled;
     const s = state.trace.stats(state.step);
     const part = (n: number, one: string, many: string) => [h('strong', {}, String(n)), ` ${n === 1 ? one : many}`];
-    root.replaceChildren(h('strong', { class: 'only-two' }, state.live ? 'Your run' : 'This run'), ...part(s.collections, 'collection', 'collections'), ' · ', ...part(s.active, 'body', 'bodies'), ' · ', ...part(s.contacts, 'contact to solve', 'contacts to solve'));
+    root.replaceChildren(h('strong', { class: 'only-two' }, state.live ? 'Your run' : 'This run'), ...part(s.collections, 'collection', 'collections'), ' · ', ...part(s.active, 'simulated body', 'simulated bodies'), ' · ', ...part(s.contacts, 'contact to solve', 'contacts to solve'));
   });
   return root;
 }
