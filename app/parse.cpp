@@ -69,9 +69,9 @@ bool isScene(const std::string& word) {
         fmt::format("'{}' is a scene, not a command; try 'merge2d run {}'", *command, *command));
   }
   const std::string near = didYouMean(*command, commands);
-  throw UsageError(fmt::format("unknown command '{}'{}", *command,
-                               near.empty() ? fmt::format(" (there are {})", fmt::join(commands, ", "))
-                                            : near));
+  throw UsageError(
+      fmt::format("unknown command '{}'{}", *command,
+                  near.empty() ? fmt::format(" (there are {})", fmt::join(commands, ", ")) : near));
 }
 
 /// A word that `command` could not make use of.

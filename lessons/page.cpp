@@ -176,7 +176,7 @@ std::string makePage(const PageContent& content, bool live) {
                        fmt::arg("licences", licences), fmt::arg("engine", engine),
                        fmt::arg("program", program));
   };
-  return finestThatFits(pageAs, kPageBytes + engine.size());
+  return finestThatFits(pageAs, live ? kLivePageBytes : kPageBytes);
 }
 
 }  // namespace merge2d

@@ -33,9 +33,11 @@ struct PageContent {
 
 /// Built-in pages stay below this size [bytes].
 inline constexpr std::size_t kPageBytes = 3'000'000;
+/// The same for a page with the engine.
+inline constexpr std::size_t kLivePageBytes = 4'000'000;
 
-/// The page, as fine as fits into kPageBytes. With the engine in it one can take over a run; its
-/// size counts extra.
+/// The page, as fine as fits into kPageBytes, or into kLivePageBytes with the engine in it, by
+/// which one can take over a run.
 std::string makePage(const PageContent& content, bool live = true);
 
 /// The list of a course's pages.

@@ -140,10 +140,8 @@ Question::Answer Question::aboveOrBelow(const Recording& r, std::int64_t step) c
     if (!sample) continue;
     const double value = std::abs(static_cast<double>(t.value[*sample]));
     const bool above = value >= t.threshold;
-    const Decision test{.criterion = t.criterion,
-                        .equation = t.equation,
-                        .value = value,
-                        .threshold = t.threshold};
+    const Decision test{
+        .criterion = t.criterion, .equation = t.equation, .value = value, .threshold = t.threshold};
     return {{{"above the limit", {}, above}, {"below the limit", {}, !above}},
             false,
             fmt::format("The answer: {}.", Words(r.bodies).test(test))};

@@ -154,11 +154,13 @@ std::string sentence(const Condition& c) {
     case Kind::Touch:
       return "Only bodies that touch can merge.";
     case Kind::BreakOrSlide:
-      return "They come apart when their contacts cannot hold them: they lift, slide or turn about a corner.";
+      return "They come apart when their contacts cannot hold them: they lift, slide or turn about "
+             "a corner.";
     case Kind::Above:
-      return fmt::format("They come apart when the {} is above {}{}, when they slide, or when no "
-                         "contact presses.",
-                         what, limit, c.steps > 1 ? fmt::format(" for {}", steps) : "");
+      return fmt::format(
+          "They come apart when the {} is above {}{}, when they slide, or when no "
+          "contact presses.",
+          what, limit, c.steps > 1 ? fmt::format(" for {}", steps) : "");
     case Kind::CutBetween:
       return "They come apart when a weld on the way between them is cut.";
     case Kind::OneFrame:

@@ -24,9 +24,9 @@ struct Condition {
     Hold,          ///< they merge when a second contact, or a rigid group, holds them
     Touch,         ///< only bodies that touch can merge
     BreakOrSlide,  ///< they come apart when their contacts cannot hold them
-    Above,         ///< … when `measure` is above `limit` for `steps`, they slide, or nothing presses
-    CutBetween,    ///< … when a weld on the way between them is cut
-    OneFrame,      ///< they may merge once one of them comes free of its frame
+    Above,  ///< … when `measure` is above `limit` for `steps`, they slide, or nothing presses
+    CutBetween,  ///< … when a weld on the way between them is cut
+    OneFrame,    ///< they may merge once one of them comes free of its frame
   };
   Kind kind = Kind::None;
   std::string_view measure{};  ///< a criterion: "relative-motion"

@@ -172,10 +172,9 @@ std::string freedoms(const Decision& d) {
 
 /// One that is new changes by 1/h of itself.
 std::string load(const Decision& d) {
-  return fmt::format(
-      "the impulse between them changes by {} times itself in a second, {} {} ({})",
-      shortNumber(d.value), d.value < d.threshold ? "below" : "above", shortNumber(d.threshold),
-      equationName(d.equation));
+  return fmt::format("the impulse between them changes by {} times itself in a second, {} {} ({})",
+                     shortNumber(d.value), d.value < d.threshold ? "below" : "above",
+                     shortNumber(d.threshold), equationName(d.equation));
 }
 
 std::string sleeping(const Decision& d) {

@@ -269,11 +269,9 @@ void castContact(const State& state, Scratch& scratch, Contact& contact, double 
   Contact then = contactAt(state, f, at, margin, contact);
   if (then.count == 0) return contact.loseTouch();
   const Cast cast = carryBack(state, f, at, then);
-  // Without restitution a hit that comes about where and as it seems now is as good as it is; and
-  // inside a collection it is solved as the sweep sees it.
-  const auto alone = [&](BodyId body) { return !state.isMember(body); };
+  // Without restitution a hit that comes about where and as it seems now is as good as it is.
   if (at.hit && restitutionOf(state, key.a, key.b) == 0.0) {
-    if (cast.displaced && alone(key.a) && alone(key.b)) soft.push_back({then, cast});
+    if (cast.displaced) soft.push_back({then, cast});
     return;
   }
   contact = then;

@@ -59,7 +59,4 @@ void listLoads(State& state, Actions& actions, Scratch& scratch);
 /// Lists the impulses given in this step.
 void listKicks(State& state, Actions& actions, Scratch& scratch);
 
-/// Stretching energy of all springs [J].
-double springEnergy(const State& state, const Actions& actions);
-
 }  // namespace merge2d

@@ -42,7 +42,8 @@ HitPoint hitPoint(const HitIsland& island, std::uint32_t block, int row) {
   const ContactKey& key = contact.key;
   HitPoint p{.block = block, .row = row};
   const ContactPoint& point = island.pointOf(p);
-  const CastEnd* end = k.hits ? castOf(island.scratch(), contact, point) : nullptr;
+  const bool hit = (k.hits >> row & 1) != 0;
+  const CastEnd* end = hit ? castOf(island.scratch(), contact, point) : nullptr;
   p.gap = end ? end->carried : point.gap;
   p.e = k.bilateral ? 0.0 : restitutionOf(state, key.a, key.b);
   p.still = p.e > 0.0 || k.bilateral ? HitPoint::kStill : HitPoint::kSoft;
@@ -51,7 +52,6 @@ HitPoint hitPoint(const HitIsland& island, std::uint32_t block, int row) {
   p.round = is_disc && p.e > 0.0 && k.count == 1;
   p.touching = touchingGap(state, key);
   p.least = leastBounce(state, key);
-  const bool hit = (k.hits >> row & 1) != 0;
   const double w = island.velocityOf(p);
   p.holds = k.bilateral || (p.e == 0.0 && !hit && p.gap <= p.touching);
   if (!hit && p.gap <= p.touching) p.allowed = std::min(0.0, w);

@@ -76,16 +76,19 @@ bool aimRow(const State& state, const Scratch& scratch, const Contact& contact, 
   return k.bilateral || gap <= 0.0;
 }
 
-/// Lever arms of the points of a block: as they are now, or as they will be where it was `cast` to.
+/// Lever arms of the points of a block: as they are now, or where they are `hits` of a cast as they
+/// will be there. A row of the full solve acts on both bodies at one place, or it would change
+/// their angular momentum. Guarded by Collection.MergesAndUnmergesConserveMomentum.
 void setArms(const State& state, const Scratch& scratch, const RowSource& source, const Cast* cast,
-             const ContactBlock& k, BlockGeometry& g) {
+             unsigned hits, const ContactBlock& k, BlockGeometry& g) {
   const Contact& contact = state.contacts.contactOf(source.points[0]);
   const Pose pose_a = state.pose(contact.key.a);
   const Vec2 &center_a = state.rigids[k.a].x, &center_b = state.rigids[k.b].x;
   for (std::size_t i = 0; i < static_cast<std::size_t>(source.count()); ++i) {
     const ContactPoint& point = state.contacts.point(source.points[i]);
     const CastEnd* end = nullptr;
-    if (cast) end = castOf(scratch, state.contacts.contactOf(source.points[i]), point);
+    if (cast && (hits >> i & 1) != 0)
+      end = castOf(scratch, state.contacts.contactOf(source.points[i]), point);
     const Vec2 p = pose_a * point.position;
     g.arm_a[i] = p - center_a;
     g.arm_b[i] = (end ? state.pose(contact.key.b) * end->on_b : p) - center_b;
@@ -93,10 +96,10 @@ void setArms(const State& state, const Scratch& scratch, const RowSource& source
 }
 
 /// Fills the rows of a block but for their effective masses, with the impulses of the last step as
-/// a start. True when some of it rests.
+/// a start; those of the points in `hits` as they were `cast` to. True when some of it rests.
 bool aimBlock(State& state, const Scratch& scratch, const RowSource& source, const Cast* cast,
-              BlockGeometry& g, ContactBlock& k) {
-  setArms(state, scratch, source, cast, k, g);
+              unsigned hits, BlockGeometry& g, ContactBlock& k) {
+  setArms(state, scratch, source, cast, hits, k, g);
   setArms(k, g);
   bool rests = false;
   for (int i = 0; i < source.count(); ++i) {
@@ -104,7 +107,8 @@ bool aimBlock(State& state, const Scratch& scratch, const RowSource& source, con
     ContactPoint& point = state.contacts.point(place);
     k.lambda_n(i) = point.lambda_n;
     k.lambda_t(i) = point.lambda_t;
-    rests |= aimRow(state, scratch, state.contacts.contactOf(place), point, k, i, cast);
+    rests |= aimRow(state, scratch, state.contacts.contactOf(place), point, k, i,
+                    (hits >> i & 1) != 0 ? cast : nullptr);
   }
   return rests;
 }
@@ -128,8 +132,12 @@ void fillBlock(State& state, const Scratch& scratch, RowSource& source, ContactB
   const Contact& last = state.contacts.contactOf(source.points[source.count() == 2 ? 1 : 0]);
   k.bilateral = isHeld(state, contact) || isHeld(state, last);
   const Cast* cast = scratch.casts.empty() ? nullptr : castToHit(state, scratch, contact);
-  bool rests = aimBlock(state, scratch, source, cast, g, k);
-  if (cast && k.hits == 0) rests = aimBlock(state, scratch, source, nullptr, g, k);
+  const unsigned all = source.count() == 2 ? 3U : 1U;
+  bool rests = aimBlock(state, scratch, source, cast, all, g, k);
+  if (cast && k.hits != all) {
+    const unsigned hits = std::exchange(k.hits, std::uint8_t{0});
+    rests = aimBlock(state, scratch, source, cast, hits, g, k);
+  }
   if (source.count() == 1 && k.hits == 0) {
     k.setRolling(rollingOf(state, contact.key.a, contact.key.b), rollingImpulse(state, contact));
   }

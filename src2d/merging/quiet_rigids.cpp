@@ -93,8 +93,8 @@ void recordRest(const State& state, Scratch& scratch, RigidId id, const Criterio
              {before, state[id].quiet_steps, state.settings.sleeping.steps}));
 }
 
-/// So fast that it is not slow whatever its turn: no centre of mass is faster than every corner of a
-/// box around it.
+/// Not slow, whatever its turn: the fastest corner of a box is no slower than a point inside, and
+/// so no slower than the centre of mass.
 bool isFast(const State& state, const Rigid& r) {
   constexpr double kRounding = 1e-6;
   const double velocity = (1.0 + kRounding) * state.settings.sleeping.velocity;

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "src2d/dynamics/spring_forces.h"
+
 namespace merge2d {
 namespace {
 

@@ -47,7 +47,7 @@ TEST_P(BuiltinLessons, TellTheTruth) {
     content.traces.push_back({lesson.traces[i].label, std::move(recordings[i])});
   }
   EXPECT_LE(makePage(content, false).size(), kPageBytes);
-  EXPECT_LE(makePage(content).size(), kPageBytes + 1'000'000);
+  EXPECT_LE(makePage(content).size(), kLivePageBytes);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BuiltinLessons, testing::ValuesIn(builtinLessons()),

@@ -60,8 +60,9 @@ TEST_F(WordsTest, TellsValueThresholdAndByHowMuch) {
 }
 
 TEST_F(WordsTest, TellsHowFastALoadChanges) {
-  EXPECT_EQ(said({.criterion = "load", .equation = "(17)", .value = 5.0, .threshold = 2.0}),
-            "the impulse between them changes by 5.00 times itself in a second, above 2.00 (Eq. 17)");
+  EXPECT_EQ(
+      said({.criterion = "load", .equation = "(17)", .value = 5.0, .threshold = 2.0}),
+      "the impulse between them changes by 5.00 times itself in a second, above 2.00 (Eq. 17)");
 }
 
 TEST_F(WordsTest, TellsSmallThresholdsInMillimetres) {

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <numbers>
+
 #include "tests/support/modes_and_steps.h"
 
 namespace merge2d {
@@ -41,6 +44,61 @@ TEST(FollowedHits, AHairOfSpinChangesNothing) {
           }
         }
       }
+    }
+  }
+}
+
+/// A box lands on a stack of boxes that have merged with the ground.
+World landing(const BodyDesc& lander, const std::vector<BodyDesc>& stack, double friction, double h,
+              Mode mode) {
+  Scene scene = onGround();
+  scene.step = h;
+  for (const BodyDesc& b : stack) add(scene, b);
+  BodyDesc last = lander;
+  last.pinned_until = 0.5;
+  add(scene, last);
+  for (BodyDesc& b : scene.bodies) b.friction = friction;
+  return World(scene, inMode(mode));
+}
+
+/// One corner first, beyond the edge: it tips over, as it does on a box that is simulated by
+/// itself.
+TEST(FollowedHits, ABoxThatMeetsTheEdgeOfAMergedOneTips) {
+  BodyDesc lander = named("lander", moving(box(0.6, 0.3, {-0.25, 0.7}), {-1.0, -2.5}));
+  lander.angle = -1.6 * std::numbers::pi / 180.0;
+  for (const double h : {1.0 / 60.0, 0.01, 0.005}) {
+    std::map<Mode, BodyState> end;
+    for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {
+      World world = landing(lander, {box(0.8, 0.3, {0, 0.15})}, 0.6, h, mode);
+      runSeconds(world, 0.45);
+      ASSERT_EQ(see(world, BodyId{1}).collection != kNoCollection, merges(mode));
+      runSeconds(world, 0.35);
+      end[mode] = see(world, "lander");
+    }
+    EXPECT_GT(end[Mode::Reference].angle, 0.8);
+    for (const Mode mode : {Mode::Merge, Mode::MergeSleep}) {
+      EXPECT_NEAR(end[mode].angle, end[Mode::Reference].angle, 0.05) << name(mode) << " h " << h;
+      EXPECT_LT((end[mode].x - end[Mode::Reference].x).norm(), 0.01) << name(mode) << " h " << h;
+    }
+  }
+}
+
+/// Friction takes up to μ of the speed of the fall from its motion along the top: all that there
+/// is.
+TEST(FollowedHits, ABoxThatLandsFlatOnAMergedStackStopsAtOnce) {
+  constexpr double kFriction = 0.3, kAcross = 0.67, kDown = 2.0, kFall = 0.1;
+  const double time = (std::sqrt(kDown * kDown + 2.0 * kGravity * kFall) - kDown) / kGravity;
+  const BodyDesc lander = named("lander", moving(box(0.3, 0.2, {0.1, 0.8}), {kAcross, -kDown}));
+  for (const Mode mode : {Mode::Reference, Mode::Merge, Mode::MergeSleep}) {
+    for (const int boxes : {1, 2, 4}) {
+      std::vector<BodyDesc> stack;
+      for (int i = 0; i < boxes; ++i) stack.push_back(box(0.6, 0.3, {0, 0.3 * i + 0.15}));
+      BodyDesc high = lander;
+      high.at.y() += 0.3 * (boxes - 2);
+      World world = landing(high, stack, kFriction, 0.005, mode);
+      runSeconds(world, 1.2);
+      EXPECT_NEAR(see(world, "lander").x.x(), 0.1 + kAcross * time, 4e-3)
+          << name(mode) << " on " << boxes;
     }
   }
 }

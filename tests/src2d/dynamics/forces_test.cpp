@@ -177,6 +177,55 @@ TEST(Spring, AStiffChainGainsNoEnergy) {
   }
 }
 
+/// It winds a box up that it holds by a corner, so that the box turns far in a step.
+TEST(Spring, OneThatHoldsABoxByItsCornerGainsNoEnergy) {
+  for (const double h : {0.01, 1.0 / 60.0}) {
+    for (const double rest : {0.0, 1.0}) {
+      for (const double stiffness : {100.0, 300.0, 1e3, 2e3, 5e3, 2e4, 1e6}) {
+        SCOPED_TRACE(testing::Message() << stiffness << " N/m, " << rest << " m, h " << h);
+        Scene scene = noGravity();
+        scene.step = h;
+        add(scene, box(1, 1, {0, 0}));
+        scene.springs.push_back({.body = 0,
+                                 .anchor = {0.5, 0.5},
+                                 .to = {0, 3},
+                                 .to_body = {},
+                                 .stiffness = stiffness,
+                                 .rest_length = rest});
+        World world = reference(scene);
+        const double stretch = Vec2(0.5, 2.5).norm() - rest;
+        const double begin = 0.5 * stiffness * stretch * stretch;
+        for (int i = 0; i < 3000; ++i) {
+          world.step();
+          const Stats now = world.capture().stats;
+          ASSERT_LT(now.kinetic_energy + now.potential_energy, 1.6 * begin) << "in step " << i;
+        }
+      }
+    }
+  }
+}
+
+/// What is followed well is left alone.
+TEST(Spring, ASoftOneHasItsEnergyForLong) {
+  Scene scene = noGravity();
+  add(scene, box(1, 1, {0, 0}));
+  scene.springs.push_back({.body = 0,
+                           .anchor = {0.5, 0.5},
+                           .to = {0, 3},
+                           .to_body = {},
+                           .stiffness = 20.0,
+                           .rest_length = 1.0});
+  World world = reference(scene);
+  const double begin = world.capture().stats.potential_energy;
+  double sum = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    world.step();
+    const Stats now = world.capture().stats;
+    if (i >= 5000) sum += (now.kinetic_energy + now.potential_energy) / 1000.0;
+  }
+  EXPECT_NEAR(sum / begin, 1.0, 0.05);
+}
+
 TEST(Force, ATimedForceGivesItsImpulseOverTheMass) {
   Scene scene = noGravity();
   add(scene, box(2, 1, {0, 0}));
