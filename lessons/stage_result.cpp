@@ -65,6 +65,17 @@ std::string unmergeResult(const Snapshot& after) {
   return cut.empty() ? "nothing to cut" : counted(cut.size(), "weld cut", "welds cut");
 }
 
+/// Contacts of the full solve that are not inside a collection: some body at them may move.
+std::ptrdiff_t solvedBetween(const Snapshot& after) {
+  const auto moves = [&](BodyId id) {
+    const BodyState* body = bodyIn(after, id);
+    return body != nullptr && !body->asleep && !body->pinned;
+  };
+  return std::ranges::count_if(after.contacts, [&](const ContactView& c) {
+    return !c.internal && (moves(c.a) || moves(c.b));
+  });
+}
+
 std::string velocityResult(const Snapshot& before, const Snapshot& after) {
   double largest = 0.0;
   for (const BodyState& b : after.bodies) {
@@ -114,9 +125,9 @@ std::string result(const StepRecord& record, Stage stage) {
     case Stage::Unmerge:
       return unmergeResult(after);
     case Stage::SolveLCP: {
-      const auto solved = std::ranges::count(after.contacts, false, &ContactView::internal);
-      const auto inside = after.stats.contacts - solved;  // of opened collections
-      if (inside > 0) return fmt::format("{} between, {} inside", solved, inside);
+      const std::ptrdiff_t solved = after.stats.contacts, between = solvedBetween(after);
+      const std::ptrdiff_t inside = solved - between;  // of opened collections
+      if (inside > 0 && between > 0) return fmt::format("{} between, {} inside", between, inside);
       return solved == 0 ? "nothing to solve" : fmt::format("{} solved", solved);
     }
     case Stage::AdvanceVelocities:

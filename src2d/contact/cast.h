@@ -32,6 +32,7 @@ struct SoftHit {
 
 /// Replaces the points of a contact that is open, but would close in this step, by those of the
 /// meeting or of the nearest approach. Without forces the two come nearer by `ahead` [m] at most.
+/// A member of a collection moves with all of it until then, also where it comes free in this step.
 /// Appends to `scratch.casts`; a meeting without restitution goes to `soft` instead, and leaves the
 /// contact as it is: contact/followed_hits.h decides.
 void castContact(const State& state, Scratch& scratch, Contact& contact, double ahead,

@@ -37,10 +37,10 @@ struct alignas(64) SolverVelocity {
 /// of mass; they do not change when the whole pair is turned, so a block stays valid in the frame
 /// of a rigid collection and only its normal is turned.
 struct ContactBlock {
-  std::uint32_t a = 0, b = 0;                     ///< indices into the velocities
-  std::int32_t count = 0;                         ///< points, 1 or 2
-  bool bilateral = false;                         ///< a magnet's contact: pulls, and does not slide
-  std::uint8_t hits = 0;                          ///< bit i: point i is left to dynamics/hits.h
+  std::uint32_t a = 0, b = 0;  ///< indices into the velocities
+  std::int32_t count = 0;      ///< points, 1 or 2
+  bool bilateral = false;      ///< a magnet's contact: pulls, and does not slide
+  std::uint8_t hits = 0;  ///< bit i: point i is left to dynamics/hits.h; bit 2 + i: as it was cast
   double nx = 1.0, ny = 0.0;                      ///< normal
   double arm_an[2] = {0, 0}, arm_bn[2] = {0, 0};  ///< r × n [m]
   double arm_at[2] = {0, 0}, arm_bt[2] = {0, 0};  ///< r × t [m]

@@ -43,7 +43,8 @@ HitPoint hitPoint(const HitIsland& island, std::uint32_t block, int row) {
   HitPoint p{.block = block, .row = row};
   const ContactPoint& point = island.pointOf(p);
   const bool hit = (k.hits >> row & 1) != 0;
-  const CastEnd* end = hit ? castOf(island.scratch(), contact, point) : nullptr;
+  const bool cast = (k.hits >> (2 + row) & 1) != 0;
+  const CastEnd* end = cast ? castOf(island.scratch(), contact, point) : nullptr;
   p.gap = end ? end->carried : point.gap;
   p.e = k.bilateral ? 0.0 : restitutionOf(state, key.a, key.b);
   p.still = p.e > 0.0 || k.bilateral ? HitPoint::kStill : HitPoint::kSoft;

@@ -9,6 +9,7 @@
 /// C softness [1/kg, 1/(kg m²)], d direction, r its moment arm [m, 1].
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cstdint>

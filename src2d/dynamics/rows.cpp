@@ -137,6 +137,9 @@ void fillBlock(State& state, const Scratch& scratch, RowSource& source, ContactB
   if (cast && k.hits != all) {
     const unsigned hits = std::exchange(k.hits, std::uint8_t{0});
     rests = aimBlock(state, scratch, source, cast, hits, g, k);
+    k.hits = static_cast<std::uint8_t>(k.hits | hits << 2U);
+  } else if (cast) {
+    k.hits = static_cast<std::uint8_t>(all | all << 2U);
   }
   if (source.count() == 1 && k.hits == 0) {
     k.setRolling(rollingOf(state, contact.key.a, contact.key.b), rollingImpulse(state, contact));

@@ -1,6 +1,6 @@
 #pragma once
-/// The forces of springs: those of an explicit step, or where these would add energy those of an
-/// implicit one, which damps.
+/// The forces of springs: those of an explicit step, or where these would add energy to their
+/// bodies for long, those of an implicit one, which damps.
 
 #include "src2d/dynamics/forces.h"
 

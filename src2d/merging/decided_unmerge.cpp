@@ -264,8 +264,9 @@ void recordSearch(const State& state, Notes* notes, const Collection& c, const P
       record(test, "SingleIterationPGS", first, first, verdict, {.count = search.steps}));
 }
 
-/// A hit was followed in the full solve to a member of a collection that floats.
-bool isFloatingMemberHit(const State& state, const Scratch& scratch) {
+/// Hits were followed in an island with members of an open collection that floats: all of these
+/// have gone ways of their own.
+bool areHitsFollowedThrough(const State& state, const Scratch& scratch) {
   return std::ranges::any_of(scratch.hit_ways, [&](const HitWay& hit) {
     if (index(hit.id) >= state.bodies.size()) return false;
     const BodyId body{static_cast<std::uint32_t>(hit.id)};
@@ -314,7 +315,7 @@ bool endSearch(State& state, const SearchTools& tools, Collection& c) {
 
 void unmergeMovers(State& state, Scratch& scratch) {
   if (scratch.regions.empty()) return;
-  const bool hit = isFloatingMemberHit(state, scratch);
+  const bool hits = areHitsFollowedThrough(state, scratch);
   bool stay = true, jointed = false;
   for (const OpenRegion& region : scratch.regions) {
     jointed |= hasJointsOutside(state, state.collections[region.slot]);
@@ -322,8 +323,8 @@ void unmergeMovers(State& state, Scratch& scratch) {
   }
   closeOpened(state, scratch);
   // The sum of momenta knows nothing of joints: a collection that stays whole is solved once more.
-  // Nor does it know where in the step a member was hit that nothing but others holds.
-  if ((stay && jointed) || hit) scratch.solved = false;
+  // Nor does it know where in the step the members of a floating one were when they were hit.
+  if ((stay && jointed) || hits) scratch.solved = false;
 }
 
 }  // namespace merge2d

@@ -58,9 +58,12 @@ double closingSpeed(const State& state, const Scratch& scratch, const Contact& c
   double fastest = 0.0;
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
-    const Vec2 p = pose_a * point.position;
-    const double w_n = n.dot(b.velocityAt(p) - a.velocityAt(p));
-    const double closing = -w_n - std::max(0.0, point.gap) / state.h;
+    const CastEnd* end = castOf(scratch, contact, point);
+    const Vec2 on_a = pose_a * point.position;
+    const Vec2 on_b = end ? state.pose(contact.key.b) * end->on_b : on_a;
+    const double w_n = n.dot(b.velocityAt(on_b) - a.velocityAt(on_a));
+    const double gap = end ? end->carried : point.gap;
+    const double closing = -w_n - std::max(0.0, gap) / state.h;
     const bool meets =
         point.fresh ? -w_n > kGentle && closing > kEndOfStep * -w_n : closing > impact;
     if (!meets) continue;

@@ -83,6 +83,7 @@ void addOuterContact(const State& state, ContactTable::Slot slot, Scratch& scrat
   SweepContact outer{.slot = slot, .block = {}};
   ContactBlock& k = outer.block;
   k.bilateral = isHeld(state, contact);
+  const bool followed = castToHit(state, scratch, contact) != nullptr;
   for (int i = 0; i < contact.count; ++i) {
     const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
     const Vec2 p = pose_a * point.position;
@@ -93,10 +94,10 @@ void addOuterContact(const State& state, ContactTable::Slot slot, Scratch& scrat
     const double w = g.normal.dot(velocityAt(ub, g.arm_b[i]) - velocityAt(ua, g.arm_a[i]));
     k.bias[i] = k.bilateral ? bilateralBias(settings, state.h, point.gap, -w)
                             : contactBias(settings, state.h, point.gap);
-    const double e = isBilateral(state, a, b) ? 0.0 : restitutionOf(state, a, b);
-    if (e == 0.0) continue;
-    const bool bounces = -w > leastBounce(state, contact.key) && point.gap + state.h * w < 0.0;
-    if (bounces) k.bias[i] = e * w;  // all of it comes in this step
+    if (isBilateral(state, a, b) || point.gap + state.h * w >= 0.0) continue;
+    const double e = restitutionOf(state, a, b);
+    const bool hit = e > 0.0 ? -w > leastBounce(state, contact.key) : followed;
+    if (hit) k.bias[i] = e * w;  // all of it comes in this step
   }
   k.a = static_cast<std::uint32_t>(a);
   k.b = static_cast<std::uint32_t>(b);

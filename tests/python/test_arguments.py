@@ -59,6 +59,10 @@ WRONG_NUMBERS = {
                           "lower corner of a box"),
     "a setting of the scene": (lambda s, w: w.set("step", 0.1), merge2d.InputError,
                                "'step' is of the scene, not a setting of a world: set its time step"),
+    "a misspelled setting": (lambda s, w: merge2d.World(s, mergin_velocity=1), merge2d.InputError,
+                             "did you mean 'merging.velocity'"),
+    "a misspelled setting of a scene by name": (lambda s, w: merge2d.World("books", mergin_steps=1),
+                                                merge2d.InputError, "did you mean 'merging'"),
     "a name that is taken": (lambda s, w: w.add_body("ball", merge2d.circle(1), at=(5, 5)),
                              merge2d.InputError, "two bodies are called 'ball'"),
 }
