@@ -146,15 +146,19 @@ bool addsEnergy(const State& state, const TimedSpring& spring, const SpringStret
 /// The parts of the force on the first body.
 struct SpringForce {
   Vec2 pull = Vec2::Zero();    ///< by the stretch [N]
-  Vec2 damped = Vec2::Zero();  ///< the velocity that is damped [m/s]
+  Vec2 damped = Vec2::Zero();  ///< the velocity that its damping ends [m/s]
+  Vec2 along = Vec2::Zero();   ///< the velocity that an implicit step ends [m/s]
 };
 
-/// A spring without length damps every motion of its end, a long one only along itself.
+/// A spring without length damps every motion of its end, a long one only along itself. So does an
+/// implicit step between two bodies: across the spring it would turn both.
 SpringForce forceOf(const State& state, const TimedSpring& spring, const SpringStretch& s) {
   Vec2 velocity = -velocityAt(state, s.from.body, s.from.at);
   if (s.other) velocity += velocityAt(state, s.to.body, s.to.at);
+  const Vec2 along = velocity.dot(s.direction) * s.direction;
   return {spring.stiffness * (s.length - spring.rest_length) * s.direction,
-          spring.rest_length == 0.0 ? velocity : Vec2(s.direction * velocity.dot(s.direction))};
+          spring.rest_length == 0.0 ? velocity : along,
+          spring.rest_length == 0.0 && !s.other ? velocity : along};
 }
 
 /// Springs that are together too stiff for an explicit step would gain energy until they explode:
@@ -162,8 +166,9 @@ SpringForce forceOf(const State& state, const TimedSpring& spring, const SpringS
 /// an implicit step beside its pull, so that it holds a body at rest as before.
 Vec2 stableForce(const State& state, const TimedSpring& spring, const SpringStretch& s,
                  double gain) {
-  const auto [pull, damped] = forceOf(state, spring, s);
-  const Vec2 implicit = (spring.damping + state.h * spring.stiffness) / (1.0 + gain) * damped;
+  const auto [pull, damped, along] = forceOf(state, spring, s);
+  const Vec2 implicit =
+      (spring.damping * damped + state.h * spring.stiffness * along) / (1.0 + gain);
   if (gain > 1.0) return pull / (1.0 + gain) + implicit;
   const Vec2 force = pull + spring.damping * damped;
   return addsEnergy(state, spring, s, force) ? Vec2(pull + implicit) : force;

@@ -146,7 +146,6 @@ std::vector<double> arrivingSpeeds(const State& state, const Scratch& scratch) {
   };
   for (const Meeting& meeting : scratch.meetings) {
     const BodyPair& pair = scratch.pairs[meeting.pair];
-    if (restitutionOf(state, pair.a, pair.b) == 0.0) continue;
     arrive(pair.a, meeting.speed);
     arrive(pair.b, meeting.speed);
   }

@@ -2,18 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "src2d/core/memory.h"
 #include "src2d/core/small_cholesky.h"
 #include "src2d/proofs/load_product.h"
+#include "src2d/proofs/load_projection.h"
 
 namespace merge2d {
 namespace {
 
 /// The nearest combination of the witnesses' loads, with weights of any sign; a little damped, as
-/// loads that hardly differ tell little.
-LoadCertificate::Weights combinationFor(const LoadCertificate& proof, const Witness& load) {
+/// loads that hardly differ tell little. None where all loads are no more than `rounding` [m/s].
+std::optional<LoadCertificate::Weights> combinationFor(const LoadCertificate& proof,
+                                                       const Witness& load, double rounding) {
   constexpr double kDamping = 1e-8;  // of the largest square
   const std::size_t all = proof.witnesses.size(), n = all - proof.inherited;
   std::array<LoadCertificate::Weights, LoadCertificate::kMost> gram{};
@@ -25,6 +28,7 @@ LoadCertificate::Weights combinationFor(const LoadCertificate& proof, const Witn
     b[i] = product(proof.witnesses[at], load);
     largest = std::max(largest, gram[i][i]);
   }
+  if (largest <= rounding * rounding) return std::nullopt;
   for (std::size_t i = 0; i < n; ++i) gram[i][i] += kDamping * largest;
   return solveSymmetric(gram, b, n);
 }
@@ -59,13 +63,14 @@ void swapImpulses(Collection& c, Witness& with) {
   for (JointBlock& k : c.joints) std::swap(k.lambda, with.lambda[at++]);
 }
 
-void predictImpulses(const Collection& c, Witness& load) {
+void predictImpulses(const State& state, const Collection& c, Witness& load) {
   const LoadCertificate& proof = c.certificate.front();
   if (proof.witnesses.size() == proof.inherited) return;
-  const LoadCertificate::Weights w = combinationFor(proof, load);
+  const auto w = combinationFor(proof, load, leftOfRest(state));
+  if (!w) return;
   load.lambda.assign(c.blocks.size() + c.joints.size(), {});
   for (std::size_t i = proof.inherited; i < proof.witnesses.size(); ++i) {
-    const double part = w[i - proof.inherited];
+    const double part = (*w)[i - proof.inherited];
     for (std::size_t k = 0; k < load.lambda.size(); ++k) {
       for (std::size_t r = 0; r < 4; ++r) {
         load.lambda[k][r] += part * proof.witnesses[i].lambda[k][r];

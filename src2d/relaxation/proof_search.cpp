@@ -30,12 +30,12 @@ void startFrame(const State& state, std::vector<SolverVelocity>& u, const Collec
 
 /// A search starts from the impulses that the witnesses foretell, or else from those that there
 /// are.
-ProofSearch& newSearch(Collection& c, Witness&& load) {
+ProofSearch& newSearch(const State& state, Collection& c, Witness&& load) {
   ProofSearch& search = c.certificate.front().search;
   search = {};
   search.load = std::move(load);
   search.load.lambda.clear();
-  predictImpulses(c, search.load);
+  predictImpulses(state, c, search.load);
   if (search.load.lambda.empty()) readImpulses(c, search.load);
   return search;
 }
@@ -71,7 +71,7 @@ bool solveDirectly(const State& state, const SearchTools& tools, Collection& c) 
 }  // namespace
 
 void beginSearch(const State& state, Collection& c, const CollectionLoad& load) {
-  ProofSearch& search = newSearch(c, asWitness(state, c, load));
+  ProofSearch& search = newSearch(state, c, asWitness(state, c, load));
   loadMembers(state, c, load, search.start);
   swapImpulses(c, search.load);  // the progress outlives a new layout
   c.certificate.front().weights = {};
@@ -92,7 +92,7 @@ void renewLoad(const State& state, Collection& c, const CollectionLoad& load) {
 }
 
 void beginSearchAhead(const State& state, Collection& c, Witness&& load, double way) {
-  ProofSearch& search = newSearch(c, std::move(load));
+  ProofSearch& search = newSearch(state, c, std::move(load));
   search.ahead = true;
   search.way = way;
   for (std::uint32_t m = 0; m < c.members.size(); ++m) {

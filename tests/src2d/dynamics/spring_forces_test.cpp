@@ -251,7 +251,8 @@ TEST(Spring, SpringsBetweenBodiesAndManyOnOneAddNoEnergyForLong) {
   }
 }
 
-/// A box that a frame holds is pulled by its corner with what the stretch gives, however stiff.
+/// A box that a frame holds is pulled by its corner with the force of the stretch, however stiff
+/// the spring.
 TEST(Spring, AHeldBodyIsPulledByTheWholeStretch) {
   for (const double stiffness : {1e3, 2.4e3}) {
     Scene scene = onGround();
@@ -273,7 +274,28 @@ TEST(Spring, AHeldBodyIsPulledByTheWholeStretch) {
   }
 }
 
-/// What is followed well is left alone.
+/// Also where an implicit step damps it, with a length and without.
+TEST(Spring, OneThatIsTooStiffLeavesTheAngularMomentumOfTwoBodies) {
+  for (const double rest : {0.0, 1.0}) {
+    Scene scene = noGravity();
+    scene.step = 1.0 / 60.0;
+    add(scene, box(0.7, 0.3, {0, 0}));
+    add(scene, box(0.8, 0.8, {2, 0}));
+    scene.bodies[0].spin = 3.5;
+    scene.springs.push_back({.body = 0,
+                             .anchor = {-0.7, -0.4},
+                             .to = {-0.4, -0.4},
+                             .to_body = 1,
+                             .stiffness = 4e3,
+                             .rest_length = rest});
+    World world = reference(scene);
+    const Stats before = world.capture().stats;
+    runSeconds(world, 4);
+    EXPECT_NEAR(world.capture().stats.angular_momentum, before.angular_momentum, 1e-10) << rest;
+  }
+}
+
+/// A soft spring is left alone.
 TEST(Spring, ASoftOneHasItsEnergyForLong) {
   Scene scene = noGravity();
   add(scene, box(1, 1, {0, 0}));

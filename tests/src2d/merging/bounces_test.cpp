@@ -338,5 +338,28 @@ pinned_until = 1.0
   }
 }
 
+/// The disc does not bounce off the box that it hits, but that box bounces off the next one below.
+TEST(Bounces, AHitThatDoesNotBounceSetsOffOneThatDoes) {
+  Scene scene = onGround();
+  scene.step = 1.0 / 240.0;
+  for (int i = 0; i < 4; ++i) add(scene, box(0.5, 0.7, {0, 0.35 + 0.7 * i}));
+  scene.bodies[3].restitution = 0.4;
+  BodyDesc striker = named("disc", moving(disc(0.2, {0.1, 4.0}), {8.7, -30.0}));
+  striker.mass = 1.3;
+  striker.pinned_until = 1.6;
+  add(scene, striker);
+  for (BodyDesc& b : scene.bodies) b.friction = 0.3;
+  World reference(scene, inMode(Mode::Reference)), merged(scene, inMode(Mode::Merge));
+  runSeconds(merged, 1.5);
+  ASSERT_EQ(merged.capture().stats.collections, 1);
+  runSeconds(merged, 0.2);
+  runSeconds(reference, 1.7);
+  for (std::uint32_t i = 1; i < 6; ++i) {
+    const BodyState a = see(merged, BodyId{i}), b = see(reference, BodyId{i});
+    EXPECT_LT((a.v - b.v).norm(), 0.1) << "body " << i;
+    EXPECT_NEAR(a.omega, b.omega, 0.3) << "body " << i;
+  }
+}
+
 }  // namespace
 }  // namespace merge2d

@@ -136,7 +136,7 @@ TEST(LoadCertificate, PredictsTheImpulsesOfALoadThatItKnows) {
   bringBlocksBack(inside.setup.state, cart);
   for (const Witness& witness : cart.certificate.front().witnesses) {
     Witness load{witness.frame, witness.outer, {}};
-    predictImpulses(cart, load);
+    predictImpulses(inside.setup.state, cart, load);
     double largest = 0.0, moment = 0.0;
     for (std::size_t b = 0; b < cart.blocks.size(); ++b) {
       for (std::size_t r = 0; r < 4; ++r) {

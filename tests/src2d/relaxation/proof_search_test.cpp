@@ -102,5 +102,54 @@ TEST(ProofSearch, ADirectSolveInPartsIsThatInOne) {
   }
 }
 
+/// Without weight nothing has loaded the magnet and its neighbours before they are hit, but for
+/// rounding, and their contacts may be pressed against each other.
+TEST(ProofSearch, LoadsOfNothingButRoundingForetellNothing) {
+  World world(parseScene(R"(
+format = 1
+gravity = [0, 0]
+[material]
+friction = 0.1
+[[body]]
+name = "k0"
+at = [0, 0]
+box = [0.8160, 0.5457]
+density = 10
+[[body]]
+name = "k1"
+at = [0.40801, 0.54575]
+box = [0.8160, 0.5457]
+[[body]]
+name = "k2"
+at = [0.81603, 0]
+box = [0.8160, 0.5457]
+[[body]]
+name = "k4"
+at = [1.63205, 0]
+box = [0.8160, 0.5457]
+density = 0.1
+[[body]]
+name = "k5"
+at = [2.04007, 0.54575]
+box = [0.8160, 0.5457]
+[[magnet]]
+body = "k0"
+[[body]]
+name = "striker"
+at = [2.03699, -4.94583]
+shapes = [{ box = [0.947, 0.284] }, { box = [0.284, 0.947], at = [0.331, 0.379] }]
+velocity = [-0.0896, 9.9996]
+angle = 25
+)",
+                         "test.toml"),
+              inMode(Mode::Merge));
+  const double begin = world.capture().stats.kinetic_energy;
+  for (int i = 0; i < 120; ++i) {
+    world.step();
+    ASSERT_LT(world.capture().stats.kinetic_energy, (1.0 + 1e-9) * begin) << "in step " << i;
+  }
+  EXPECT_LT(world.capture().stats.kinetic_energy, 0.7 * begin) << "nothing was hit";
+}
+
 }  // namespace
 }  // namespace merge2d
