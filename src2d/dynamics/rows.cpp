@@ -78,7 +78,7 @@ bool aimRow(const State& state, const Scratch& scratch, const Contact& contact, 
 
 /// Lever arms of the points of a block: as they are now, or where they are `hits` of a cast as they
 /// will be there. A row of the full solve acts on both bodies at one place, or it would change
-/// their angular momentum. Guarded by Collection.MergesAndUnmergesConserveMomentum.
+/// their angular momentum. Guarded by FollowedHits.ThoseOfOneCornerKeepTheAngularMomentum.
 void setArms(const State& state, const Scratch& scratch, const RowSource& source, const Cast* cast,
              unsigned hits, const ContactBlock& k, BlockGeometry& g) {
   const Contact& contact = state.contacts.contactOf(source.points[0]);
@@ -87,8 +87,9 @@ void setArms(const State& state, const Scratch& scratch, const RowSource& source
   for (std::size_t i = 0; i < static_cast<std::size_t>(source.count()); ++i) {
     const ContactPoint& point = state.contacts.point(source.points[i]);
     const CastEnd* end = nullptr;
-    if (cast && (hits >> i & 1) != 0)
+    if (cast && (hits >> i & 1) != 0) {
       end = castOf(scratch, state.contacts.contactOf(source.points[i]), point);
+    }
     const Vec2 p = pose_a * point.position;
     g.arm_a[i] = p - center_a;
     g.arm_b[i] = (end ? state.pose(contact.key.b) * end->on_b : p) - center_b;

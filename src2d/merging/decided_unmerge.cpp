@@ -265,7 +265,7 @@ void recordSearch(const State& state, Notes* notes, const Collection& c, const P
 }
 
 /// Hits were followed in an island with members of an open collection that floats: all of these
-/// have gone ways of their own.
+/// have gone ways of their own. Guarded by Collection.MergesAndUnmergesConserveMomentum.
 bool areHitsFollowedThrough(const State& state, const Scratch& scratch) {
   return std::ranges::any_of(scratch.hit_ways, [&](const HitWay& hit) {
     if (index(hit.id) >= state.bodies.size()) return false;
